@@ -8,6 +8,7 @@
 #include "health/corruption.hpp"
 #include "health/health.hpp"
 #include "health/image_check.hpp"
+#include "health/row_check.hpp"
 #include "output.hpp"
 #include "prediction.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
@@ -153,6 +154,10 @@ class SwfVo::Implementation {
       evidence.inlier_share = seen->inlier_share;
     }
 
+    evidence.disparity_offset_px = started_ ? window_.disparityOffset() : 0.0;
+    evidence.disparity_offset_sigma_px = started_ ? window_.disparityOffsetSigma() : 0.0;
+    if (health_.isUnexplained(evidence))
+      evidence.rows_disagree_px = rows_.measure(usable, seen != nullptr ? seen->row_offset_px : 0.0);
     const bool trusted = health_.isTrusted(evidence);
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
@@ -264,6 +269,7 @@ class SwfVo::Implementation {
   Pose T_odom_first_camera_;
   CorruptRowRepair row_repair_;
   ImageCheck images_;
+  RowCheck rows_;
   Prediction prediction_;
   FrontEnd front_end_;
   Window window_;

@@ -20,7 +20,7 @@ enum class Reason : int {
   Dark,            ///< an image without light or contrast
   Blurred,         ///< far less sharp than the frames before
   Frozen,        ///< the same pixels as the frame before while the other evidence says otherwise, or in one camera only
-  Swapped,       ///< left and right exchanged (disparities are negative), or rows that do not agree
+  Swapped,       ///< left and right exchanged: disparities are negative
   ExposureJump,  ///< brightness changed by more than matching bears
   ImageMissing,  ///< left, right or both did not come
   BadStamp,      ///< equal to or earlier than the last one: the frame is counted and dropped
@@ -28,6 +28,8 @@ enum class Reason : int {
   Inconsistent,  ///< matches do not agree with one rigid motion
   NotObserved,   ///< some direction of the motion is held by the prediction alone
   Corrupted,     ///< rows of an image are corrupted, as after a transfer that lost bytes; the rest is used
+  NotRectified,  ///< too little could be matched because the rows of left and right disagree
+  Calibration,   ///< too little could be matched, and the disparity offset is far outside its prior
 };
 const char* toString(Reason reason);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "health/health.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 namespace swf_vo {
 
 using urban_nav_core::Health;
@@ -21,6 +24,8 @@ const char* toString(Reason reason) {
     case Reason::Inconsistent: return "inconsistent";
     case Reason::NotObserved: return "not_observed";
     case Reason::Corrupted: return "corrupted";
+    case Reason::NotRectified: return "not_rectified";
+    case Reason::Calibration: return "calibration";
   }
   return "unknown";
 }
@@ -41,12 +46,38 @@ const char* sentence(Reason reason) {
     case Reason::NotObserved: return "some direction of the motion is held by the prediction alone";
     case Reason::Corrupted:
       return "rows of an image are corrupted: check cables, bandwidth and drivers; the rest of it is used";
+    case Reason::NotRectified:
+      return "the images are not rectified, or by another calibration: the rows of left and right disagree";
+    case Reason::Calibration:
+      return "the calibration is wrong: disparities are off by more than disparity_offset allows";
   }
   return "";
 }
 
+namespace {
+
+// Rows of a rectified pair agree to a pixel after a common offset; RowCheck resolves whole pixels.
+constexpr double rows_agree_px = 1.5;
+constexpr double far_outside = 3.0;  // standard deviations of the prior
+
+/// Returns the sentence of a reason with what was measured.
+std::string describe(Reason reason, const Evidence& evidence) {
+  const std::string text = sentence(reason);
+  char amount[64] = "";
+  if (reason == Reason::NotRectified && evidence.rows_disagree_px)
+    std::snprintf(amount, sizeof amount, " by %.1f px, the median of the matches", *evidence.rows_disagree_px);
+  if (reason == Reason::Calibration)
+    std::snprintf(amount, sizeof amount, ", by %.2f +- %.2f px", evidence.disparity_offset_px,
+                  evidence.disparity_offset_sigma_px);
+  return text + amount;
+}
+
+}  // namespace
+
 HealthMonitor::HealthMonitor(const Parameters& parameters)
-    : lost_features_(parameters.lost_features), degraded_features_(parameters.degraded_features) {}
+    : lost_features_(parameters.lost_features),
+      degraded_features_(parameters.degraded_features),
+      offset_prior_px_(parameters.disparity_offset) {}
 
 bool HealthMonitor::isTrusted(const Evidence& evidence) const {
   return evidence.image.usable && evidence.localised && evidence.tracked >= lost_features_;
@@ -60,8 +91,21 @@ Reason HealthMonitor::reasonFor(const Evidence& evidence) const {
   if (evidence.gap) return Reason::Gap;
   if (enough >= degraded_features_)
     return evidence.inlier_share < 0.4 && !evidence.first ? Reason::Inconsistent : Reason::None;
+  if (evidence.rows_disagree_px && *evidence.rows_disagree_px > rows_agree_px) return Reason::NotRectified;
+  if (isMiscalibrated(evidence)) return Reason::Calibration;
   const bool scattered = evidence.candidates >= degraded_features_ && 2 * evidence.tracked < evidence.candidates;
   return scattered ? Reason::Inconsistent : Reason::TooFewFeatures;
+}
+
+bool HealthMonitor::isUnexplained(const Evidence& evidence) const {
+  const Reason reason = reasonFor(evidence);
+  return evidence.image.usable && (reason == Reason::TooFewFeatures || reason == Reason::Inconsistent);
+}
+
+bool HealthMonitor::isMiscalibrated(const Evidence& evidence) const {
+  if (!(offset_prior_px_ > 0.0) || !(evidence.disparity_offset_sigma_px > 0.0)) return false;
+  const double known = std::abs(evidence.disparity_offset_px) - far_outside * evidence.disparity_offset_sigma_px;
+  return known > far_outside * offset_prior_px_;
 }
 
 Status HealthMonitor::judge(const Evidence& evidence) {
@@ -73,7 +117,7 @@ Status HealthMonitor::judge(const Evidence& evidence) {
   else if (was_lost_) status.health = Health::Recovered;
   was_lost_ = lost;
   status.reason = static_cast<int>(reason);
-  status.sentence = sentence(reason);
+  status.sentence = describe(reason, evidence);
   return status;
 }
 

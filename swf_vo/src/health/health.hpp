@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "front_end/front_end.hpp"
@@ -22,6 +23,9 @@ struct Evidence {
   int features = 0;        ///< these and the new ones
   int candidates = 0;      ///< matches before outliers were removed
   double inlier_share = 0.0;
+  double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now
+  double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
+  std::optional<double> rows_disagree_px;  ///< RowCheck, where it was asked for
 };
 
 /// Statistics of a frame -> status and reason; when it is LOST, when RECOVERED. Deterministic, no allocation but for
@@ -32,14 +36,20 @@ class HealthMonitor {
 
   /// True if the measurements of this frame are worth using.
   bool isTrusted(const Evidence& evidence) const;
+  /// True if too little was matched and the pixels do not say why: worth a look at the rows.
+  bool isUnexplained(const Evidence& evidence) const;
   urban_nav_core::Status judge(const Evidence& evidence);
   void archive(urban_nav_core::Archive& archive);
 
  private:
   Reason reasonFor(const Evidence& evidence) const;
 
+  /// Returns whether the disparity offset is far outside its prior.
+  bool isMiscalibrated(const Evidence& evidence) const;
+
   int lost_features_;
   int degraded_features_;
+  double offset_prior_px_;
   bool was_lost_ = false;
 };
 

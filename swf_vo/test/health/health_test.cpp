@@ -58,6 +58,33 @@ TEST(HealthMonitor, degradesWithFewMatchesAndSaysWhy) {
   EXPECT_EQ(monitor.judge(few).health, Health::Lost);
 }
 
+TEST(HealthMonitor, namesRowsAndCalibrationInsteadOfTooFewFeatures) {
+  const Parameters parameters;
+  HealthMonitor monitor{parameters};
+  Evidence few = good();
+  few.tracked = few.candidates = 2;
+  EXPECT_TRUE(monitor.isUnexplained(few));
+  EXPECT_FALSE(monitor.isUnexplained(good()));
+  few.rows_disagree_px = 0.6;
+  EXPECT_EQ(monitor.judge(few).reason, static_cast<int>(Reason::TooFewFeatures));
+  few.rows_disagree_px = 4.0;
+  const auto rows = monitor.judge(few);
+  EXPECT_EQ(rows.reason, static_cast<int>(Reason::NotRectified));
+  EXPECT_NE(rows.sentence.find("by 4.0 px"), std::string::npos) << rows.sentence;
+  few.rows_disagree_px.reset();
+  few.disparity_offset_px = -0.84;
+  few.disparity_offset_sigma_px = 0.05;
+  const auto offset = monitor.judge(few);
+  EXPECT_EQ(offset.reason, static_cast<int>(Reason::Calibration));
+  EXPECT_NE(offset.sentence.find("-0.84"), std::string::npos) << offset.sentence;
+  few.disparity_offset_px = 2.0 * parameters.disparity_offset;
+  EXPECT_EQ(monitor.judge(few).reason, static_cast<int>(Reason::TooFewFeatures));
+  Evidence enough = good();
+  enough.disparity_offset_px = -0.84;
+  enough.disparity_offset_sigma_px = 0.05;
+  EXPECT_NE(monitor.judge(enough).health, Health::Degraded);
+}
+
 TEST(HealthMonitor, namesRubbishWhereTheRestIsGood) {
   HealthMonitor monitor{Parameters()};
   Evidence evidence = good();
@@ -88,13 +115,13 @@ TEST(HealthMonitor, theFirstFrameIsJudgedByItsFeatures) {
 
 TEST(Reasons, haveNamesOfTheirOwnAndSentences) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Reason::Corrupted); ++i) {
+  for (int i = 0; i <= static_cast<int>(Reason::Calibration); ++i) {
     names.insert(toString(static_cast<Reason>(i)));
     if (i > 0) {
       EXPECT_STRNE(sentence(static_cast<Reason>(i)), "");
     }
   }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(Reason::Corrupted) + 1);
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(Reason::Calibration) + 1);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "stages/vo/vo_summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "evaluation/statistics.hpp"
+#include "report/plot.hpp"
 #include "stage/run_totals.hpp"
 
 namespace urban_nav {
@@ -11,6 +13,42 @@ namespace urban_nav {
 namespace {
 
 constexpr std::size_t kWarningsShown = 20;
+constexpr double kFarOutside = 3.0;    // standard deviations of a prior
+constexpr double kRowsDisagree = 1.0;  // px, beyond which a pair is not rectified, although its offset is followed
+
+/// Appends how many frames were LOST, by reason, in the words of the first that had it.
+void addLosses(const VoRun& run, std::vector<std::string>& warnings) {
+  struct Loss {
+    std::int64_t count = 0;
+    std::string sentence;
+  };
+  std::map<int, Loss> losses;
+  for (const VoRow& row : run.rows) {
+    if (row.status.health != urban_nav_core::Health::Lost) continue;
+    Loss& loss = losses[row.status.reason];
+    if (loss.count++ == 0) loss.sentence = row.status.sentence;
+  }
+  for (const auto& [reason, loss] : losses)
+    warnings.push_back(run.input + ": " + std::to_string(loss.count) + " of " + std::to_string(run.rows.size()) +
+                       " frames LOST (" + swf_vo::toString(static_cast<swf_vo::Reason>(reason)) +
+                       "): " + loss.sentence);
+}
+
+/// Appends the constants of the rig that the images contradict.
+void addRig(const VoRun& run, double offset_prior_px, std::vector<std::string>& warnings) {
+  const auto last = std::find_if(run.rows.rbegin(), run.rows.rend(), [](const VoRow& row) { return row.accepted; });
+  if (last == run.rows.rend()) return;
+  const double offset = last->statistics.disparity_offset_px, sigma = last->statistics.disparity_offset_sigma_px;
+  if (sigma > 0.0 && offset_prior_px > 0.0 && std::abs(offset) > kFarOutside * (offset_prior_px + sigma))
+    warnings.push_back(run.input + ": calibration: disparities are off by " + forPerson(offset, 2) + " +- " +
+                       forPerson(sigma, 1) + " px, where swf_vo.disparity_offset = " + forPerson(offset_prior_px, 3) +
+                       " px is allowed for: calibrate the pair anew, or check the synchronisation of its shutters");
+  const double rows = last->statistics.row_offset_px;
+  if (std::abs(rows) > kRowsDisagree)
+    warnings.push_back(run.input + ": not_rectified: the right image shows everything " + forPerson(std::abs(rows), 2) +
+                       " px " + (rows > 0.0 ? "lower" : "higher") +
+                       " than the left one, which is followed: calibrate the pair anew");
+}
 
 void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string>& warnings) {
   const std::string where = run.input + ": ";
@@ -24,9 +62,11 @@ void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string
 
 }  // namespace
 
-VoSummary summarise(const VoRun& run) { return summarise(std::vector<const VoRun*>{&run}); }
+VoSummary summarise(const VoRun& run, double offset_prior_px) {
+  return summarise(std::vector<const VoRun*>{&run}, offset_prior_px);
+}
 
-VoSummary summarise(const std::vector<const VoRun*>& runs) {
+VoSummary summarise(const std::vector<const VoRun*>& runs, double offset_prior_px) {
   VoSummary summary;
   summary.frames = totals(runs).frames;
   summary.status_counts = {{"OK", 0}, {"DEGRADED", 0}, {"LOST", 0}, {"RECOVERED", 0}};
@@ -56,6 +96,8 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
     }
     summary.dropped += dropped;
     addWarnings(*run, dropped, summary.warnings);
+    addLosses(*run, summary.warnings);
+    addRig(*run, offset_prior_px, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
   summary.features_mean = mean(features, accepted);

@@ -19,12 +19,17 @@ struct VoSummary {
   double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
   std::map<std::string, std::int64_t> status_counts;                  ///< OK, DEGRADED, LOST, RECOVERED: all four
   std::map<std::string, std::int64_t> reason_counts;                  ///< of frames that have one
+  /// Faults of the data; frames that were LOST, by reason; constants of the rig that the images contradict. Each begins
+  /// with its input.
   std::vector<std::string> warnings;
 };
-VoSummary summarise(const VoRun& run);
+
+/// `offset_prior_px`: parameter swf_vo.disparity_offset of the run.
+VoSummary summarise(const VoRun& run, double offset_prior_px = swf_vo::Parameters().disparity_offset);
 
 /// Over several sessions: counts and distances add up, medians are of all frames together.
-VoSummary summarise(const std::vector<const VoRun*>& runs);
+VoSummary summarise(const std::vector<const VoRun*>& runs,
+                    double offset_prior_px = swf_vo::Parameters().disparity_offset);
 
 /// The object "swf_vo" of summary.json.
 Json toJson(const VoSummary& summary);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/vo/vo_summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace urban_nav {
+namespace {
+
+using urban_nav_core::Health;
+
+VoRun steadyRun() {
+  VoRun run;
+  run.input = "street.bag";
+  for (int i = 0; i < 5; ++i) {
+    VoRow row;
+    row.frame = i;
+    row.stamp = 50'000'000 * (i + 1);
+    row.statistics.disparity_offset_px = 0.02;
+    row.statistics.disparity_offset_sigma_px = 0.05;
+    run.rows.push_back(row);
+  }
+  return run;
+}
+
+void lose(VoRow& row, swf_vo::Reason reason, const std::string& sentence) {
+  row.status = {Health::Lost, static_cast<int>(reason), sentence};
+}
+
+TEST(VoSummary, warnsOfNothingWhereAllIsWell) { EXPECT_TRUE(summarise(steadyRun()).warnings.empty()); }
+
+TEST(VoSummary, saysHowManyFramesWereLostAndWhy) {
+  VoRun run = steadyRun();
+  lose(run.rows[1], swf_vo::Reason::NotRectified, "rows differ by 4.0 px");
+  lose(run.rows[2], swf_vo::Reason::NotRectified, "rows differ by 5.0 px");
+  lose(run.rows[4], swf_vo::Reason::Dark, "no light");
+  std::vector<std::string> warnings = summarise(run).warnings;
+  std::sort(warnings.begin(), warnings.end());
+  const std::vector<std::string> expected = {"street.bag: 1 of 5 frames LOST (dark): no light",
+                                             "street.bag: 2 of 5 frames LOST (not_rectified): rows differ by 4.0 px"};
+  EXPECT_EQ(warnings, expected);
+}
+
+TEST(VoSummary, namesAnOffsetOutsideItsPrior) {
+  VoRun run = steadyRun();
+  run.rows.back().statistics.disparity_offset_px = -0.84;
+  const std::vector<std::string> warnings = summarise(run).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("calibration: disparities are off by -0.84"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(summarise(run, 1.0).warnings.empty());
+  run.rows.back().statistics.disparity_offset_sigma_px = 0.0;  // taken as exact
+  EXPECT_TRUE(summarise(run).warnings.empty());
+}
+
+TEST(VoSummary, namesRowsThatAreFollowedButApart) {
+  VoRun run = steadyRun();
+  run.rows.back().statistics.row_offset_px = 0.4;
+  EXPECT_TRUE(summarise(run).warnings.empty());
+  run.rows.back().statistics.row_offset_px = -2.5;
+  const std::vector<std::string> warnings = summarise(run).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("2.5 px higher"), std::string::npos) << warnings[0];
+}
+
+}  // namespace
+}  // namespace urban_nav

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "urban_nav_core/image/fast.hpp"
+#include "urban_nav_core/image/patch.hpp"
+#include "urban_nav_core/types/stereo_pair.hpp"
+
+namespace swf_vo {
+
+/// How far the rows of a pair that should be rectified disagree: corners spread over the left image are sought in the
+/// right one along rows and across them, and have to be found again from there. For pairs that cannot be matched along
+/// their rows; costs some 10 ms at 512x384. Not thread-safe.
+class RowCheck {
+ public:
+  /// Returns the median distance between the rows of matching points (px, up to 24), after `row_offset_px`, by which
+  /// the right image is known to show everything lower. Empty with fewer than 15 matches. Both images of one size.
+  std::optional<double> measure(const urban_nav_core::StereoPair& pair, double row_offset_px = 0.0);
+
+ private:
+  struct Place {
+    int sad = std::numeric_limits<int>::max(), second = std::numeric_limits<int>::max();  ///< grey levels
+    int u = 0, v = 0;
+  };
+  Place search(const urban_nav_core::SadPatch& patch, const urban_nav_core::ImageView& image, int first, int last,
+               int v);
+
+  urban_nav_core::Fast fast_;
+  std::vector<urban_nav_core::Corner> strongest_;  // of each cell
+  std::vector<int> costs_;
+  std::vector<double> differences_;
+};
+
+}  // namespace swf_vo
