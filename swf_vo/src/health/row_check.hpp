@@ -13,7 +13,7 @@ namespace swf_vo {
 
 /// How far the rows of a pair that should be rectified disagree: corners spread over the left image are sought in the
 /// right one along rows and across them, and have to be found again from there. For pairs that cannot be matched along
-/// their rows; costs some 10 ms at 512x384. Not thread-safe.
+/// their rows. Not thread-safe.
 class RowCheck {
  public:
   /// Returns the median distance between the rows of matching points (px, up to 24), after `row_offset_px`, by which
