@@ -21,7 +21,7 @@ constexpr int kFinalRounds = 4;         // with the narrowest kernel
 constexpr double kMedianChi2 = 2.366;   // of three numbers
 constexpr double kRejected = 3.37;      // standard deviations: 99 % of three numbers
 
-std::size_t indexOf(int number) { return static_cast<std::size_t>(number); }
+std::size_t poseIndex(int number) { return static_cast<std::size_t>(number); }
 
 /// The graph with the frame of each part's datum as a pose more, and its fixes as edges.
 class FixGraph {
@@ -43,7 +43,7 @@ class FixGraph {
   std::vector<double> errors() const {
     std::vector<double> made;
     forEachFix([&](std::size_t, const Rigid<3>& frame, const PlacedFix& fix) {
-      const Rigid<3>& pose = graph_.poses[indexOf(fix.pose)];
+      const Rigid<3>& pose = graph_.poses[poseIndex(fix.pose)];
       const Vector3d seen = frame.R.transpose() * (pose.t + pose.R * fix.lever - frame.t);
       made.push_back((seen - fix.measured).cwiseQuotient(fix.sigma).norm());
     });
@@ -59,7 +59,7 @@ class FixGraph {
       graph_.edges[edge].information.topLeftCorner<3, 3>() =
           Matrix3d((weight / fix.sigma.array().square()).matrix().asDiagonal());
       // The lever arm is that of the present rotations: it is short, and they are known well.
-      graph_.edges[edge].Z.t = fix.measured - frame.R.transpose() * (graph_.poses[indexOf(fix.pose)].R * fix.lever);
+      graph_.edges[edge].Z.t = fix.measured - frame.R.transpose() * (graph_.poses[poseIndex(fix.pose)].R * fix.lever);
     });
   }
 
@@ -94,13 +94,13 @@ class FixGraph {
 
   /// Where the fixes as they are have the datum's frame.
   static Rigid<3> firstFrame(const FixedPart& part, const std::vector<Rigid<3>>& poses) {
-    const Rigid<3>& first = poses[indexOf(part.first_pose)];
+    const Rigid<3>& first = poses[poseIndex(part.first_pose)];
     const Matrix3d R_level_map =
         Eigen::Quaterniond::FromTwoVectors(first.R * part.up, Vector3d::UnitZ()).toRotationMatrix();
     std::vector<Vector3d> level, measured;
     std::vector<double> weights;
     for (const PlacedFix& fix : part.fixes) {
-      const Rigid<3>& pose = poses[indexOf(fix.pose)];
+      const Rigid<3>& pose = poses[poseIndex(fix.pose)];
       level.emplace_back(R_level_map * (pose.t + pose.R * fix.lever));
       measured.push_back(fix.measured);
       weights.push_back(fix.share / fix.sigma.squaredNorm());
@@ -116,7 +116,7 @@ class FixGraph {
     Edge<3> edge;
     edge.from = static_cast<int>(graph_.poses.size()) - 1;
     edge.to = part.first_pose;
-    edge.Z.R = frame.R.transpose() * graph_.poses[indexOf(part.first_pose)].R;
+    edge.Z.R = frame.R.transpose() * graph_.poses[poseIndex(part.first_pose)].R;
     edge.information.setZero();
     edge.information.bottomRightCorner<3, 3>() =
         (Matrix3d::Identity() - part.up * part.up.transpose()) / (part.up_sigma * part.up_sigma);
@@ -139,7 +139,7 @@ class FixGraph {
   std::vector<double> weights_;
 };
 
-double medianOf(std::vector<double> values) {
+double findMedian(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -167,7 +167,7 @@ FixUse useFixes(Problem<3>& problem, std::size_t chains, const std::vector<doubl
       ++final_rounds;
     }
     errors = graph.errors();
-    if (is_final) use.sigma_factor = std::max(1.0, medianOf(errors) / std::sqrt(kMedianChi2));
+    if (is_final) use.sigma_factor = std::max(1.0, findMedian(errors) / std::sqrt(kMedianChi2));
     width = std::max(kCauchyWidth, kNarrowerFixes * width);
   }
   for (const double error : errors) ++(error > kRejected * use.sigma_factor ? use.rejected : use.used);

@@ -15,7 +15,7 @@ using testing::makeDrive;
 using testing::positionError;
 using testing::relaxDrive;
 
-double errorOf(const GpsDrive& drive, bool gps) { return positionError(drive, relaxDrive(drive, gps).tracks()[0]); }
+double driveError(const GpsDrive& drive, bool gps) { return positionError(drive, relaxDrive(drive, gps).tracks()[0]); }
 
 GpsDrive realisticDrive(unsigned seed, double reflected = 0.0) {
   GpsDrive drive;
@@ -44,8 +44,8 @@ TEST(UseFixes, boundTheDriftOfALongWay) {
   double without = 0.0, with = 0.0;
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const GpsDrive drive = realisticDrive(seed);
-    without += errorOf(drive, false);
-    with += errorOf(drive, true);
+    without += driveError(drive, false);
+    with += driveError(drive, true);
   }
   EXPECT_GT(without / 2.0, 8.0) << "the drift is there";
   EXPECT_LT(with / 2.0, 3.0);
@@ -67,7 +67,7 @@ TEST(UseFixes, leaveOutReflections) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const GpsDrive clean = realisticDrive(seed), reflected = realisticDrive(seed, 40.0);
     const PoseGraph graph = relaxDrive(reflected, true);
-    EXPECT_LT(positionError(reflected, graph.tracks()[0]), errorOf(clean, true) + 1.0) << seed;
+    EXPECT_LT(positionError(reflected, graph.tracks()[0]), driveError(clean, true) + 1.0) << seed;
     const std::size_t false_ones = reflected.fixes.size() / 8;
     EXPECT_GT(graph.fixUse().rejected, false_ones * 8 / 10) << seed;
     EXPECT_LT(graph.fixUse().rejected, false_ones * 15 / 10) << seed;

@@ -122,7 +122,7 @@ void MapLabeler::labelView(const PlacedView& view) {
   projectView(shown, Eigen::Vector3f::Zero(), scene);
   scene.is_asked = scene.view.is_visible;
   const FeatureTable table = measureSceneFeatures(model_, scene);
-  MountingCheck& mounting = mountingOf(view.device);
+  MountingCheck& mounting = findMounting(view.device);
   mounting.add(scene, table);
   if (mounting.isUpsideDown()) return callbacks_.take_view(view.image, {0, true});
   vote(members, labelScene(model_, scene, superpixel_, table), true);
@@ -130,7 +130,7 @@ void MapLabeler::labelView(const PlacedView& view) {
   callbacks_.take_view(view.image, {static_cast<std::size_t>(labelled), false});
 }
 
-MountingCheck& MapLabeler::mountingOf(std::size_t device) {
+MountingCheck& MapLabeler::findMounting(std::size_t device) {
   return mountings_.try_emplace(device, model_).first->second;
 }
 

@@ -82,7 +82,7 @@ class MapLabeler {
   static Scene makeScene(const std::vector<Member>& members);
   void labelView(const PlacedView& view);
   /// Returns the mounting of a camera, as far as its images have shown it.
-  MountingCheck& mountingOf(std::size_t device);
+  MountingCheck& findMounting(std::size_t device);
   void labelHidden(const Square& square, const SquarePoints& own);
   /// Uses the labels that images gave for the points of a square that no image shows.
   void spreadInSquare(const std::vector<Member>& members, const std::vector<std::uint8_t>& is_asked);
