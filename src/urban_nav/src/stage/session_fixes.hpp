@@ -7,7 +7,7 @@
 
 namespace urban_nav {
 
-/// Stores the GPS fixes of a session, unless another stage has done so. Bags without any are fine.
+/// Stores the GPS fixes of a session; a second call changes nothing. Bags without any, and folders, are fine.
 void storeFixes(MapContext& context, std::size_t session);
 
 }  // namespace urban_nav
