@@ -26,8 +26,8 @@ std::ptrdiff_t observationsApart(std::size_t a, std::size_t b) {
 }
 
 /// Observations of the drive in the map: against the others, then against places further along the same street alone.
-void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, const MatcherOptions& options,
-               CalibrationRuns& runs) {
+void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, std::size_t site,
+               const MatcherOptions& options, CalibrationRuns& runs) {
   const auto apart = [&drive](std::size_t a, std::size_t b) { return std::abs(drive[a].stamp - drive[b].stamp); };
   const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
     if (observationsApart(query, place) <= near_observations) return true;
@@ -39,7 +39,7 @@ void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, const M
         {matchRun(
              matcher, drive,
              [gap](std::size_t query, std::size_t place) { return observationsApart(query, place) >= gap; }, label),
-         Situation::SameDay});
+         Situation::SameDay, site});
     runs.sequence.push_back(runs.alone.back());
   }
   const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
@@ -53,9 +53,9 @@ void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, const M
            matcher, drive,
            [&](std::size_t query, std::size_t place) { return !isNear(query, place) && isInStreet(query, place); },
            [](std::size_t, std::size_t) { return std::optional<bool>(false); }),
-       Situation::Elsewhere});
+       Situation::Elsewhere, site});
   for (MatchedRun& run : runsElsewhere(matcher, drive, isNear, isInStreet))
-    runs.sequence.push_back({std::move(run), Situation::Elsewhere});
+    runs.sequence.push_back({std::move(run), Situation::Elsewhere, site});
 }
 
 }  // namespace
@@ -70,11 +70,11 @@ CalibrationRuns calibrationRuns(const std::vector<DescribedDrive>& drives, std::
     const LikelihoodTable table(learnChowLiuTree(rest), detector, Dependence::ChowLiu);
     PlaceMatcher matcher(table, rest.observations, options);
     for (const DescribedPlace& place : drives[map]) matcher.add(place);
-    addWithin(matcher, drives[map], options, runs);
+    addWithin(matcher, drives[map], map, options, runs);
     runs.alone.push_back({matchRun(
                               matcher, drives[other], [](std::size_t, std::size_t) { return true; },
                               [](std::size_t, std::size_t) { return std::optional<bool>(false); }),
-                          Situation::Stranger});
+                          Situation::Stranger, other});
     runs.sequence.push_back(runs.alone.back());
     if (progress) progress(static_cast<double>(map + 1) / static_cast<double>(drives.size()));
   }

@@ -20,10 +20,10 @@ struct SituationSamples {
   std::vector<CalibrationSample> samples;
   std::vector<Situation> situations;
 
-  void add(const LabelledMatch& match, const PlaceEvidence& evidence, Situation situation) {
+  void add(const LabelledMatch& match, const PlaceEvidence& evidence, const SituationRun& run) {
     if (!match.is_same_place) return;
-    samples.push_back({evidence, *match.is_same_place, 1.0});
-    situations.push_back(situation);
+    samples.push_back({evidence, *match.is_same_place, 1.0, run.site});
+    situations.push_back(run.situation);
   }
   /// Returns the samples with weights, by which situations count the same among the right ones and the wrong ones.
   std::vector<CalibrationSample> weighted() const {
@@ -40,7 +40,7 @@ std::vector<CalibrationSample> samplesAlone(const std::vector<SituationRun>& run
   SituationSamples samples;
   for (const SituationRun& each : runs)
     for (const std::vector<LabelledMatch>& matches : each.run)
-      if (!matches.empty()) samples.add(matches.front(), matches.front().match.evidence, each.situation);
+      if (!matches.empty()) samples.add(matches.front(), matches.front().match.evidence, each);
   return samples.weighted();
 }
 
@@ -56,7 +56,7 @@ std::vector<CalibrationSample> samplesInSequence(const std::vector<SituationRun>
       const LabelledMatch& likeliest = matches[likeliestLocation(filter, hypotheses)];
       PlaceEvidence evidence = likeliest.match.evidence;
       evidence.sequence = filter.motionConsistency(likeliest.match.session, likeliest.match.place);
-      samples.add(likeliest, evidence, each.situation);
+      samples.add(likeliest, evidence, each);
       filter.update(hypotheses);
     }
   }
@@ -98,9 +98,12 @@ KindCalibration fitRuns(const CalibrationRuns& runs) {
   KindCalibration fitted;
   const std::vector<CalibrationSample> alone = samplesAlone(runs.alone);
   for (const CalibrationSample& sample : alone) ++(sample.is_same_place ? fitted.right : fitted.wrong);
-  fitted.alone = fitCalibration(alone);
-  if (fitted.right > 0 && fitted.wrong > 0)
-    fitted.sequence = fitCalibration(samplesInSequence(runs.sequence, fitted.alone));
+  fitted.alone_prior = choosePrior(alone);
+  fitted.alone = fitCalibration(alone, fitted.alone_prior.prior_deviation);
+  if (fitted.right == 0 || fitted.wrong == 0) return fitted;
+  const std::vector<CalibrationSample> in_sequence = samplesInSequence(runs.sequence, fitted.alone);
+  fitted.sequence_prior = choosePrior(in_sequence);
+  fitted.sequence = fitCalibration(in_sequence, fitted.sequence_prior.prior_deviation);
   return fitted;
 }
 

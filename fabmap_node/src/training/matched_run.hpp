@@ -7,6 +7,7 @@
 
 #include "fabmap_node/recognition/calibration.hpp"
 #include "fabmap_node/recognition/place_matcher.hpp"
+#include "fabmap_node/training/prior_choice.hpp"
 
 namespace fabmap_node {
 
@@ -38,7 +39,8 @@ std::vector<MatchedRun> runsElsewhere(const PlaceMatcher& matcher, const std::ve
 struct KindCalibration {
   PlaceCalibration alone;                    ///< of an observation alone
   std::optional<PlaceCalibration> sequence;  ///< with the observations before it
-  std::size_t right = 0, wrong = 0;          ///< samples of observations alone
+  PriorChoice alone_prior, sequence_prior;
+  std::size_t right = 0, wrong = 0;  ///< samples of observations alone
 };
 
 /// Situation of a robot whose runs are calibrated with.
@@ -52,6 +54,7 @@ enum class Situation {
 struct SituationRun {
   MatchedRun run;
   Situation situation = Situation::SameDay;
+  std::size_t site = 0;  ///< of the queries
 };
 
 /// Runs to calibrate with.
@@ -60,8 +63,8 @@ struct CalibrationRuns {
   std::vector<SituationRun> sequence;  ///< observations in order; the place that LocationFilter finds likeliest counts
 };
 
-/// Fits both calibrations; that of sequences has the consistency of motion as further evidence. Situations weigh the
-/// same among the samples of one kind, however many runs they have.
+/// Fits both calibrations, each with the prior that choosePrior() finds for it; that of sequences has the consistency
+/// of motion as further evidence. Situations weigh the same among the samples of one kind, however many runs they have.
 KindCalibration fitRuns(const CalibrationRuns& runs);
 
 }  // namespace fabmap_node

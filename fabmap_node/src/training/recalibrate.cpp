@@ -62,7 +62,7 @@ class SiteRuns {
         options_(options) {}
 
   /// Runs of the queries of one day against the map of another day of the site, or of the same one.
-  void addDays(const LocatedPlaces& map, const LocatedPlaces& queries, bool is_same_day) {
+  void addDays(const LocatedPlaces& map, const LocatedPlaces& queries, std::size_t site, bool is_same_day) {
     const auto distance = [&](std::size_t query, std::size_t place) {
       return (queries.positions[query] - map.positions[place]).norm();
     };
@@ -84,12 +84,12 @@ class SiteRuns {
     PlaceMatcher matcher(table_, sampled_, options_);
     for (const DescribedPlace& place : map.places) matcher.add(place);
     const SituationRun run{matchRun(matcher, queries.places, isOtherPicture, label),
-                           is_same_day ? Situation::SameDay : Situation::OtherDay};
+                           is_same_day ? Situation::SameDay : Situation::OtherDay, site};
     // Within a session, single images are compared with neighbours: between days they may show different things.
     if (panoramas_ || is_same_day) runs_.alone.push_back(run);
     std::vector<SituationRun> away;
     for (MatchedRun& each : runsElsewhere(matcher, queries.places, isNear, every_place))
-      away.push_back({std::move(each), Situation::Elsewhere});
+      away.push_back({std::move(each), Situation::Elsewhere, site});
     runs_.alone.insert(runs_.alone.end(), away.begin(), away.end());
     if (is_same_day) return;  // sequences count between sessions only
     runs_.sequence.push_back(run);
@@ -105,7 +105,7 @@ class SiteRuns {
           for (const DescribedPlace& place : day.places) matcher.add(place);
     if (matcher.size() == 0) return;
     for (const LocatedPlaces& day : sites[stranger]) {
-      runs_.alone.push_back({matchRun(matcher, day.places, every_place, always_wrong), Situation::Stranger});
+      runs_.alone.push_back({matchRun(matcher, day.places, every_place, always_wrong), Situation::Stranger, stranger});
       runs_.sequence.push_back(runs_.alone.back());
     }
   }
@@ -126,7 +126,7 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& s
   for (std::size_t s = 0; s < sites.size(); ++s) {
     for (std::size_t m = 0; m < sites[s].size(); ++m)
       for (std::size_t q = m == 0 ? 0 : m + 1; q < sites[s].size(); ++q)
-        runs.addDays(sites[s][m], sites[s][q], m == q);
+        runs.addDays(sites[s][m], sites[s][q], s, m == q);
     runs.addStranger(sites, s);
   }
   KindCalibration fitted = fitRuns(runs.runs());
@@ -135,6 +135,8 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& s
                     "days that revisit places, and places more than 10 m apart");
   report.right += fitted.right;
   report.wrong += fitted.wrong;
+  report.priors.push_back({panoramas ? "panoramas alone" : "single images alone", fitted.alone_prior});
+  report.priors.push_back({panoramas ? "panoramas in sequence" : "single images in sequence", fitted.sequence_prior});
   return fitted;
 }
 

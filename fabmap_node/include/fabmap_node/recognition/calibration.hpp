@@ -24,7 +24,8 @@ struct PlaceEvidence {
 struct CalibrationSample {
   PlaceEvidence evidence;
   bool is_same_place = false;
-  double weight = 1.0;  ///< relative to other samples of its kind
+  double weight = 1.0;   ///< relative to other samples of its kind
+  std::size_t site = 0;  ///< where the query was taken; samples of one site depend on each other
 };
 
 /// Logistic regression from evidence to the probability that the place is right. The probability never exceeds what the
@@ -38,10 +39,16 @@ struct PlaceCalibration {
   double probability(const PlaceEvidence& evidence) const;
 };
 
-/// Fits a calibration by maximum a posteriori likelihood. Both kinds of samples weigh the same in total: an observation
-/// is at a place of the map or at a new one with the same prior probability. Samples are those of drives: neighbours
-/// look alike, and twenty of them count as one. Weights that would be negative are set to zero and the others fitted
-/// again. Returns the default, which announces nothing, unless there are samples of both kinds.
-PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples);
+/// Deviation of the prior on weights of standardised evidence where no other one can be chosen: wide enough for any
+/// plausible weight (Gelman et al. 2008, section 3).
+inline constexpr double default_prior_deviation = 5.0;
+
+/// Fits a calibration by maximum a posteriori likelihood, with a Gaussian prior of that deviation on weights and bias
+/// of evidence that is scaled to a deviation of one. Both kinds of samples weigh the same in total: an observation is
+/// at a place of the map or at a new one with the same prior probability. Samples are those of drives: neighbours look
+/// alike, and twenty of them count as one. Returns the default, which announces nothing, unless there are samples of
+/// both kinds. Requires prior_deviation > 0.
+PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples,
+                                double prior_deviation = default_prior_deviation);
 
 }  // namespace fabmap_node

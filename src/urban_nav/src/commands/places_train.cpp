@@ -10,6 +10,7 @@
 #include "places/place_query.hpp"
 #include "places/place_sessions.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -21,6 +22,22 @@ Json trainSummary(const fabmap_node::PlaceModel& model, const std::string& bytes
   Json json = Json::object();
   json["words"] = static_cast<std::int64_t>(model.vocabulary.size());
   json["hash"] = fabmap_node::modelHash(bytes);
+  return json;
+}
+
+/// Priors by the calibrations they belong to, with the losses by which they were chosen.
+Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
+  Json json = Json::object();
+  for (const fabmap_node::CalibrationPrior& prior : priors) {
+    Json losses = Json::array();
+    for (const fabmap_node::HeldOutLoss& loss : prior.choice.losses)
+      losses.append(Json::object({{"prior_deviation", loss.prior_deviation},
+                                  {"log_loss", loss.log_loss},
+                                  {"excess", loss.excess},
+                                  {"excess_standard_error", loss.excess_standard_error}}));
+    json[prior.calibration] =
+        Json::object({{"prior_deviation", prior.choice.prior_deviation}, {"held_out", std::move(losses)}});
+  }
   return json;
 }
 
@@ -71,7 +88,14 @@ int runRecalibrate(const Arguments& arguments, Console& console) {
   urban_nav_core::writeAtomically(arguments.get("output"), bytes);
   console.info("calibrated with " + std::to_string(report.right) + " pairs of one place and " +
                std::to_string(report.wrong) + " of two; model " + fabmap_node::modelHash(bytes));
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), trainSummary(model, bytes).print());
+  for (const fabmap_node::CalibrationPrior& prior : report.priors)
+    console.info(prior.calibration + ": weights have a prior of deviation " +
+                 urban_nav_core::printNumber(prior.choice.prior_deviation) +
+                 (prior.choice.losses.empty() ? ", too few sites to choose it" : ", by leaving one site out"));
+  if (!arguments.has("json")) return 0;
+  Json json = trainSummary(model, bytes);
+  json["priors"] = priorSummary(report.priors);
+  urban_nav_core::writeAtomically(arguments.get("json"), json.print());
   return 0;
 }
 

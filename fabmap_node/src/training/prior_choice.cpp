@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/training/prior_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace fabmap_node {
+namespace {
+
+constexpr std::size_t least_sites = 5;  // with fewer, their scatter is known to no better than 40 %
+constexpr std::size_t least_sites_of_kind = 2;
+constexpr std::array<double, 10> deviations = {1.25, 2.5, 5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0};
+
+/// Samples by their sites.
+struct SiteFold {
+  std::vector<CalibrationSample> held_out, others;
+};
+
+/// Weighted sum of the losses of one site, and of the weights.
+struct SiteLoss {
+  double loss = 0.0, weight = 0.0;
+};
+
+std::vector<SiteFold> makeFolds(const std::vector<CalibrationSample>& samples) {
+  std::map<std::size_t, SiteFold> folds;
+  for (const CalibrationSample& sample : samples) folds[sample.site].held_out.push_back(sample);
+  std::vector<SiteFold> made;
+  for (auto& [site, fold] : folds) {
+    for (const CalibrationSample& sample : samples)
+      if (sample.site != site) fold.others.push_back(sample);
+    made.push_back(std::move(fold));
+  }
+  return made;
+}
+
+std::size_t countSitesWith(const std::vector<SiteFold>& folds, bool is_same_place) {
+  return static_cast<std::size_t>(std::count_if(folds.begin(), folds.end(), [is_same_place](const SiteFold& fold) {
+    return std::any_of(fold.held_out.begin(), fold.held_out.end(),
+                       [is_same_place](const CalibrationSample& s) { return s.is_same_place == is_same_place; });
+  }));
+}
+
+/// `right_weight`, `wrong_weight`: of all samples of the kind.
+SiteLoss computeSiteLoss(const SiteFold& fold, double prior_deviation, double right_weight, double wrong_weight) {
+  const PlaceCalibration calibration = fitCalibration(fold.others, prior_deviation);
+  SiteLoss sum;
+  for (const CalibrationSample& sample : fold.held_out) {
+    const double p = calibration.probability(sample.evidence);
+    const double weight = 0.5 * sample.weight / (sample.is_same_place ? right_weight : wrong_weight);
+    sum.loss -= weight * std::log(sample.is_same_place ? p : 1.0 - p);
+    sum.weight += weight;
+  }
+  return sum;
+}
+
+/// Standard error of the sum of `values` as an estimate of a ratio to the sum of `weights`, which is one.
+double computeStandardError(const std::vector<double>& values, const std::vector<SiteLoss>& sites) {
+  double mean = 0.0, squares = 0.0;
+  for (const double value : values) mean += value;
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    const double residual = values[s] - mean * sites[s].weight;
+    squares += residual * residual;
+  }
+  const auto count = static_cast<double>(values.size());
+  return std::sqrt(squares * count / (count - 1.0));
+}
+
+}  // namespace
+
+PriorChoice choosePrior(const std::vector<CalibrationSample>& samples) {
+  PriorChoice choice;
+  const std::vector<SiteFold> folds = makeFolds(samples);
+  if (folds.size() < least_sites || countSitesWith(folds, true) < least_sites_of_kind ||
+      countSitesWith(folds, false) < least_sites_of_kind)
+    return choice;
+  double right_weight = 0.0, wrong_weight = 0.0;
+  for (const CalibrationSample& sample : samples) (sample.is_same_place ? right_weight : wrong_weight) += sample.weight;
+  std::vector<std::vector<SiteLoss>> losses(deviations.size(), std::vector<SiteLoss>(folds.size()));
+  urban_nav_core::forEach(deviations.size() * folds.size(), 1, [&](std::size_t task) {
+    const std::size_t d = task / folds.size(), s = task % folds.size();
+    losses[d][s] = computeSiteLoss(folds[s], deviations[d], right_weight, wrong_weight);
+  });
+  std::size_t best = 0;
+  for (std::size_t d = 0; d < deviations.size(); ++d) {
+    HeldOutLoss& sum = choice.losses.emplace_back();
+    sum.prior_deviation = deviations[d];
+    for (const SiteLoss& site : losses[d]) sum.log_loss += site.loss;
+    if (sum.log_loss < choice.losses[best].log_loss) best = d;
+  }
+  for (std::size_t d = 0; d < deviations.size(); ++d) {
+    std::vector<double> excess;
+    for (std::size_t s = 0; s < folds.size(); ++s) excess.push_back(losses[d][s].loss - losses[best][s].loss);
+    choice.losses[d].excess = choice.losses[d].log_loss - choice.losses[best].log_loss;
+    choice.losses[d].excess_standard_error = computeStandardError(excess, losses[d]);
+  }
+  const auto chosen = std::find_if(choice.losses.begin(), choice.losses.end(),
+                                   [](const HeldOutLoss& loss) { return loss.excess <= loss.excess_standard_error; });
+  choice.prior_deviation = chosen->prior_deviation;
+  return choice;
+}
+
+}  // namespace fabmap_node

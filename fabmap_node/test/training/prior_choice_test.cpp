@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/training/prior_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace fabmap_node {
+namespace {
+
+constexpr std::size_t site_count = 8;
+
+/// 120 samples of each site; `separation`: of the means of both kinds, in deviations of the evidence.
+std::vector<CalibrationSample> drawSites(double separation, unsigned seed, std::size_t sites = site_count) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<CalibrationSample> samples;
+  for (std::size_t site = 0; site < sites; ++site)
+    for (int i = 0; i < 120; ++i) {
+      CalibrationSample sample;
+      sample.is_same_place = i % 2 == 0;
+      sample.site = site;
+      const double shift = sample.is_same_place ? separation : 0.0;
+      sample.evidence.word_ratio = shift + normal(random);
+      sample.evidence.look = normal(random);
+      sample.evidence.look_margin = normal(random);
+      samples.push_back(sample);
+    }
+  return samples;
+}
+
+/// Log loss of the deviation that was chosen.
+const HeldOutLoss& chosenLoss(const PriorChoice& choice) {
+  return *std::find_if(choice.losses.begin(), choice.losses.end(),
+                       [&choice](const HeldOutLoss& loss) { return loss.prior_deviation == choice.prior_deviation; });
+}
+
+TEST(ChoosePrior, NoiseGetsTheStrongestPrior) {
+  const PriorChoice choice = choosePrior(drawSites(0.0, 1));
+  ASSERT_FALSE(choice.losses.empty());
+  EXPECT_EQ(choice.prior_deviation, choice.losses.front().prior_deviation);
+  EXPECT_NEAR(choice.losses.front().log_loss, std::log(2.0), 0.02);
+}
+
+TEST(ChoosePrior, SeparableSitesGetAWeakPrior) {
+  const PriorChoice noise = choosePrior(drawSites(0.0, 1)), separable = choosePrior(drawSites(9.0, 2));
+  EXPECT_GT(separable.prior_deviation, 4.0 * noise.prior_deviation);
+  EXPECT_LT(chosenLoss(separable).log_loss, 0.02);
+}
+
+TEST(ChoosePrior, EvidenceThatMisleadsAtOneSiteGetsAStrongerPriorThanTheSameThatHoldsEverywhere) {
+  std::vector<CalibrationSample> misleading = drawSites(9.0, 2);
+  for (CalibrationSample& sample : misleading)
+    if (sample.site == 3 && !sample.is_same_place) sample.evidence.word_ratio += 9.0;
+  EXPECT_LT(choosePrior(misleading).prior_deviation, choosePrior(drawSites(9.0, 2)).prior_deviation);
+}
+
+TEST(ChoosePrior, ChosenLossIsWithinAStandardErrorOfTheBest) {
+  for (const double separation : {0.5, 2.0, 4.0}) {
+    const PriorChoice choice = choosePrior(drawSites(separation, 3));
+    const HeldOutLoss& chosen = chosenLoss(choice);
+    EXPECT_LE(chosen.excess, chosen.excess_standard_error);
+    for (const HeldOutLoss& loss : choice.losses) {
+      EXPECT_GE(loss.excess, 0.0);
+      EXPECT_TRUE(loss.prior_deviation >= choice.prior_deviation || loss.excess > loss.excess_standard_error);
+    }
+  }
+}
+
+TEST(ChoosePrior, TooFewSitesGetTheDefault) {
+  for (const auto& samples : {drawSites(9.0, 2, 4), std::vector<CalibrationSample>()}) {
+    const PriorChoice choice = choosePrior(samples);
+    EXPECT_EQ(choice.prior_deviation, default_prior_deviation);
+    EXPECT_TRUE(choice.losses.empty());
+  }
+  std::vector<CalibrationSample> one_revisited = drawSites(9.0, 2);
+  for (CalibrationSample& sample : one_revisited) sample.is_same_place = sample.is_same_place && sample.site == 0;
+  EXPECT_TRUE(choosePrior(one_revisited).losses.empty());
+}
+
+TEST(ChoosePrior, DoesNotDependOnTheNumberOfThreads) {
+  const std::vector<CalibrationSample> samples = drawSites(1.0, 4);
+  const PriorChoice many = choosePrior(samples);
+  const urban_nav_core::ThreadLimit limit(1);
+  const PriorChoice one = choosePrior(samples);
+  EXPECT_EQ(one.prior_deviation, many.prior_deviation);
+  ASSERT_EQ(one.losses.size(), many.losses.size());
+  for (std::size_t i = 0; i < one.losses.size(); ++i) EXPECT_EQ(one.losses[i].log_loss, many.losses[i].log_loss);
+}
+
+}  // namespace
+}  // namespace fabmap_node
