@@ -26,22 +26,21 @@ PlaceIndex::PlaceIndex(const LikelihoodTable& table) : table_(table), postings_(
 
 void PlaceIndex::add(const WordSet& place) {
   double sum = 0.0;
-  for (const Word q : place) {
-    sum += table_.word(q).present[0] - table_.word(q).absent[0];
-    postings_[q].push_back(static_cast<std::uint32_t>(empty_query_.size()));
-  }
+  for (const Word q : place) sum += table_.word(q).present[0] - table_.word(q).absent[0];
   empty_query_.push_back(sum);
+  postings_.add(place);
 }
 
 void PlaceIndex::logLikelihoods(const WordSet& query, std::vector<double>& result) const {
   double at_empty_place = nothing_seen_;
-  result.assign(size(), 0.0);
+  std::vector<WeightedWord> corrections;
   for (const auto& [q, c] : activeWords(table_, query)) {
     const LikelihoodTable::WordTerms& terms = table_.word(q);
     at_empty_place += terms.absent[c] - terms.absent[0];
-    const double correction = (terms.present[c] - terms.absent[c]) - (terms.present[0] - terms.absent[0]);
-    for (const std::uint32_t place : postings_[q]) result[place] += correction;
+    corrections.push_back({q, (terms.present[c] - terms.absent[c]) - (terms.present[0] - terms.absent[0])});
   }
+  result.assign(size(), 0.0);
+  postings_.addWeights(corrections, result);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] += at_empty_place + empty_query_[i];
 }
 

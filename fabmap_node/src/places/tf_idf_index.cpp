@@ -16,14 +16,15 @@ double TfIdfIndex::norm(const WordSet& words) const {
 }
 
 void TfIdfIndex::add(const WordSet& place) {
-  for (const Word q : place) postings_[q].push_back(static_cast<std::uint32_t>(norms_.size()));
+  postings_.add(place);
   norms_.push_back(norm(place));
 }
 
 void TfIdfIndex::similarities(const WordSet& query, std::vector<double>& result) const {
+  std::vector<WeightedWord> squares;
+  for (const Word q : query) squares.push_back({q, weights_[q] * weights_[q]});
   result.assign(size(), 0.0);
-  for (const Word q : query)
-    for (const std::uint32_t place : postings_[q]) result[place] += weights_[q] * weights_[q];
+  postings_.addWeights(squares, result);
   const double own = norm(query);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const double scale = own * norms_[i];

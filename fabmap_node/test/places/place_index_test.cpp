@@ -48,6 +48,23 @@ TEST(PlaceIndex, EqualsThePlainEvaluation) {
   }
 }
 
+TEST(PlaceIndex, LargeMapsEqualThePlainEvaluation) {
+  // More places than three blocks of postings.
+  const WordSets drawn = drawWords(40, 7000, 0.1, 6);
+  const LikelihoodTable table(learnChowLiuTree(drawn), {0.6, 0.05}, Dependence::ChowLiu);
+  PlaceIndex index(table);
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < drawn.observations.size(); ++i) {
+    index.add(drawn.observations[i]);
+    if (i % 1024 > 1 && i + 1 < drawn.observations.size()) continue;
+    index.logLikelihoods(drawn.observations[5], logs);
+    ASSERT_EQ(logs.size(), i + 1);
+    for (std::size_t k = 0; k <= i; k += 97)
+      EXPECT_NEAR(logs[k], logLikelihoodPlain(table, drawn.observations[5], drawn.observations[k]), 1e-9);
+    EXPECT_NEAR(logs[i], logLikelihoodPlain(table, drawn.observations[5], drawn.observations[i]), 1e-9);
+  }
+}
+
 TEST(Likelihood, OfAllQueriesAtOnePlaceSumsToOneWithoutTheTree) {
   // Naive Bayes is a distribution over the 2^V queries; the tree's approximation is one only word by word.
   const WordSets drawn = drawWords(9, 60, 0.3, 5);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fabmap_node/model/likelihood.hpp"
+#include "fabmap_node/places/word_postings.hpp"
 
 namespace fabmap_node {
 
@@ -14,7 +15,7 @@ namespace fabmap_node {
 /// Each place carries the likelihood of an empty query. Only words whose combination (z_q, z_parent) differs from
 /// (0, 0), the words of the query and their children, are then corrected along their postings.
 ///
-/// Memory: 4 bytes per word of a place, and 8 bytes per place. Not thread-safe while add() runs; const functions are.
+/// Memory: that of WordPostings, and 8 bytes per place. Not thread-safe while add() runs; const functions are.
 class PlaceIndex {
  public:
   /// The table must outlive the index.
@@ -30,9 +31,9 @@ class PlaceIndex {
 
  private:
   const LikelihoodTable& table_;
-  double nothing_seen_ = 0.0;                         // log likelihood of an empty query at an empty place
-  std::vector<double> empty_query_;                   // per place: what its words add to nothing_seen_
-  std::vector<std::vector<std::uint32_t>> postings_;  // per word: places that contain it, ascending
+  double nothing_seen_ = 0.0;        // log likelihood of an empty query at an empty place
+  std::vector<double> empty_query_;  // per place: what its words add to nothing_seen_
+  WordPostings postings_;
 };
 
 }  // namespace fabmap_node

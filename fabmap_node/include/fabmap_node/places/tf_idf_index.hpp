@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "fabmap_node/model/chow_liu_tree.hpp"
+#include "fabmap_node/places/word_postings.hpp"
 
 namespace fabmap_node {
 
@@ -26,9 +26,9 @@ class TfIdfIndex {
  private:
   double norm(const WordSet& words) const;
 
-  std::vector<double> weights_;                       // per word
-  std::vector<double> norms_;                         // per place
-  std::vector<std::vector<std::uint32_t>> postings_;  // per word: places that contain it, ascending
+  std::vector<double> weights_;  // per word
+  std::vector<double> norms_;    // per place
+  WordPostings postings_;
 };
 
 }  // namespace fabmap_node
