@@ -36,7 +36,7 @@ constexpr double astray_periods = 3.5;
 constexpr int landmarks_per_feature = 4;
 
 constexpr const char* state_name = "swf_vo";
-constexpr std::uint32_t state_version = 2;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t state_version = 3;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
@@ -50,6 +50,7 @@ WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& ca
   // to k steps again.
   options.exact_undo = false;
   options.tolerance = 1e-3;
+  options.robust_drift = parameters.robust_covariance;
   options.landmarks = landmarks_per_feature * featuresIn(camera, parameters.features);
   return options;
 }

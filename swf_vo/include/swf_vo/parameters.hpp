@@ -16,7 +16,8 @@ struct Parameters {
   int features;              // in an image of 512x384
   double pixel_noise_floor;  // px
   bool subpixel;
-  double disparity_offset;      // px, standard deviation of a state; 0: none
+  double disparity_offset;  // px, standard deviation of a state; 0: none
+  bool robust_covariance;
   double huber;                 // standard deviations
   int iterations;               // Gauss-Newton steps a frame, at most
   double acceleration;          // m/s^2, process noise without u

@@ -2,6 +2,7 @@
 #include "window/datum.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/geometry/dense_kernels.hpp"
@@ -63,6 +64,14 @@ void Datum::marginalised(const Matrix6d& loss) {
   }
   information_ = left;
   growth_ = symmetric(before * loss * after);
+}
+
+void Datum::scaleGrowth(const DriftSandwich::Ratio& ratio) {
+  Vector6d scale;
+  scale << Vector3d::Constant(std::sqrt(ratio.translation)), Vector3d::Constant(std::sqrt(ratio.rotation));
+  const Matrix6d scaled = symmetric(scale.asDiagonal() * growth_ * scale.asDiagonal());
+  carried_ += scaled - growth_;
+  growth_ = scaled;
 }
 
 // G and u = Pi G.

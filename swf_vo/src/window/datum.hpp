@@ -2,6 +2,7 @@
 #pragma once
 
 #include "urban_nav_core/io/archive.hpp"
+#include "window/drift_sandwich.hpp"
 #include "window/prior.hpp"
 #include "window/state.hpp"
 
@@ -42,6 +43,9 @@ class Datum {
 
   /// The oldest pose has left, with `loss` of M (Marginaliser::gaugeLoss).
   void marginalised(const urban_nav_core::Matrix6d& loss);
+  /// The variances of what the last step added are these times what the filter's model says (drift_sandwich.hpp): the
+  /// difference is carried beside the window, which stays as it is.
+  void scaleGrowth(const DriftSandwich::Ratio& ratio);
   /// Covariance that the last step added to gamma, about origin().
   const urban_nav_core::Matrix6d& growth() const { return growth_; }
 

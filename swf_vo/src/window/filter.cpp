@@ -42,6 +42,7 @@ Filter::Filter(const WindowOptions& options, const urban_nav_core::StereoCamera&
     : options_(options), cost_(SensorModel(camera), options.huber, options.linearise_first), gauss_newton_(options) {
   state_.disparity_offset = camera.disparity_offset;
   state_.reserve(static_cast<std::size_t>(std::max(options.landmarks, 0)));
+  scores_.reserve(state_.landmarks.size());
 }
 
 std::size_t Filter::limit() const {
@@ -93,6 +94,7 @@ void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPo
   gauss_newton_.forget();
   oldest_information_.reset();
   gain_valid_ = false;
+  scores_.clear();
   if (datum_.isActive()) {
     prior_.start(next.pose, Matrix6d::Identity() / (datum_sigma * datum_sigma));
     datum_.start(prior_, next.covariance);
@@ -123,7 +125,8 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   if (cost_.lineariseFirst()) cost_.relinearise(state_, prior_);
   const Vector3d origin = state_.poses[1].linearised.t();
   const Matrix6d left = gauge::ofPose(state_.poses.front().linearised, origin);
-  marginaliser_.removeOldest(state_, prior_, cost_, origin, history);
+  const Pose leaving = state_.poses[0].linearised, next = state_.poses[1].linearised;
+  marginaliser_.removeOldest(state_, prior_, cost_, origin, history, datum_.isActive() ? &scores_ : nullptr);
   gain_valid_ = true;
   settled_apart_.setZero();
   if (!datum_.isActive()) return;
@@ -131,6 +134,9 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   applyProcessNoise(origin);
   Departed& departed = marginaliser_.departed();
   datum_.marginalised(departed.gauge_loss);
+  scores_.end(marginaliser_.dying(), leaving);
+  scores_.advance(state_, leaving.inverse() * next);
+  if (options_.robust_drift) datum_.scaleGrowth(scores_.sandwich().ratio());
   const Vector6d per_px = datum_.releaseOffset(offset_sigma_, state_, prior_);
   departed.offset_gain += (departed.gauge_gain - left) * per_px;
   const std::optional<Matrix6d> own = std::exchange(oldest_information_, std::nullopt);
@@ -149,6 +155,8 @@ void Filter::applyProcessNoise(const Vector3d& origin) {
     if (!landmark.used || landmark.prior < 0) continue;
     if (!landmark.seen.empty()) {
       landmark.template_drift_covariance += landmark.seen.front().template_drift_covariance;
+      scores_.age(static_cast<std::size_t>(&landmark - state_.landmarks.data()),
+                  landmark.seen.front().template_drift_covariance);
       landmark.seen.front().template_drift_covariance.setZero();
     }
     if (landmark.template_drift_covariance.trace() < least_wander * least_wander) continue;
@@ -238,6 +246,7 @@ void Filter::save(Checkpoint& checkpoint) const {
   checkpoint.prior = prior_;
   checkpoint.newest_covariance = newest_covariance_;
   checkpoint.datum = datum_;
+  checkpoint.scores = scores_;
   checkpoint.offset_sigma = offset_sigma_;
   checkpoint.oldest_information = oldest_information_;
 }
@@ -247,6 +256,7 @@ void Filter::restore(const Checkpoint& checkpoint) {
   prior_ = checkpoint.prior;
   newest_covariance_ = checkpoint.newest_covariance;
   datum_ = checkpoint.datum;
+  scores_ = checkpoint.scores;
   offset_sigma_ = checkpoint.offset_sigma;
   oldest_information_ = checkpoint.oldest_information;
   gauss_newton_.forget();
@@ -300,7 +310,7 @@ void Filter::flush(std::vector<SettledPose>& settled) {
 }
 
 void Filter::archive(urban_nav_core::Archive& archive) {
-  archive(state_, prior_, gauss_newton_, marginaliser_.departed(), datum_);
+  archive(state_, prior_, gauss_newton_, marginaliser_.departed(), datum_, scores_);
   archive(offset_sigma_, newest_covariance_, settled_, settled_step_, settled_in_window_, gain_valid_, settled_apart_);
   archive(oldest_information_, has_known_, gauge_free_);
   if (archive.isReading()) check(archive);

@@ -12,6 +12,7 @@
 #include "window/gauss_newton.hpp"
 #include "window/history.hpp"
 #include "window/landmark_process_noise.hpp"
+#include "window/landmark_scores.hpp"
 #include "window/marginalise.hpp"
 #include "window/prior.hpp"
 #include "window/state.hpp"
@@ -44,6 +45,7 @@ class Filter {
   const Prior& prior() const { return prior_; }
   const Cost& cost() const { return cost_; }
   const Datum& datum() const { return datum_; }
+  const DriftSandwich& driftSandwich() const { return scores_.sandwich(); }
 
   /// All that the following steps depend on.
   struct Checkpoint {
@@ -51,6 +53,7 @@ class Filter {
     Prior prior;
     urban_nav_core::Matrix6d newest_covariance;
     Datum datum;
+    LandmarkScores scores;
     double offset_sigma = 0.0;
     std::optional<urban_nav_core::Matrix6d> oldest_information;
   };
@@ -100,6 +103,7 @@ class Filter {
   urban_nav_core::Matrix6d settled_apart_ =
       urban_nav_core::Matrix6d::Zero();  // added to it in the step to its neighbour
   Datum datum_;
+  LandmarkScores scores_;
   std::optional<urban_nav_core::Matrix6d>
       oldest_information_;   // of the oldest pose on itself at the last update, until it leaves
   bool has_known_ = false;   // landmarks whose places are given

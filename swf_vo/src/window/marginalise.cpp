@@ -139,7 +139,7 @@ void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
     }
 }
 
-void Marginaliser::addTerms(const State& state, const Cost& cost) {
+void Marginaliser::addTerms(const State& state, const Cost& cost, LandmarkScores* scores) {
   const PoseBlock& oldest = state.poses[0];
   const int pose = eliminated_ - 6;
   for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
@@ -153,6 +153,7 @@ void Marginaliser::addTerms(const State& state, const Cost& cost) {
     offset_information_ += term.border_information;
     offset_gradient_ += term.border_gradient;
     if (landmark.known) continue;
+    if (scores != nullptr) scores->add(at, landmark, oldest, term);
     if (place_[at] >= 0) {
       const int row = place_[at];
       add(eliminatedColumn(pose) + eliminated_ + row, stride_, Eigen::Matrix<double, 3, 6>(term.cross.transpose()));
@@ -387,11 +388,11 @@ void Marginaliser::keep(State& state, Prior& prior) {
   prior.offset_eta = eta_offset;
 }
 
-void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, const Vector3d& origin,
-                                History* history) {
+void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, const Vector3d& origin, History* history,
+                                LandmarkScores* scores) {
   sort(state, prior);
   gatherPrior(prior, state);
-  addTerms(state, cost);
+  addTerms(state, cost, scores);
   gatherGauge(state, origin);
   eliminate();
   if (history != nullptr) record(state, *history);

@@ -6,6 +6,7 @@
 #include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/history.hpp"
+#include "window/landmark_scores.hpp"
 #include "window/prior.hpp"
 #include "window/state.hpp"
 
@@ -34,12 +35,15 @@ class Marginaliser {
  public:
   /// Takes poses.front() out of `state` with its measurements; the pose after it and the landmarks it saw are then
   /// tied by the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. Directions of
-  /// the gauge are about `origin`. `history` may be null.
-  void removeOldest(State& state, Prior& prior, const Cost& cost, const Eigen::Vector3d& origin, History* history);
+  /// the gauge are about `origin`. `history` and `scores` may be null.
+  void removeOldest(State& state, Prior& prior, const Cost& cost, const Eigen::Vector3d& origin, History* history,
+                    LandmarkScores* scores);
 
   /// About the pose that left; what happens to the prior before the next one is added to it.
   Departed& departed() { return departed_; }
   const Departed& departed() const { return departed_; }
+  /// Slots of the landmarks that left with it and that the prior had known.
+  const std::vector<int>& dying() const { return dying_; }
 
  private:
   struct Block {
@@ -53,7 +57,7 @@ class Marginaliser {
   void sort(const State& state, const Prior& prior);
   void findRuns(const Prior& prior);
   void gatherPrior(const Prior& prior, const State& state);
-  void addTerms(const State& state, const Cost& cost);
+  void addTerms(const State& state, const Cost& cost, LandmarkScores* scores);
   void gatherGauge(const State& state, const Eigen::Vector3d& origin);
   void eliminate();
   /// Computes what the departed poses gain from those that remain.

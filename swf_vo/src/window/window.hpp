@@ -33,6 +33,8 @@ struct WindowOptions {
                                ///< beside (datum.hpp): changes no result but for rounding
   double disparity_offset =
       0.0;  ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
+  bool robust_drift = false;  ///< scales the drift by what the residuals of whole landmarks say of it
+                              ///< (drift_sandwich.hpp); false: it is the model's
   int landmarks = 64;         ///< so many at once are expected; memory for them is taken at the start
   bool keep_history = false;  ///< keep the eliminated rows for Window::trajectory(): grows with the trajectory
 };

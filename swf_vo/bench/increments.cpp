@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is the covariance of odometry from one frame to a later one right? Squared errors of T_{i,i+n} (settled poses) over
+// the variances stated for them (urban_nav_core/trajectory/odometry_chain.hpp), translation and rotation apart, pooled
+// over sequences of one name but for its last digits: 1 is right.
+//   swf_vo-bench-increments [FOLDER...] [--set swf_vo.NAME=VALUE]... [-o results/increments.json]
+// FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "support/program.hpp"
+#include "support/run.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
+
+namespace {
+
+using namespace swf_vo::bench;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
+using urban_nav_core::testing::BenchTable;
+using urban_nav_core::testing::cell;
+
+constexpr std::array<std::size_t, 5> lags = {10, 50, 100, 200, 400};
+
+// Of the translation (m^2) and of the rotation (rad^2).
+struct Sums {
+  std::array<double, 2> squared = {}, stated = {};
+  int count = 0;
+};
+
+struct Pool {
+  int sequences = 0;
+  std::array<Sums, lags.size()> at;
+};
+
+urban_nav_core::OdometryChain makeChain(const Sequence& sequence, const Run& run) {
+  urban_nav_core::OdometryChain chain;
+  for (std::size_t i = 1; i < run.settled.size(); ++i) {
+    urban_nav_core::RelativePose step;
+    step.from = sequence.stamps[i - 1];
+    step.to = sequence.stamps[i];
+    step.T_from_to = run.settled[i - 1].inverse() * run.settled[i];
+    step.covariance = run.relative_covariance[i];
+    step.drift_covariance = run.drift_covariance[i];
+    chain.append(step);
+  }
+  return chain;
+}
+
+void add(Pool& pool, const Sequence& sequence, const Run& run) {
+  const urban_nav_core::OdometryChain chain = makeChain(sequence, run);
+  ++pool.sequences;
+  for (std::size_t l = 0; l < lags.size(); ++l)
+    for (std::size_t i = 0; i + lags[l] < run.settled.size(); i += 5) {
+      const auto way = chain.between(sequence.stamps[i], sequence.stamps[i + lags[l]]);
+      if (!way) continue;
+      const Vector6d e = boxMinus(sequence.truth[i].inverse() * sequence.truth[i + lags[l]], way->pose);
+      Sums& sums = pool.at[l];
+      for (std::size_t part = 0; part < 2; ++part) {
+        const Eigen::Index at = 3 * static_cast<Eigen::Index>(part);
+        sums.squared[part] += e.segment<3>(at).squaredNorm();
+        sums.stated[part] += way->covariance.block<3, 3>(at, at).trace();
+      }
+      ++sums.count;
+    }
+}
+
+std::string poolName(const std::string& sequence) {
+  const auto last = sequence.find_last_not_of("0123456789");
+  return last == std::string::npos ? sequence : sequence.substr(0, last + 1);
+}
+
+std::vector<std::string> row(const std::string& name, const Pool& pool, std::size_t part) {
+  const bool moved = part == 0;
+  std::vector<std::string> cells = {name, std::to_string(pool.sequences), moved ? "translation" : "rotation"};
+  for (const Sums& sums : pool.at) {
+    const double rms = std::sqrt(sums.squared[part] / std::max(1, sums.count));
+    cells.push_back(sums.count == 0
+                        ? "-"
+                        : cell(sums.squared[part] / sums.stated[part], 2) + " (" +
+                              (moved ? cell(1e3 * rms, 1) + " mm)" : cell(rms * 180.0 / M_PI, 3) + " deg)"));
+  }
+  return cells;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  std::vector<std::string> sets, folders;
+  std::string output;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--set" && i + 1 < argc) sets.emplace_back(argv[++i]);
+    else if (word == "-o" && i + 1 < argc) output = argv[++i];
+    else folders.push_back(word);
+  }
+  const swf_vo::Parameters parameters = parametersFrom(sets);
+  std::map<std::string, Pool> pools;
+  for (const std::string& folder : orRealSequences(folders)) {
+    const Sequence sequence = kittiFolder(folder);
+    add(pools[poolName(sequence.name)], sequence, run(sequence, parameters));
+  }
+  std::vector<std::string> columns = {"sequences", "number", "of"};
+  for (const std::size_t lag : lags) columns.push_back(std::to_string(lag) + " frames");
+  BenchTable table(columns, argc, argv);
+  for (const auto& [name, pool] : pools) {
+    table.add(row(name, pool, 0));
+    table.add(row(name, pool, 1));
+  }
+  table.note("In brackets the errors, rms. What is not known of the disparity offset is not in these covariances.");
+  return show(table, output);
+} catch (const std::exception& error) {
+  return complain(error);
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/landmark_score.hpp"
+
+#include "urban_nav_core/io/archive_types.hpp"
+#include "window/gauge.hpp"
+
+namespace swf_vo {
+
+using Eigen::Vector3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+
+namespace {
+
+// Share of a coordinate's own information below which what is left of it is rounding.
+constexpr double least_theta_pivot = 1e-12;
+
+}  // namespace
+
+void LandmarkScore::add(const LandmarkBlock& landmark, const PoseBlock& pose, double view_change,
+                        const SensorTerm& term) {
+  if (!used_) {
+    used_ = true;
+    born_ = view_change;
+    reference_ = landmark.estimate;
+    origin_ = landmark.anchor.t_odom_anchor;
+    information_.setZero();
+    score_.setZero();
+  }
+  last_ = view_change;
+  const Matrix6d G = (view_change - born_) * gauge::ofPose(pose.linearised, origin_);
+  const Vector3d moved = landmark.estimate - reference_;
+  const Matrix63d cross = G.transpose() * term.cross;
+  information_.topLeftCorner<3, 3>() += term.landmark;
+  information_.bottomLeftCorner<6, 3>() += cross;
+  information_.topRightCorner<3, 6>() += cross.transpose();
+  information_.bottomRightCorner<6, 6>() += G.transpose() * term.pose * G;
+  score_.head<3>() += term.landmark_gradient + term.landmark * moved;
+  score_.tail<6>() += G.transpose() * term.pose_gradient + cross * moved;
+}
+
+// Pi - Pi E (I + Q E^T Pi E)^-1 Q E^T Pi, which also holds where Q has no inverse.
+void LandmarkScore::age(const Eigen::Matrix2d& covariance) {
+  if (!used_) return;
+  const Eigen::Matrix2d known = information_.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() + covariance * known;
+  Eigen::Matrix2d adjugate;
+  adjugate << A(1, 1), -A(0, 1), -A(1, 0), A(0, 0);
+  const Eigen::Matrix2d lost = adjugate * covariance / (A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0));
+  const Eigen::Matrix<double, 9, 2> columns = information_.leftCols<2>();
+  score_ -= columns * (lost * score_.head<2>().eval());
+  information_ -= columns * lost * columns.transpose();
+}
+
+DriftScore LandmarkScore::evaluate(const Pose& T_odom_camera) const {
+  Matrix9d A = information_;
+  Vector9d b = score_;
+  for (int j = 0; j < 3; ++j) {
+    if (!(A(j, j) > least_theta_pivot * information_(j, j))) continue;
+    for (int i = j + 1; i < 9; ++i) {
+      const double factor = A(i, j) / A(j, j);
+      b[i] -= factor * b[j];
+      for (int k = j + 1; k < 9; ++k) A(i, k) -= factor * A(j, k);
+    }
+  }
+  const Matrix6d moved = gauge::transport(T_odom_camera.t(), origin_);
+  const Eigen::Matrix3d R = T_odom_camera.R();
+  Matrix6d T;
+  T.leftCols<3>() = moved.leftCols<3>() * R;
+  T.rightCols<3>() = moved.rightCols<3>() * R;
+  DriftScore result;
+  result.score = T.transpose() * b.tail<6>();
+  const Matrix6d information = T.transpose() * A.bottomRightCorner<6, 6>() * T;
+  result.information = 0.5 * (information + information.transpose());
+  result.life = last_ - born_;
+  return result;
+}
+
+void LandmarkScore::archive(urban_nav_core::Archive& archive) {
+  archive(used_);
+  if (used_) archive(born_, last_, reference_, origin_, information_, score_);
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/io/archive.hpp"
+#include "window/cost.hpp"
+
+namespace swf_vo {
+
+/// Score and information of a steady drift of the camera: shift (m) and turn (rad) per radian of view change, about the
+/// camera, in its axes.
+struct DriftScore {
+  urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();
+  urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();
+  double life = 0.0;  ///< view change (rad) from the first to the last measurement
+};
+
+/// What the measurements of one landmark, over its whole life, say of a drift of the camera that is steady for as long.
+///
+/// An information filter over theta and the rate xi at which the camera moves away from where the estimate has it; that
+/// apart, the poses are taken as given. With theta eliminated it is the landmark's share in the score and in the
+/// information of the trajectory at low frequencies: changes slower than its life. Ages as the prior does
+/// (landmark_process_noise.hpp). Derivation: docs/derivations/cluster_robust_drift.md.
+class LandmarkScore {
+ public:
+  bool isUsed() const { return used_; }
+  void clear() { used_ = false; }
+
+  /// A measurement leaves the window with its pose, at this view change (rad) since the start; `term`: as it goes into
+  /// the prior.
+  void add(const LandmarkBlock& landmark, const PoseBlock& pose, double view_change, const SensorTerm& term);
+  /// Adds template drift since the last measurement (covariance of the bearing).
+  void age(const Eigen::Matrix2d& covariance);
+  DriftScore evaluate(const urban_nav_core::Pose& T_odom_camera) const;
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  using Matrix9d = Eigen::Matrix<double, 9, 9>;
+  using Vector9d = Eigen::Matrix<double, 9, 1>;
+
+  bool used_ = false;
+  double born_ = 0.0, last_ = 0.0;                       // view change, rad
+  Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();  // theta at which score_ is taken
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();     // of xi, in odom
+  Matrix9d information_ = Matrix9d::Zero();              // of theta, xi
+  Vector9d score_ = Vector9d::Zero();
+};
+
+}  // namespace swf_vo

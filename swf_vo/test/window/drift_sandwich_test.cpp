@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// By how much the drift is larger than the model says: scores of known variance, and tracks whose landmarks drift.
+#include "window/drift_sandwich.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
+#include "window/filter.hpp"
+#include "window/track_runner.hpp"
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::OdometryChain;
+using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
+using urban_nav_core::Vector6d;
+using urban_nav_core::testing::TrackMotion;
+using urban_nav_core::testing::Tracks;
+
+/// Generations of landmarks that measure one rate each, which is estimated from them: what is left of their scores at
+/// the estimate. Errors are `scale` times what the information says (translation, rotation).
+DriftSandwich generations(int count, int landmarks, const Vector6d& scale, DriftSandwich sandwich = {}) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  for (int g = 0; g < count; ++g) {
+    std::vector<DriftScore> scores(static_cast<std::size_t>(landmarks));
+    Matrix6d all = Matrix6d::Zero();
+    Vector6d sum = Vector6d::Zero();
+    for (DriftScore& one : scores) {
+      Eigen::Matrix<double, 6, 3> J;
+      Eigen::Vector3d error;
+      for (int i = 0; i < 18; ++i) J(i % 6, i / 6) = normal(generator) * (i % 6 < 3 ? 3.0 : 200.0);
+      // Half of the landmarks see the translation alone, half the rotation alone.
+      const bool moved = normal(generator) > 0.0;
+      if (moved) J.bottomRows<3>().setZero();
+      else J.topRows<3>().setZero();
+      for (int i = 0; i < 3; ++i) error[i] = normal(generator) * (moved ? scale[0] : scale[3]);
+      one.information = J * J.transpose();
+      one.score = J * error;
+      one.life = 0.5;
+      all += one.information;
+      sum += one.score;
+    }
+    const Vector6d estimate = all.ldlt().solve(sum);
+    sandwich.advance(0.5);
+    for (DriftScore& one : scores) {
+      one.score -= one.information * estimate;
+      sandwich.add(one);
+    }
+  }
+  return sandwich;
+}
+
+TEST(DriftSandwich, isOneWhereTheModelIsRight) {
+  const DriftSandwich::Ratio ratio = generations(60, 60, Vector6d::Ones()).ratio();
+  EXPECT_NEAR(ratio.translation, 1.0, 0.1);
+  EXPECT_NEAR(ratio.rotation, 1.0, 0.1);
+}
+
+TEST(DriftSandwich, correctsForLeverage) {
+  // Six unknowns from twelve landmarks, half of which see each: the residuals have half of the variance.
+  const DriftSandwich::Ratio ratio = generations(300, 12, Vector6d::Ones()).ratio();
+  EXPECT_NEAR(ratio.translation, 1.0, 0.15);
+  EXPECT_NEAR(ratio.rotation, 1.0, 0.15);
+}
+
+TEST(DriftSandwich, tellsTranslationFromRotation) {
+  Vector6d scale;
+  scale << 2.0, 2.0, 2.0, 0.7, 0.7, 0.7;
+  const DriftSandwich sandwich = generations(60, 60, scale);
+  const DriftSandwich::Ratio ratio = sandwich.ratio();
+  EXPECT_GT(sandwich.clusters(0), 300.0);
+  EXPECT_NEAR(ratio.translation, 4.0, 0.6);
+  EXPECT_NEAR(ratio.rotation, 0.49, 0.1);
+}
+
+TEST(DriftSandwich, fewLandmarksLeaveTheModelAsItIs) {
+  EXPECT_EQ(DriftSandwich().ratio().translation, 1.0);
+  EXPECT_EQ(DriftSandwich().ratio().rotation, 1.0);
+  const double few = generations(1, 6, Vector6d::Constant(3.0)).ratio().rotation;
+  const double many = generations(100, 6, Vector6d::Constant(3.0)).ratio().rotation;
+  EXPECT_LT(few, 3.0) << "of 9";
+  EXPECT_GT(many, 6.0) << "of 9";
+}
+
+TEST(DriftSandwich, forgetsAsTheViewChanges) {
+  const DriftSandwich before = generations(60, 60, Vector6d::Constant(3.0));
+  DriftSandwich standing = before;
+  standing.advance(0.0);
+  EXPECT_EQ(standing.ratio().rotation, before.ratio().rotation);
+  EXPECT_LT(generations(60, 60, Vector6d::Ones(), before).ratio().rotation, 0.3 * before.ratio().rotation);
+}
+
+/// Tracks whose landmarks move over their surfaces, each at its own steady rate of this standard deviation, in both
+/// images at once.
+Tracks drifting(double px_a_frame, TrackMotion motion, std::uint64_t seed, int frames = 301) {
+  urban_nav_core::testing::TrackOptions options;
+  options.seed = seed;
+  options.frames = frames;
+  options.motion = motion;
+  options.features = 30;
+  Tracks tracks = simulateTracks(options);
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal(0.0, px_a_frame);
+  struct Born {
+    std::size_t frame;
+    Eigen::Vector3d rate;
+  };
+  std::map<std::int64_t, Born> born;
+  for (std::size_t i = 0; i < tracks.frames.size(); ++i)
+    for (auto& sighting : tracks.frames[i].sightings) {
+      auto found = born.find(sighting.landmark);
+      if (found == born.end()) {
+        const double u = normal(generator), v = normal(generator);
+        found = born.emplace(sighting.landmark, Born{i, {u, v, u}}).first;
+      }
+      sighting.z += static_cast<double>(i - found->second.frame) * found->second.rate;
+    }
+  return tracks;
+}
+
+OdometryChain odometry(const Tracks& tracks, bool robust, const std::function<bool(const Observation&)>& wanted = {}) {
+  WindowOptions options;
+  options.exact_undo = false;
+  options.robust_drift = robust;
+  TrackRunner run(tracks, options);
+  while (!run.done()) run.step(wanted);
+  OdometryChain chain;
+  for (std::size_t i = 1; i < run.settled.size(); ++i) {
+    urban_nav_core::RelativePose step;
+    step.from = run.settled[i - 1].frame + 1;
+    step.to = run.settled[i].frame + 1;
+    step.T_from_to = run.settled[i].T_previous_camera;
+    step.covariance = run.settled[i].relative_covariance;
+    step.drift_covariance = run.settled[i].drift_covariance;
+    EXPECT_TRUE(chain.append(step));
+  }
+  return chain;
+}
+
+/// Squares over stated variances, of translation and of rotation.
+struct Ratios {
+  double squared[2] = {}, stated[2] = {};
+  void add(const Vector6d& error, const Matrix6d& covariance) {
+    for (int part = 0; part < 2; ++part) {
+      squared[part] += error.segment<3>(3 * part).squaredNorm();
+      stated[part] += covariance.block<3, 3>(3 * part, 3 * part).trace();
+    }
+  }
+  double translation() const { return squared[0] / stated[0]; }
+  double rotation() const { return squared[1] / stated[1]; }
+};
+
+constexpr int settled_frame = 100, lag = 50, ways_end = 290;
+
+Ratios againstTruth(double px_a_frame, TrackMotion motion, bool robust) {
+  Ratios ratios;
+  for (std::uint64_t seed = 40; seed < 48; ++seed) {
+    const Tracks tracks = drifting(px_a_frame, motion, seed);
+    const OdometryChain chain = odometry(tracks, robust);
+    for (int i = settled_frame; i + lag < ways_end; i += 10) {
+      const PoseWithCovariance way = *chain.between(i + 1, i + lag + 1);
+      const auto at = [&](int frame) { return tracks.frames[static_cast<std::size_t>(frame)].T_world_camera; };
+      ratios.add(urban_nav_core::boxMinus(at(i).inverse() * at(i + lag), way.pose), way.covariance);
+    }
+  }
+  return ratios;
+}
+
+TEST(DriftSandwich, findsTheDriftOfLandmarksThatDrift) {
+  for (const TrackMotion motion : {TrackMotion::Turning, TrackMotion::Straight}) {
+    EXPECT_GT(againstTruth(0.03, motion, false).rotation(), 2.5);
+    EXPECT_NEAR(std::log(againstTruth(0.03, motion, true).rotation()), 0.0, std::log(2.0));
+  }
+}
+
+TEST(DriftSandwich, leavesTheDriftOfLandmarksThatKeepStill) {
+  for (const TrackMotion motion : {TrackMotion::Turning, TrackMotion::Straight}) {
+    const Ratios ratios = againstTruth(0.0, motion, true);
+    EXPECT_NEAR(std::log(ratios.translation()), 0.0, std::log(2.0));
+    EXPECT_NEAR(std::log(ratios.rotation()), 0.0, std::log(2.0));
+  }
+}
+
+// Two filters with every other landmark each have errors of their own, so what lies between them needs no truth.
+TEST(DriftSandwich, agreesWithTheJackknifeOfOddAndEvenLandmarks) {
+  const auto between = [](bool robust) {
+    Ratios ratios;
+    for (std::uint64_t seed = 50; seed < 58; ++seed) {
+      const Tracks tracks = drifting(0.03, TrackMotion::Turning, seed);
+      const OdometryChain odd = odometry(tracks, robust, [](const Observation& o) { return o.landmark % 2 == 1; });
+      const OdometryChain even = odometry(tracks, robust, [](const Observation& o) { return o.landmark % 2 == 0; });
+      for (int i = settled_frame; i + lag < ways_end; i += 10) {
+        const PoseWithCovariance a = *odd.between(i + 1, i + lag + 1), b = *even.between(i + 1, i + lag + 1);
+        ratios.add(urban_nav_core::boxMinus(a.pose, b.pose), a.covariance + b.covariance);
+      }
+    }
+    return ratios;
+  };
+  const Ratios model = between(false), robust = between(true);
+  EXPECT_GT(model.rotation(), 2.5);
+  EXPECT_NEAR(std::log(robust.rotation()), 0.0, std::log(2.0));
+  EXPECT_NEAR(std::log(robust.translation()), 0.0, std::log(2.5));
+}
+
+TEST(DriftSandwich, changesNoPose) {
+  const Tracks tracks = drifting(0.02, TrackMotion::Turning, 3, 120);
+  const OdometryChain model = odometry(tracks, false), robust = odometry(tracks, true);
+  for (std::int64_t i = 1; i < 100; ++i) {
+    EXPECT_EQ(model.at(i)->t(), robust.at(i)->t()) << i;
+    EXPECT_EQ(model.at(i)->q().coeffs(), robust.at(i)->q().coeffs()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace swf_vo
