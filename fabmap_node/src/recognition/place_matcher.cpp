@@ -16,8 +16,9 @@ namespace {
 /// A candidate elsewhere shows the same place, in another session or on another lap, if both the query and the best
 /// place agree with it as much as this share of the agreement of query and best place.
 constexpr double same_place_share = 0.5;
-constexpr std::size_t thinning = 4;     // of the descriptors of a first look
-constexpr int smallest_selection = 10;  // candidates without any look
+constexpr std::size_t thinning = 4;        // of the descriptors of a first look
+constexpr int smallest_selection = 10;     // candidates without any look
+constexpr std::size_t most_sorted = 1000;  // candidates, unless more are needed
 
 double logMeanOfExponentials(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -69,11 +70,20 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < likelihoods.size(); ++i)
     if (isCandidate(i)) all.push_back({i, likelihoods[i], {}});
-  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+  const auto isLikelier = [](const Candidate& a, const Candidate& b) {
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
-  });
-  return selectVaried(
-      all, options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : smallest_selection);
+  };
+  const int wanted =
+      options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : smallest_selection;
+  // Of a large map, the first ones nearly always suffice.
+  if (all.size() > most_sorted) {
+    const auto sorted = all.begin() + static_cast<std::ptrdiff_t>(most_sorted);
+    std::partial_sort(all.begin(), sorted, all.end(), isLikelier);
+    std::vector<Candidate> chosen = selectVaried({all.begin(), sorted}, wanted);
+    if (chosen.size() >= static_cast<std::size_t>(wanted)) return chosen;
+  }
+  std::sort(all.begin(), all.end(), isLikelier);
+  return selectVaried(all, wanted);
 }
 
 /// Compares every `step`-th descriptor of the places with those of the query.

@@ -10,15 +10,15 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t words = 40;
+constexpr std::size_t posting_words = 40;
 
 /// Word q is in a share of q / 40 of the places: from rare ones to those of nearly all places.
 std::vector<WordSet> drawPlaces(std::size_t count) {
   urban_nav_core::testing::Dice dice(11);
   std::vector<WordSet> places(count);
   for (WordSet& place : places)
-    for (Word q = 0; q < words; ++q)
-      if (dice.chance(static_cast<double>(q) / words)) place.push_back(q);
+    for (Word q = 0; q < posting_words; ++q)
+      if (dice.chance(static_cast<double>(q) / posting_words)) place.push_back(q);
   return places;
 }
 
@@ -33,7 +33,7 @@ TEST(WordPostings, AddsTheWeightsOfTheWordsOfEachPlaceAtEverySize) {
   const std::vector<WordSet> places = drawPlaces(9000);
   const std::vector<WeightedWord> rare = {{1, 0.5}, {2, -1.0}}, frequent = {{30, 0.25}, {39, 2.0}},
                                   both = {{0, 3.0}, {4, 0.125}, {5, 1.0}, {20, -0.3}, {38, 7.0}};
-  WordPostings postings(words);
+  WordPostings postings(posting_words);
   std::vector<double> sums;
   for (std::size_t i = 0; i < places.size(); ++i) {
     postings.add(places[i]);
@@ -48,7 +48,7 @@ TEST(WordPostings, AddsTheWeightsOfTheWordsOfEachPlaceAtEverySize) {
 }
 
 TEST(WordPostings, PlacesWithoutWordsCount) {
-  WordPostings postings(words);
+  WordPostings postings(posting_words);
   for (int i = 0; i < 5000; ++i) postings.add({});
   std::vector<double> sums(postings.size(), 0.5);
   postings.addWeights({{3, 1.0}}, sums);

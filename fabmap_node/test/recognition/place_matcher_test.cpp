@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/recognition/place_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "urban_nav_core/testing/dice.hpp"
+
+namespace fabmap_node {
+namespace {
+
+constexpr std::size_t words = 60;
+constexpr std::size_t similar_places = 1300, other_places = 400;
+
+/// Words that are mostly those below 30, or mostly those from 30 on.
+WordSet drawWordsOfPlace(bool low, urban_nav_core::testing::Dice& dice) {
+  WordSet set;
+  for (Word q = 0; q < words; ++q)
+    if (dice.chance((q < words / 2) == low ? 0.7 : 0.1)) set.push_back(q);
+  return set;
+}
+
+/// A map in which one moment of the first session has more places than a search ranks at first, all of them likelier
+/// than the places of the second session. Words only.
+class LargeMap {
+ public:
+  LargeMap() {
+    urban_nav_core::testing::Dice dice(4);
+    for (std::size_t i = 0; i < similar_places; ++i)
+      matcher.add({0, static_cast<urban_nav_core::StampNs>(i), drawWordsOfPlace(true, dice), ""});
+    for (std::size_t i = 0; i < other_places; ++i)
+      matcher.add({1, static_cast<urban_nav_core::StampNs>(i), drawWordsOfPlace(false, dice), ""});
+    query = {2, 0, drawWordsOfPlace(true, dice), ""};
+  }
+
+ private:
+  static ChowLiuTree learnTree() {
+    urban_nav_core::testing::Dice dice(5);
+    WordSets drawn{words, {}};
+    for (int i = 0; i < 200; ++i) drawn.observations.push_back(drawWordsOfPlace(i % 2 == 0, dice));
+    return learnChowLiuTree(drawn);
+  }
+  static MatcherOptions wordsOnly() {
+    MatcherOptions options;
+    options.second_looks = 0;
+    return options;
+  }
+  const LikelihoodTable table_{learnTree(), {0.39, 0.05}, Dependence::ChowLiu};
+
+ public:
+  PlaceMatcher matcher{table_, {}, wordsOnly()};
+  DescribedPlace query;
+};
+
+TEST(PlaceMatcher, LargeMapKeepsCandidatesElsewhereHoweverUnlikely) {
+  const LargeMap map;
+  const std::vector<PlaceMatch> found = map.matcher.matches(map.query, [](std::size_t) { return true; });
+  const auto elsewhere = std::count_if(found.begin(), found.end(), [](const PlaceMatch& m) { return m.session == 1; });
+  EXPECT_EQ(found.size(), 10u);
+  EXPECT_EQ(elsewhere, 4);
+  EXPECT_EQ(found.front().session, 0u);
+}
+
+TEST(PlaceMatcher, WhatIsFoundDoesNotDependOnTheUnlikelyRestOfTheMap) {
+  const LargeMap map;
+  for (const bool with_second_session : {true, false}) {
+    const auto admits = [&](std::size_t i) { return with_second_session || map.matcher.place(i).session == 0; };
+    const std::vector<PlaceMatch> found = map.matcher.matches(map.query, admits);
+    std::set<std::size_t> places;
+    for (const PlaceMatch& match : found) places.insert(match.place);
+    const std::vector<PlaceMatch> again =
+        map.matcher.matches(map.query, [&](std::size_t i) { return places.count(i) > 0; });
+    ASSERT_EQ(again.size(), found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(again[i].place, found[i].place);
+      EXPECT_EQ(again[i].log_likelihood, found[i].log_likelihood);
+    }
+    for (std::size_t i = 0; i < similar_places; ++i) {
+      if (places.count(i) > 0) continue;
+      EXPECT_LE(map.matcher.compare(map.query, i, admits).match.log_likelihood, found.front().log_likelihood);
+      i += 50;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fabmap_node
