@@ -3,6 +3,7 @@
 #include <std_srvs/Trigger.h>
 #include <unistd.h>
 #include <urban_nav_msgs/FileCommand.h>
+#include <urban_nav_msgs/MetricClosure.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <chrono>
@@ -14,6 +15,7 @@
 #include "live/live_map.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "map_messages.hpp"
+#include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -31,6 +33,7 @@ namespace {
 constexpr const char *kCloudTopic = "map/cloud", *kTilesTopic = "map/tiles", *kQualityTopic = "map/quality";
 constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // of a point; between two rounds at least
 constexpr int kRestPerWork = 3;                               // times as long as a cloud took until the next one begins
+constexpr double kConstraintPeriods = 5.0;                    // between two searches for constraints, at least
 
 enum class MapFault { None = 0, NoOdometry = 1, NoLasers = 2, NoLaserPlace = 3, NotStored = 4 };
 
@@ -61,7 +64,8 @@ class LaserMapperStage {
   static constexpr const char* name = "laser_mapper";
   static constexpr const char* topic = "laser map";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, urban_nav_core::GraphUpdate>;
+                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, urban_nav_core::GraphUpdate,
+                             urban_nav_core::MetricClosure>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LaserMapperStage(Node& node);
@@ -78,6 +82,9 @@ class LaserMapperStage {
   void publish();
   void publishCloud(const std::vector<MapPoint>& points);
   void publishTiles();
+  void publishConstraints();
+  /// Returns when the next piece of work may begin after one that began at `begin`.
+  static Clock::time_point nextTime(Clock::time_point begin, double period);
   bool isWanted() const;
   std::string save(const std::string& path);
 
@@ -86,11 +93,11 @@ class LaserMapperStage {
   Parameters parameters_;
   std::unique_ptr<LiveMap> map_;
   urban_nav_ros::StaticTransforms transforms_;
-  ros::Publisher cloud_, tiles_, quality_;
+  ros::Publisher cloud_, tiles_, quality_, constraints_;
   std::uint32_t tile_subscribers_ = 0;
   std::string unplaced_, store_fault_;
-  bool changed_ = false;
-  Clock::time_point due_, tiles_sent_ = Clock::now();
+  bool changed_ = false, has_new_poses_ = false;
+  Clock::time_point due_, constraints_due_, tiles_sent_ = Clock::now();
   double seconds_ = 0.0;  ///< of the last cloud
 };
 
@@ -113,6 +120,11 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
   node.subscribeInput<urban_nav_msgs::GraphUpdate>(
       urban_nav_ros::topics::graph_update, options,
       [](const urban_nav_msgs::GraphUpdateConstPtr& message) { return urban_nav_ros::toGraphUpdate(*message); });
+  if (!parameters_.constraints) return;
+  constraints_ = node.nh().advertise<urban_nav_msgs::RelativeConstraint>(urban_nav_ros::topics::map_constraints, 1000);
+  node.subscribeInput<urban_nav_msgs::MetricClosure>(
+      urban_nav_ros::topics::metric_closure, options,
+      [](const urban_nav_msgs::MetricClosureConstPtr& message) { return urban_nav_ros::toMetricClosure(*message); });
 }
 
 void LaserMapperStage::handle(Input& input) {
@@ -121,6 +133,12 @@ void LaserMapperStage::handle(Input& input) {
     else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) addScan(**scan);
     else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) map_->addOdometry(*odometry);
     else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
+    else if (const auto* closure = std::get_if<urban_nav_core::MetricClosure>(&input)) map_->addClosure(*closure);
+    else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) {
+      map_->addNode(step->from);
+      map_->addNode(step->to);
+      has_new_poses_ = true;
+    }
     changed_ = true;
   } catch (const urban_nav_core::Error& error) {
     store_fault_ = error.what();
@@ -143,6 +161,7 @@ bool LaserMapperStage::idle() {
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, map_->newest());
   publishTiles();
+  publishConstraints();
   if (!changed_ || !isWanted() || Clock::now() < due_) return false;
   const Clock::time_point begin = Clock::now();
   try {
@@ -153,11 +172,31 @@ bool LaserMapperStage::idle() {
     node_.logError(store_fault_);
   }
   changed_ = false;
-  const Clock::duration taken = Clock::now() - begin;
-  seconds_ = std::chrono::duration<double>(taken).count();
-  due_ = Clock::now() + std::max<Clock::duration>(kRestPerWork * taken,
-                                                  std::chrono::milliseconds(static_cast<int>(1e3 * nodelet_.period)));
+  seconds_ = std::chrono::duration<double>(Clock::now() - begin).count();
+  due_ = nextTime(begin, nodelet_.period);
   return false;
+}
+
+LaserMapperStage::Clock::time_point LaserMapperStage::nextTime(Clock::time_point begin, double period) {
+  const Clock::duration taken = Clock::now() - begin;
+  return Clock::now() +
+         std::max<Clock::duration>(kRestPerWork * taken, std::chrono::milliseconds(static_cast<int>(1e3 * period)));
+}
+
+void LaserMapperStage::publishConstraints() {
+  if (!parameters_.constraints || !has_new_poses_ || Clock::now() < constraints_due_ ||
+      constraints_.getNumSubscribers() == 0)
+    return;
+  const Clock::time_point begin = Clock::now();
+  try {
+    for (const urban_nav_core::RelativeConstraint& constraint : map_->takeConstraints())
+      constraints_.publish(urban_nav_ros::toRelativeConstraintMessage(constraint, nodelet_.base_frame));
+  } catch (const urban_nav_core::Error& error) {
+    store_fault_ = error.what();
+    node_.logError(store_fault_);
+  }
+  has_new_poses_ = false;
+  constraints_due_ = nextTime(begin, kConstraintPeriods * nodelet_.period);
 }
 
 bool LaserMapperStage::isWanted() const {
@@ -233,6 +272,10 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   report.add("chunks", counts.chunks);
   report.add("chunks rendered last", counts.chunks_rendered);
   report.add("time of the last cloud (s)", seconds_);
+  if (parameters_.constraints) {
+    report.add("constraints from planes", counts.constraints);
+    report.add("constraints left out for ICP closures", counts.constraints_shared);
+  }
   return report;
 }
 

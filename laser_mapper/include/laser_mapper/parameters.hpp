@@ -22,6 +22,7 @@ struct Parameters {
   double stereo_sigma;  // m
   double max_gap;       // s
   double max_shift;     // m
+  bool constraints;
 
   Parameters();
 };

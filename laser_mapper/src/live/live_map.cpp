@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/live_map.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/parameters.hpp"
 
 namespace laser_mapper {
 
@@ -18,6 +20,25 @@ namespace {
 
 constexpr const char* kLiveSession = "00000000000000000000";
 constexpr StampNs kBackInTime = 1'000'000'000;
+constexpr StampNs kFewSeconds = 5'000'000'000;  // from a pose of odometry until closures near it are measured
+
+/// Returns the poses of a trajectory at the given stamps.
+Trajectory posesAt(const Trajectory& trajectory, const std::set<StampNs>& stamps) {
+  Trajectory some;
+  for (const urban_nav_core::StampedPose& pose : trajectory)
+    if (stamps.count(pose.stamp) != 0) some.append(pose.stamp, pose.pose);
+  return some;
+}
+
+/// Returns the last stamp at which the robot was at least `distance` (m) of path before the end; 0: never.
+StampNs lastStampBefore(const Trajectory& trajectory, double distance) {
+  double left = distance;
+  for (std::size_t i = trajectory.size(); i-- > 1;) {
+    left -= distanceBetween(trajectory[i - 1].pose, trajectory[i].pose);
+    if (left <= 0.0) return trajectory[i - 1].stamp;
+  }
+  return 0;
+}
 
 std::size_t pointsDigest(const std::vector<MapPoint>& points) {
   std::string bytes;
@@ -53,6 +74,9 @@ void LiveMap::clear() {
   open();
   T_odom_base_.clear();
   T_map_base_.clear();
+  nodes_.clear();
+  by_icp_.clear();
+  decided_.clear();
   revision_.reset();
   for (auto& [tile, state] : tiles_) setTile(state, {});
   counts_ = {};
@@ -83,6 +107,21 @@ void LiveMap::addGraph(const urban_nav_core::GraphUpdate& update) {
   revision_ = update.revision;
   for (const urban_nav_core::PoseRun& run : update.runs)
     for (const urban_nav_core::StampedMapPose& pose : run.poses) T_map_base_[pose.stamp] = pose.T_map_base;
+}
+
+void LiveMap::addClosure(const urban_nav_core::MetricClosure& closure) {
+  if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted &&
+      closure.method == urban_nav_core::ClosureMethod::Icp)
+    by_icp_.emplace_back(closure.a.stamp, closure.b.stamp);
+}
+
+/// Closures with other sessions, whose times lie outside of this one, share no beams.
+std::vector<CloudClosure> LiveMap::cloudClosures(const Trajectory& trajectory) const {
+  std::vector<CloudClosure> closures;
+  for (const auto& [a, b] : by_icp_)
+    if (std::min(a, b) >= trajectory.front().stamp && std::max(a, b) <= trajectory.back().stamp)
+      closures.push_back({0, 0, a, b});
+  return closures;
 }
 
 StampNs LiveMap::newest() const { return T_odom_base_.empty() ? 0 : T_odom_base_.rbegin()->first; }
@@ -149,12 +188,42 @@ std::size_t LiveMap::save(const std::string& path) {
   return points;
 }
 
+std::vector<urban_nav_core::RelativeConstraint> LiveMap::takeConstraints() {
+  const Trajectory T_map_base = trajectory();
+  const Trajectory nodes = posesAt(T_map_base, nodes_);
+  if (nodes.empty() || store_->scans().lasers(kLiveSession).empty()) return {};
+  LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
+  update(map);
+  const double half_length = urban_nav_registration::Parameters().cloud_half_length;
+  const SharedBeams by_icp({&nodes}, cloudClosures(T_map_base), half_length);
+  const StampNs complete = std::min(lastStampBefore(nodes, 2.0 * half_length), nodes.back().stamp - kFewSeconds);
+  std::vector<urban_nav_core::RelativeConstraint> taken;
+  for (const PlaneConstraint& found :
+       findPlaneConstraints(MapQuality(map).places(), {&nodes}, parameters_.range_bias)) {
+    const StampNs end = nodes.front().stamp + (std::max(found.stretch_a, found.stretch_b) + 1) * kPlaneGroupTime;
+    if (end > complete || !decided_.insert({found.stretch_a, found.stretch_b}).second) continue;
+    if (by_icp.areUsedBy(found)) {
+      ++counts_.constraints_shared;
+      continue;
+    }
+    taken.push_back({{"", found.stamp_a}, {"", found.stamp_b}, found.measured, "plane", "laser_mapper"});
+  }
+  counts_.constraints += taken.size();
+  return taken;
+}
+
+void LiveMap::update(LaserMap& map) {
+  const RenderStatistics rendered = map.render();
+  counts_.chunks = rendered.chunks;
+  counts_.chunks_rendered = rendered.chunks_rendered;
+}
+
 std::vector<MapPoint> LiveMap::render() {
   std::vector<MapPoint> points;
   const Trajectory T_map_base = trajectory();
   if (T_map_base.empty() || store_->scans().lasers(kLiveSession).empty()) return points;
   LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
-  const RenderStatistics rendered = map.render();
+  update(map);
   std::set<Tile> gone;
   for (const auto& [tile, state] : tiles_) gone.insert(tile);
   map.forEachTile([&](const Tile& tile, const std::vector<MapPoint>& made) {
@@ -163,8 +232,6 @@ std::vector<MapPoint> LiveMap::render() {
     gone.erase(tile);
   });
   for (const Tile& tile : gone) setTile(tiles_[tile], {});
-  counts_.chunks = rendered.chunks;
-  counts_.chunks_rendered = rendered.chunks_rendered;
   counts_.points = points.size();
   return points;
 }

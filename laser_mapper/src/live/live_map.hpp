@@ -6,13 +6,18 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_point.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
+#include "laser_mapper/quality/plane_constraints.hpp"
+#include "laser_mapper/quality/shared_beams.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
 #include "urban_nav_store/store.hpp"
 
@@ -32,6 +37,8 @@ class LiveMap {
     std::size_t points = 0;                       ///< of the last map
     std::size_t chunks = 0, chunks_rendered = 0;  ///< all; by the last render()
     std::size_t updates_missed = 0;               ///< revisions of the graph that did not arrive
+    std::size_t constraints = 0;                  ///< from planes, taken
+    std::size_t constraints_shared = 0;           ///< left out: an ICP closure rests on the same beams
   };
 
   LiveMap(const Parameters& parameters, std::string store_path);
@@ -45,6 +52,10 @@ class LiveMap {
   /// A pose earlier than the last one by over a second begins a new session.
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
+  /// A pose of the graph: constraints are between such poses.
+  void addNode(urban_nav_core::StampNs stamp) { nodes_.insert(stamp); }
+  /// A closure of the running session; ignored unless it was accepted and measured by ICP.
+  void addClosure(const urban_nav_core::MetricClosure& closure);
 
   /// A part of the map that render() has changed.
   struct ChangedTile {
@@ -62,6 +73,10 @@ class LiveMap {
   void repeatAll();
   /// Returns how well the passes of the last map agree.
   MapQuality measureQuality();
+  /// Brings the chunks up to date and returns what planes that two passes measured tell of the poses of the graph
+  /// (plane_constraints.hpp), each pair of stretches once: when the robot has driven on so far that no more beams of
+  /// them come, nor an ICP closure from these beams. Poses are those of the running session.
+  std::vector<urban_nav_core::RelativeConstraint> takeConstraints();
   /// Renders the map and writes it as map.ply. Returns the number of points. Throws UserError or DataError naming the
   /// path.
   std::size_t save(const std::string& path);
@@ -74,6 +89,8 @@ class LiveMap {
 
  private:
   void open();
+  void update(LaserMap& map);
+  std::vector<CloudClosure> cloudClosures(const urban_nav_core::Trajectory& trajectory) const;
   urban_nav_core::Trajectory trajectory() const;
   /// What was sent of a tile, and what it is now.
   struct TileState {
@@ -89,6 +106,9 @@ class LiveMap {
   std::unique_ptr<urban_nav_store::Store> store_;
   std::map<std::string, urban_nav_core::Pose> placed_;
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_, T_map_base_;
+  std::set<urban_nav_core::StampNs> nodes_;
+  std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>> by_icp_;  ///< ends of accepted closures
+  std::set<std::pair<std::int64_t, std::int64_t>> decided_;  ///< pairs of stretches that constraints were taken of
   std::optional<std::int64_t> revision_;
   std::map<Tile, TileState> tiles_;
   Counts counts_;

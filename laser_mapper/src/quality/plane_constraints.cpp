@@ -22,8 +22,7 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr StampNs kGroupTime = 4'000'000'000;  // as a chunk: the drift within is less than the error of the lasers
-constexpr double kMostSpread = 1.5;            // s, standard deviation of a patch's stamps: it belongs to one pose
+constexpr double kMostSpread = 1.5;  // s, standard deviation of a patch's stamps: it belongs to one pose
 constexpr std::size_t kFewestPlanes = 3;
 constexpr double kChi2 = 16.27;         // of 3 degrees of freedom, 99.9 %
 constexpr double kLeastAgreeing = 0.7;  // of the planes of a group
@@ -143,7 +142,7 @@ Matrix6d addNoise(const Matrix6d& information, const Matrix6d& noise) {
 using GroupKey = std::tuple<std::size_t, StampNs, std::size_t, StampNs>;
 
 StampNs stretchAt(const Trajectory& trajectory, StampNs stamp) {
-  return (stamp - trajectory.front().stamp) / kGroupTime;
+  return (stamp - trajectory.front().stamp) / kPlaneGroupTime;
 }
 
 StampNs meanStamp(const std::vector<PlaceOfPair>& group, const PlanePatch* PlaceOfPair::*patch) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
+#include "support/room_rounds.hpp"
 #include "support/scanned_room.hpp"
 #include "urban_nav_core/io/cloud/cloud_file.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -81,6 +83,85 @@ TEST_F(LiveMapTest, ASessionThatBeginsAgainForgetsTheOneBefore) {
 TEST_F(LiveMapTest, ScansOfALaserWithoutAPlaceAreCounted) {
   map_.addScan("laser_right", urban_nav_core::Scan());
   EXPECT_EQ(map_.counts().scans_unplaced, 1U);
+}
+
+/// Two rounds through the room by a robot whose odometry drifts; a pose in five is one of the graph.
+class LiveConstraintsTest : public ::testing::Test {
+ protected:
+  static constexpr std::size_t kNodeStep = 5;
+
+  LiveConstraintsTest() : map_(Parameters(), ::testing::TempDir() + "live_constraints_test.db") {
+    map_.placeLaser("laser_right", testing_room::outwardLaser());
+    std::mt19937 random(5);
+    for (urban_nav_core::StampNs stamp = truth_.front().stamp; stamp < truth_.back().stamp; stamp += 40'000'000)
+      map_.addScan("laser_right", testing_room::scanRoom(truth_, testing_room::outwardLaser(), stamp, 0.005, random));
+  }
+  void drive(std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < std::min(to, truth_.size()); ++i) {
+      map_.addOdometry(drifting_[i]);
+      if (i % kNodeStep == 0) map_.addNode(drifting_[i].stamp);
+    }
+  }
+  void closeByIcp(double a, double b, urban_nav_core::ClosureVerdict verdict) {
+    urban_nav_core::MetricClosure closure;
+    closure.a.stamp = truth_.front().stamp + std::llround(1e9 * a);
+    closure.b.stamp = truth_.front().stamp + std::llround(1e9 * b);
+    closure.method = urban_nav_core::ClosureMethod::Icp;
+    closure.verdict = verdict;
+    map_.addClosure(closure);
+  }
+  double error(const Pose& T_a_b, const urban_nav_core::RelativeConstraint& of) const {
+    const Pose T_true = truth_[truth_.nearest(of.a.stamp)].pose.inverse() * truth_[truth_.nearest(of.b.stamp)].pose;
+    const urban_nav_core::Vector6d e = urban_nav_core::boxMinus(T_a_b, T_true);
+    return e.dot(of.measured.information * e);
+  }
+
+  const urban_nav_core::Trajectory truth_ = testing_room::driveRounds();
+  const urban_nav_core::Trajectory drifting_ = testing_room::driftFrom(truth_, 0.1);
+  LiveMap map_;
+};
+
+TEST_F(LiveConstraintsTest, PlanesOfTwoPassesConstrainPosesOfTheGraphOnce) {
+  drive(0, truth_.size() - 100);
+  const auto first = map_.takeConstraints();
+  ASSERT_GT(first.size(), 2U);
+  double before = 0.0, after = 0.0;
+  for (const urban_nav_core::RelativeConstraint& constraint : first) {
+    EXPECT_EQ(constraint.kind, "plane");
+    EXPECT_TRUE(constraint.a.session.empty() && constraint.b.session.empty());
+    for (const urban_nav_core::PoseRef* ref : {&constraint.a, &constraint.b})
+      EXPECT_EQ((ref->stamp - truth_.front().stamp) % (kNodeStep * 50'000'000), 0) << "a pose of the graph";
+    after += error(constraint.measured.T_a_b, constraint);
+    before += error(drifting_[truth_.nearest(constraint.a.stamp)].pose.inverse() *
+                        drifting_[truth_.nearest(constraint.b.stamp)].pose,
+                    constraint);
+  }
+  EXPECT_LT(after, 0.1 * before);
+  EXPECT_TRUE(map_.takeConstraints().empty()) << "they have been taken";
+  drive(truth_.size() - 100, truth_.size());
+  for (const auto& constraint : map_.takeConstraints())
+    EXPECT_GT(std::max(constraint.a.stamp, constraint.b.stamp), first.back().b.stamp - kPlaneGroupTime);
+}
+
+TEST_F(LiveConstraintsTest, BeamsOfAnIcpClosureAreNotUsedAgain) {
+  closeByIcp(20.0, 55.0, urban_nav_core::ClosureVerdict::Rejected);
+  closeByIcp(-500.0, 55.0, urban_nav_core::ClosureVerdict::Accepted);  // with an earlier session
+  closeByIcp(12.0, 47.0, urban_nav_core::ClosureVerdict::Accepted);
+  drive(0, truth_.size());
+  const auto taken = map_.takeConstraints();
+  EXPECT_GT(map_.counts().constraints_shared, 0U);
+  EXPECT_EQ(map_.counts().constraints, taken.size());
+  // Clouds of 10 m are 6.5 s to both sides at the largest speed.
+  const auto seconds = [&](const urban_nav_core::PoseRef& ref) {
+    return urban_nav_core::secondsBetween(truth_.front().stamp, ref.stamp);
+  };
+  for (const auto& constraint : taken)
+    EXPECT_FALSE(std::abs(seconds(constraint.a) - 12.0) < 6.5 && std::abs(seconds(constraint.b) - 47.0) < 6.5);
+}
+
+TEST_F(LiveConstraintsTest, WithoutPosesOfTheGraphThereAreNone) {
+  for (const urban_nav_core::StampedPose& pose : drifting_) map_.addOdometry(pose);
+  EXPECT_TRUE(map_.takeConstraints().empty());
 }
 
 TEST(LiveMapFile, IsRemovedWithTheMap) {

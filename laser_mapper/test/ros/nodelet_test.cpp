@@ -9,6 +9,7 @@
 #include <urban_nav_msgs/GraphUpdate.h>
 #include <urban_nav_msgs/MapQuality.h>
 #include <urban_nav_msgs/MapTile.h>
+#include <urban_nav_msgs/RelativeConstraint.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
 
@@ -18,6 +19,8 @@
 #include <limits>
 #include <map>
 
+#include "support/room_rounds.hpp"
+#include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/pose.hpp"
@@ -41,6 +44,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     keep("map/cloud", clouds);
     keep("map/quality", qualities);
     keep("map/tiles", tiles);
+    keep("map/constraints", constraints);
     keep("laser_mapper/status", statuses);
   }
   static StampNs toStamp(int frame) { return kDriveStart + frame * 50'000'000LL; }
@@ -61,6 +65,32 @@ class WallRobot : public urban_nav_ros::testing::Listener {
       odometry.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base(i));
       odometry_.publish(odometry);
       if (i > 0) left_.publish(scan(toStamp(i)));
+    }
+  }
+  /// Two rounds through a room with an odometry that drifts from the truth; poses every 100 ms.
+  void driveRounds(const urban_nav_core::Trajectory& truth, const urban_nav_core::Trajectory& odometry) {
+    tf2_msgs::TFMessage place;
+    place.transforms.push_back(
+        urban_nav_ros::toStaticTransform("base_link", "laser_right", testing_room::outwardLaser()));
+    tf_static_.publish(place);
+    ros::WallDuration(0.3).sleep();  // transforms come on another connection than scans
+    std::mt19937 random(3);
+    for (std::size_t i = 0; i < truth.size(); i += 2) {
+      nav_msgs::Odometry pose;
+      pose.header.stamp = urban_nav_ros::toRosTime(odometry[i].stamp);
+      pose.pose.pose = urban_nav_ros::toPoseMessage(odometry[i].pose);
+      odometry_.publish(pose);
+      if (i == 0) continue;
+      urban_nav_core::RelativePose step;
+      step.from = odometry[i - 2].stamp;
+      step.to = odometry[i].stamp;
+      step.T_from_to = odometry[i - 2].pose.inverse() * odometry[i].pose;
+      step.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
+      relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
+      ros::WallDuration(0.002).sleep();  // no faster than a connection
+      for (const StampNs ahead : {-80'000'000, -40'000'000})
+        right_.publish(toMessage(
+            testing_room::scanRoom(truth, testing_room::outwardLaser(), truth[i].stamp + ahead, 0.005, random)));
     }
   }
   /// The graph moves all poses by dz.
@@ -95,11 +125,24 @@ class WallRobot : public urban_nav_ros::testing::Listener {
   }
 
   std::vector<urban_nav_msgs::MapQuality> qualities;
+  std::vector<urban_nav_msgs::RelativeConstraint> constraints;
   std::vector<urban_nav_msgs::MapTile> tiles;
   std::vector<sensor_msgs::PointCloud2> clouds;
   std::vector<urban_nav_msgs::StageStatus> statuses;
 
  private:
+  static sensor_msgs::LaserScan toMessage(const urban_nav_core::Scan& scan) {
+    sensor_msgs::LaserScan message;
+    message.header.stamp = urban_nav_ros::toRosTime(scan.stamp);
+    message.header.frame_id = "laser_right";
+    message.angle_min = static_cast<float>(-45.0 * M_PI / 180.0);
+    message.angle_increment = static_cast<float>(0.5 * M_PI / 180.0);
+    message.angle_max = static_cast<float>(45.0 * M_PI / 180.0);
+    message.time_increment = 18.5e-6F;
+    message.range_max = 80.0F;
+    for (const urban_nav_core::Beam& beam : scan.beams) message.ranges.push_back(beam.range);
+    return message;
+  }
   static sensor_msgs::LaserScan scan(StampNs stamp) {
     sensor_msgs::LaserScan message;
     message.header.stamp = urban_nav_ros::toRosTime(stamp);
@@ -185,6 +228,35 @@ TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
 
   ASSERT_TRUE(robot.call("clear"));
   ASSERT_TRUE(WallRobot::until([&] { return robot.pointsOfTiles() == 0; })) << "tiles are emptied";
+}
+
+TEST(LaserMapperNodelet, PlanesOfTwoRoundsConstrainThePosesOfTheGraph) {
+  WallRobot robot;
+  ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
+  ASSERT_TRUE(robot.call("clear"));
+  const urban_nav_core::Trajectory truth = testing_room::driveRounds();
+  const urban_nav_core::Trajectory drifting = testing_room::driftFrom(truth, 0.1);
+  robot.driveRounds(truth, drifting);
+  for (int i = 0; i < 5 && robot.constraints.size() < 3; ++i)  // clouds are made meanwhile
+    WallRobot::until([&] { return robot.constraints.size() > 2; });
+  ASSERT_GT(robot.constraints.size(), 2U);
+  double before = 0.0, after = 0.0;
+  for (const urban_nav_msgs::RelativeConstraint& message : robot.constraints) {
+    const auto constraint = urban_nav_ros::toRelativeConstraint(message);
+    ASSERT_TRUE(constraint);
+    EXPECT_EQ(constraint->kind, "plane");
+    EXPECT_EQ(constraint->source, "laser_mapper");
+    const std::size_t a = truth.nearest(constraint->a.stamp), b = truth.nearest(constraint->b.stamp);
+    EXPECT_EQ(truth[a].stamp, constraint->a.stamp);
+    EXPECT_EQ(truth[b].stamp, constraint->b.stamp);
+    const auto squared = [&](const Pose& T_a_b) {
+      const urban_nav_core::Vector6d error = urban_nav_core::boxMinus(T_a_b, truth[a].pose.inverse() * truth[b].pose);
+      return error.dot(constraint->measured.information * error);
+    };
+    after += squared(constraint->measured.T_a_b);
+    before += squared(drifting[a].pose.inverse() * drifting[b].pose);
+  }
+  EXPECT_LT(after, 0.2 * before);
 }
 
 TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {

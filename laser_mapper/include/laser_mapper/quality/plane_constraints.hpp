@@ -11,6 +11,10 @@
 
 namespace laser_mapper {
 
+/// Duration of the stretches of a session whose planes make one constraint: the drift within is less than the error of
+/// the lasers. They are counted from the first pose of the session.
+constexpr urban_nav_core::StampNs kPlaneGroupTime = 4'000'000'000;
+
 /// What planes that were seen in two passes tell of the robot's poses there (Newman et al. 2009, section 6.3).
 struct PlaneConstraint {
   std::size_t session_a = 0, session_b = 0;          ///< indices, as in PlanePatch
@@ -18,7 +22,7 @@ struct PlaneConstraint {
   /// T_a_b of base_link. The information is zero in the directions that the planes do not tell: along a single plane
   /// and about its normal.
   urban_nav_core::Constraint measured;
-  /// Stretches of 4 s since the first pose that the planes were seen in.
+  /// Numbers of the stretches of kPlaneGroupTime that the planes were seen in.
   std::int64_t stretch_a = 0, stretch_b = 0;
   std::size_t planes = 0;  ///< that it rests on, at least 3
 };

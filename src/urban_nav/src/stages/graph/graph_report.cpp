@@ -44,7 +44,7 @@ Series makeLinks(const GraphRun& graph, urban_nav_core::ClosureVerdict verdict, 
     return {t.x(), t.y()};
   };
   for (const auto& [id, closure] : graph.graph.closures()) {
-    if (closure.verdict != verdict) continue;
+    if (closure.verdict != verdict || closure.kind == pose_graph::EdgeKind::Plane) continue;
     series.points.push_back(place(closure.a));
     series.points.push_back(place(closure.b));
     series.points.push_back({gap, gap});
@@ -161,6 +161,42 @@ Json toJson(const pose_graph::Level& level) {
   return json;
 }
 
+Json sessionsJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evaluations) {
+  Json sessions = Json::array();
+  for (std::size_t i = 0; i < graph.sessions.size(); ++i) {
+    Json session = Json::object();
+    session["name"] = graph.sessions[i];
+    session["map"] = graph.sessions[graph.findMap(i)];
+    const urban_nav_core::Trajectory trajectory = graph.trajectory(i);
+    session["frames"] = trajectory.size();
+    session["length_m"] = trajectory.length();
+    const SessionEvaluations compared = i < evaluations.size() ? evaluations[i] : SessionEvaluations();
+    if (compared.odometry && compared.map) {
+      const Evaluation &before = *compared.odometry, &after = *compared.map;
+      session["ate_m_odometry"] = before.first.rmse;
+      session["ate_m"] = after.first.rmse;
+      session["ate_se3_m_odometry"] = before.se3.rmse;
+      session["ate_se3_m"] = after.se3.rmse;
+      if (before.nees) session["nees_odometry"] = before.nees->mean;
+      if (after.nees) session["nees"] = after.nees->mean;
+    }
+    sessions.append(session);
+  }
+  return sessions;
+}
+
+Json planesJson(const GraphRun& graph) {
+  const VerdictCounts planes = graph.planeVerdicts();
+  Json json = Json::object();
+  json["constraints"] = planes.all();
+  json["accepted"] = planes.accepted;
+  json["shared_with_icp"] = graph.planes.shared;
+  json["rounds"] = graph.planes.rounds;
+  json["moved_m"] = graph.planes.moved;
+  json["ms"] = graph.planes.ms;
+  return json;
+}
+
 }  // namespace
 
 Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& runs,
@@ -186,18 +222,25 @@ Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& run
 std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   const pose_graph::Relaxed& relaxed = graph.relaxed;
   std::vector<Verdict> made;
-  const std::string of = std::to_string(relaxed.accepted) + " of " + count(graph.closures.size(), "closure") +
-                         " accepted, " + std::to_string(relaxed.rejected) + " rejected, " +
-                         std::to_string(relaxed.waiting) + " waiting for a second one that agrees";
+  const VerdictCounts closures = graph.closureVerdicts();
+  const std::string of = std::to_string(closures.accepted) + " of " + count(graph.closures.size(), "closure") +
+                         " accepted, " + std::to_string(closures.rejected) + " rejected, " +
+                         std::to_string(closures.waiting) + " waiting for a second one that agrees";
+  const VerdictCounts planes = graph.planeVerdicts();
+  const std::string besides = planes.accepted > 0 ? " and of the planes" : "";
   if (graph.closures.empty()) {
-    made.push_back({Grade::Plain, "No closures.", "The map is that of odometry."});
-  } else if (relaxed.accepted == 0) {
-    made.push_back({Grade::Fair, "No closure was accepted.", of + "; the map is that of odometry."});
+    made.push_back({Grade::Plain, "No closures.", "The map is that of odometry" + besides + "."});
+  } else if (closures.accepted == 0) {
+    made.push_back({Grade::Fair, "No closure was accepted.", of + "; the map is that of odometry" + besides + "."});
   } else {
-    made.push_back({Grade::Good, "Relaxed over " + count(relaxed.accepted, "closure") + ".",
+    made.push_back({Grade::Good, "Relaxed over " + count(closures.accepted, "closure") + ".",
                     of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " +
                         forPerson(relaxed.cost_after, 4) + "."});
   }
+  if (planes.all() > 0)
+    made.push_back({Grade::Good, "Planes that several passes measured hold the map together.",
+                    std::to_string(planes.accepted) + " of " + count(planes.all(), "constraint") +
+                        " accepted; they moved poses by up to " + forPerson(graph.planes.moved, 3) + " m."});
   const double boast = std::sqrt(graph.graph.odometryVariance());
   if (boast > kBoasts)
     made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states,",
@@ -224,9 +267,10 @@ Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evalua
   json["poses"] = relaxed.poses;
   json["edges"] = relaxed.edges;
   json["edges_rejected"] = relaxed.rejected + relaxed.waiting;
-  json["closures"] = relaxed.closures;
-  json["closures_accepted"] = relaxed.accepted;
-  json["closures_waiting"] = relaxed.waiting;
+  const VerdictCounts closures = graph.closureVerdicts();
+  json["closures"] = closures.all();
+  json["closures_accepted"] = closures.accepted;
+  json["closures_waiting"] = closures.waiting;
   json["cost_before"] = relaxed.cost_before;
   json["cost_after"] = relaxed.cost_after;
   json["odometry_variance"] = graph.graph.odometryVariance();
@@ -247,33 +291,16 @@ Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evalua
     gps["sigma_factor"] = fixes.sigma_factor;
     gps["moved_m"] = fixes.moved;
   }
+  if (graph.planes.searched) json["planes"] = planesJson(graph);
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : graph.warnings) warnings.append(warning);
-  Json sessions = Json::array();
-  for (std::size_t i = 0; i < graph.sessions.size(); ++i) {
-    Json session = Json::object();
-    session["name"] = graph.sessions[i];
-    session["map"] = graph.sessions[graph.findMap(i)];
-    const urban_nav_core::Trajectory trajectory = graph.trajectory(i);
-    session["frames"] = trajectory.size();
-    session["length_m"] = trajectory.length();
-    const SessionEvaluations compared = i < evaluations.size() ? evaluations[i] : SessionEvaluations();
-    if (compared.odometry && compared.map) {
-      const Evaluation &before = *compared.odometry, &after = *compared.map;
-      session["ate_m_odometry"] = before.first.rmse;
-      session["ate_m"] = after.first.rmse;
-      session["ate_se3_m_odometry"] = before.se3.rmse;
-      session["ate_se3_m"] = after.se3.rmse;
-      if (before.nees) session["nees_odometry"] = before.nees->mean;
-      if (after.nees) session["nees"] = after.nees->mean;
-      if (!json.has("ate_m_odometry")) {
-        json["ate_m_odometry"] = before.first.rmse;
-        json["ate_se3_m_odometry"] = before.se3.rmse;
-      }
-    }
-    sessions.append(session);
+  json["per_session"] = sessionsJson(graph, evaluations);
+  for (const SessionEvaluations& compared : evaluations) {
+    if (!compared.odometry || !compared.map) continue;
+    json["ate_m_odometry"] = compared.odometry->first.rmse;
+    json["ate_se3_m_odometry"] = compared.odometry->se3.rmse;
+    break;
   }
-  json["per_session"] = sessions;
   return json;
 }
 

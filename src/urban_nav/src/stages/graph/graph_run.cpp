@@ -26,6 +26,9 @@ namespace {
 
 constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
 
+constexpr std::size_t kPlaneRounds = 2;
+constexpr double kSettled = 0.005;  // m: less does not change which planes are found, nor where
+
 constexpr double kManyRejected = 3.0;  // one fix of so many: said to the user
 constexpr double kOptimistic = 2.0;    // times the stated deviation: likewise
 
@@ -67,6 +70,54 @@ pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const VoRun*>& run
   for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;
   pose_graph::run(batch);
   return graph.take(batch);
+}
+
+std::vector<pose_graph::ClosureId> planeIds(const PoseGraph& graph) {
+  std::vector<pose_graph::ClosureId> ids;
+  for (const auto& [id, closure] : graph.closures())
+    if (closure.kind == pose_graph::EdgeKind::Plane) ids.push_back(id);
+  return ids;
+}
+
+/// Returns the largest distance between poses before and after, each in the frame of its map's first pose.
+double largestMove(const std::vector<Track>& before, const std::vector<Track>& after) {
+  double largest = 0.0;
+  for (std::size_t t = 0; t < before.size(); ++t)
+    for (std::size_t i = 0; i < before[t].map.size(); ++i)
+      largest = std::max(largest, distanceBetween(before[t].map[i], after[t].map[i]));
+  return largest;
+}
+
+/// Relaxes again with what the planes of the relaxed map tell, until that no longer moves it.
+void relaxWithPlanes(GraphRun& run, const std::vector<const VoRun*>& runs, const PlaneFinder& find_planes) {
+  const auto begin = Clock::now();
+  const std::vector<Track> without_planes = run.graph.tracks();
+  run.planes.searched = true;
+  double moved = kSettled;
+  while (run.planes.rounds < kPlaneRounds && moved >= kSettled) {
+    const PlaneClosures found = find_planes(run);
+    const std::vector<pose_graph::ClosureId> earlier = planeIds(run.graph);
+    run.planes.shared = found.shared;
+    if (found.closures.empty() && earlier.empty()) break;
+    for (const pose_graph::ClosureId id : earlier) run.graph.removeClosure(id);
+    for (const Closure& closure : found.closures) run.graph.addClosure(closure);
+    const std::vector<Track> before = run.graph.tracks();
+    run.relaxed = relax(run.graph, runs);
+    moved = largestMove(before, run.graph.tracks());
+    ++run.planes.rounds;
+  }
+  run.planes.moved = largestMove(without_planes, run.graph.tracks());
+  run.planes.ms = millisecondsSince(begin);
+}
+
+VerdictCounts countVerdicts(const PoseGraph& graph, bool of_planes) {
+  VerdictCounts counts;
+  for (const auto& [id, closure] : graph.closures()) {
+    if ((closure.kind == pose_graph::EdgeKind::Plane) != of_planes) continue;
+    if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted) ++counts.accepted;
+    else ++(closure.verdict == urban_nav_core::ClosureVerdict::Waiting ? counts.waiting : counts.rejected);
+  }
+  return counts;
 }
 
 // All sessions from one factorisation.
@@ -192,6 +243,9 @@ std::size_t GraphRun::sessionsJoined() const {
   return count;
 }
 
+VerdictCounts GraphRun::closureVerdicts() const { return countVerdicts(graph, false); }
+VerdictCounts GraphRun::planeVerdicts() const { return countVerdicts(graph, true); }
+
 Trajectory GraphRun::trajectory(std::size_t session) const {
   const Trajectory track = relaxedTrack(*this, session);
   const std::size_t map = findMap(session);
@@ -201,7 +255,8 @@ Trajectory GraphRun::trajectory(std::size_t session) const {
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds, const SessionFixes& fixes) {
+                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds, const SessionFixes& fixes,
+                  const PlaneFinder& find_planes) {
   GraphRun made;
   made.graph = PoseGraph(parameters);
   made.sessions = sessions;
@@ -215,6 +270,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   const auto begin = Clock::now();
   made.relaxed = relax(made.graph, runs);
   made.ms = millisecondsSince(begin);
+  if (find_planes) relaxWithPlanes(made, runs, find_planes);
   judge(made, ids, known.size());
   addFixWarnings(parameters, made);
   const auto relaxed = Clock::now();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "laser_mapper/parameters.hpp"
 #include "pose_graph/ground_views.hpp"
 #include "pose_graph/stored_fixes.hpp"
 #include "report/plot.hpp"
@@ -13,6 +14,8 @@
 #include "stages/graph/graph_run.hpp"
 #include "stages/graph/graph_store_export.hpp"
 #include "stages/graph/graph_trajectories.hpp"
+#include "stages/graph/plane_closures.hpp"
+#include "urban_nav_registration/parameters.hpp"
 
 namespace urban_nav {
 
@@ -30,6 +33,16 @@ std::vector<PreviousClosure> previousClosures(const MapContext& context) {
     names.push_back(context.names[context.previous.names.size() + i]);
   }
   return closuresBetween(*context.store, ids, names);
+}
+
+/// Takes the constraints from planes out of closures of earlier runs.
+std::vector<pose_graph::Closure> takePlanes(std::vector<PreviousClosure>& closures) {
+  const auto is_other = [](const PreviousClosure& each) { return each.closure.kind != pose_graph::EdgeKind::Plane; };
+  const auto first = std::stable_partition(closures.begin(), closures.end(), is_other);
+  std::vector<pose_graph::Closure> planes;
+  for (auto each = first; each != closures.end(); ++each) planes.push_back(each->closure);
+  closures.erase(first, closures.end());
+  return planes;
 }
 
 /// Returns whether the stage loops has accepted a closure by ICP.
@@ -56,7 +69,11 @@ SessionFixes readFixes(const MapContext& context) {
 class GraphStage final : public Stage {
  public:
   Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
-  void addTables(ParameterSet& parameters) const override { parameters.add(pose_graph::table()); }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(pose_graph::table());
+    parameters.add(urban_nav_registration::table());
+    parameters.add(laser_mapper::table());
+  }
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!isRequested(options, "graph")) return {false, "not in --stages", {}};
@@ -72,10 +89,11 @@ class GraphStage final : public Stage {
   Messages run(MapContext& context) override {
     const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
     const std::vector<const VoRun*> runs = context.runs();
-    const std::vector<PreviousClosure> previous = previousClosures(context);
+    std::vector<PreviousClosure> previous = previousClosures(context);
+    const PlaneFinder find_planes = makePlaneFinder(context, takePlanes(previous));
     const SessionGrounds grounds = readGrounds(context);
     const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
-    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes);
+    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes);
     if (anyMeasuredByIcp(context.closures)) {
       std::vector<ClosureRow> by_stereo;
       for (const ClosureRow& row : context.closures)
@@ -106,18 +124,42 @@ class GraphStage final : public Stage {
  private:
   static bool usesGps(const MapContext& context) { return context.options.parameters.get(pose_graph::table()).gps; }
 
+  /// Returns how to find constraints from planes: in the scans, or, without stage lasers, those that `earlier` runs
+  /// have found; empty: there are none.
+  static PlaneFinder makePlaneFinder(MapContext& context, std::vector<pose_graph::Closure> earlier) {
+    const laser_mapper::Parameters& parameters = context.options.parameters.get(laser_mapper::table());
+    if (!isRequested(context.options, "lasers")) {
+      if (earlier.empty()) return {};
+      return [earlier = std::move(earlier)](const GraphRun&) { return PlaneClosures{earlier, 0}; };
+    }
+    if (!parameters.constraints) return {};
+    const double half_length = context.options.parameters.get(urban_nav_registration::table()).cloud_half_length;
+    return [&parameters, &context, half_length](const GraphRun& run) {
+      return findPlaneClosures(parameters, *context.store, context.ids(), run, half_length);
+    };
+  }
+
   std::vector<std::string> describeRun() const {
     const pose_graph::Relaxed& relaxed = run_->relaxed;
+    const VerdictCounts closures = run_->closureVerdicts(), planes = run_->planeVerdicts();
     const pose_graph::Level& level = run_->levels.front();
     const pose_graph::FixUse& fixes = run_->graph.fixUse();
     std::vector<std::string> lines = {
-        "graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
-            std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
+        "graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(closures.all()) + " closures, " +
+            std::to_string(closures.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
             forPerson(relaxed.cost_after, 5) + " in " + forPerson(run_->ms, 3) + " ms",
         level.known()
             ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
                   " (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
             : "map not aligned with gravity: " + level.sentence};
+    if (run_->planes.searched)
+      lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
+                      std::to_string(planes.accepted) + " accepted" +
+                      (run_->planes.shared > 0
+                           ? ", " + std::to_string(run_->planes.shared) + " left out for ICP closures by the same beams"
+                           : "") +
+                      "; poses moved by up to " + forPerson(run_->planes.moved, 3) + " m in " +
+                      forPerson(1e-3 * run_->planes.ms, 3) + " s");
     if (fixes.used > 0)
       lines.push_back("GPS: " + std::to_string(fixes.used) + " of " +
                       std::to_string(fixes.used + fixes.rejected + fixes.unplaced) +

@@ -10,6 +10,7 @@
 #include "stage/trajectory_files.hpp"
 #include "stages/graph/graph_g2o.hpp"
 #include "stages/graph/graph_trajectories.hpp"
+#include "support/circle_drive.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/covariance_csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
@@ -21,57 +22,14 @@ namespace urban_nav {
 namespace {
 
 using Eigen::Vector3d;
+using testing::closure;
+using testing::driveCircle;
+using testing::kStep;
+using testing::truthAt;
 using urban_nav_core::expSo3;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
-
-constexpr StampNs kStep = 50'000'000;
-
-// A circle of 10 m, once in 600 steps.
-Pose truthAt(double step) {
-  const double angle = 2.0 * M_PI * step / 600.0;
-  return Pose(expSo3(Vector3d(0.0, 0.0, angle)), Vector3d(10.0 * std::sin(angle), 10.0 - 10.0 * std::cos(angle), 0.0));
-}
-
-/// Odometry that turns a little too far at each step.
-VoRun drive(int first, int last, double turn) {
-  VoRun run;
-  Pose odom;
-  for (int i = first; i <= last; ++i) {
-    swf_vo::Settled settled;
-    settled.stamp = i * kStep;
-    settled.from_previous.from = (i == first ? i : i - 1) * kStep;
-    settled.from_previous.to = i * kStep;
-    settled.from_previous.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
-    if (i > first) {
-      settled.from_previous.T_from_to =
-          truthAt(i - 1).inverse() * truthAt(i) * Pose(expSo3(Vector3d(0, 0, turn)), Vector3d::Zero());
-      odom = odom * settled.from_previous.T_from_to;
-    }
-    settled.T_odom_base.pose = odom;
-    settled.T_odom_base.covariance = 1e-5 * (i - first) * urban_nav_core::Matrix6d::Identity();
-    run.settled.push_back(settled);
-    VoRow row;
-    row.stamp = settled.stamp;
-    run.rows.push_back(row);
-  }
-  return run;
-}
-
-ClosureRow closure(const std::string& a, double step_a, const std::string& b, double step_b) {
-  ClosureRow row;
-  row.session_a = a;
-  row.session_b = b;
-  row.stamp_a = static_cast<StampNs>(step_a * static_cast<double>(kStep));
-  row.stamp_b = static_cast<StampNs>(step_b * static_cast<double>(kStep));
-  row.kind = "stereo";
-  row.T_a_b = truthAt(step_a).inverse() * truthAt(step_b);
-  row.sigma_m = 0.02;
-  row.sigma_rad = 0.005;
-  row.where = a + std::to_string(step_a) + b + std::to_string(step_b);
-  return row;
-}
 
 /// Writes the files of a run that relaxes.
 void writeFiles(const OutputFolder& folder, const GraphRun& graph, const std::vector<const VoRun*>& runs) {
@@ -90,7 +48,7 @@ double worstError(const urban_nav_core::Trajectory& trajectory, const Pose& T_tr
 }
 
 TEST(GraphRunTest, relaxesSessionsIntoOneMap) {
-  const VoRun monday = drive(0, 1200, 2e-4), tuesday = drive(300, 900, -1e-4);
+  const VoRun monday = driveCircle(0, 1200, 2e-4), tuesday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
   // Moments between frames, so that odometry has to carry them.
   for (int i = 20; i < 600; i += 60) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
@@ -116,7 +74,7 @@ TEST(GraphRunTest, relaxesSessionsIntoOneMap) {
 }
 
 TEST(GraphRunTest, keepsApartWhatNothingJoins) {
-  const VoRun monday = drive(0, 300, 0.0), tuesday = drive(0, 300, 0.0);
+  const VoRun monday = driveCircle(0, 300, 0.0), tuesday = driveCircle(0, 300, 0.0);
   const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, {});
   EXPECT_TRUE(run.joined(0));
   EXPECT_FALSE(run.joined(1));
@@ -125,7 +83,7 @@ TEST(GraphRunTest, keepsApartWhatNothingJoins) {
 }
 
 TEST(GraphRunTest, leavesASessionWithoutClosuresAsOdometryHasIt) {
-  const VoRun monday = drive(0, 700, 0.0), tuesday = drive(0, 300, 0.0);
+  const VoRun monday = driveCircle(0, 700, 0.0), tuesday = driveCircle(0, 300, 0.0);
   ClosureRow wrong = closure("tuesday", 10.0, "tuesday", 290.0);
   wrong.T_a_b = Pose(Eigen::Quaterniond::Identity(), Vector3d(30.0, 0.0, 0.0)) * *wrong.T_a_b;
   const GraphRun run =
@@ -140,7 +98,7 @@ TEST(GraphRunTest, leavesASessionWithoutClosuresAsOdometryHasIt) {
 }
 
 TEST(GraphRunTest, usesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
-  const VoRun run = drive(0, 1200, 1e-3);
+  const VoRun run = driveCircle(0, 1200, 1e-3);
   const urban_nav_core::LocalTangent tangent({0.9, 0.0, 100.0});
   constexpr double kDegrees = 180.0 / M_PI;
   std::vector<urban_nav_core::PositionFix> fixes;
@@ -168,7 +126,7 @@ TEST(GraphRunTest, usesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
 }
 
 TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
-  const VoRun monday = drive(0, 900, 2e-4), tuesday = drive(300, 900, -1e-4);
+  const VoRun monday = driveCircle(0, 900, 2e-4), tuesday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
   for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
   for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i + 0.4, "tuesday", i + 0.2));
@@ -196,7 +154,8 @@ TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
 }
 
 TEST(GraphRunTest, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
-  const VoRun monday = drive(0, 300, 0.0), tuesday = drive(300, 900, 1e-4), friday = drive(300, 900, -1e-4);
+  const VoRun monday = driveCircle(0, 300, 0.0), tuesday = driveCircle(300, 900, 1e-4),
+              friday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
   for (int i = 310; i < 600; i += 60) rows.push_back(closure("tuesday", i, "friday", i + 0.2));
   const GraphRun run = runGraph({}, {&monday, &tuesday, &friday}, {"monday", "tuesday", "friday"}, rows);
@@ -232,7 +191,7 @@ void feel(VoRun& run, const Pose& T_first_level) {
 
 /// Two days on the circle and closures between and within them.
 struct TwoDays {
-  VoRun monday = drive(0, 900, 2e-4), tuesday = drive(300, 900, -1e-4);
+  VoRun monday = driveCircle(0, 900, 2e-4), tuesday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
 
   TwoDays() {
@@ -308,7 +267,7 @@ TEST(GraphRunTest, holdsRollAndPitchBySpecificForce) {
 }
 
 TEST(GraphRunTest, namesClosuresThatCannotBeUsed) {
-  const VoRun monday = drive(0, 300, 0.0);
+  const VoRun monday = driveCircle(0, 300, 0.0);
   std::vector<ClosureRow> rows = {closure("monday", 10, "sunday", 20), closure("monday", 10, "monday", 5000),
                                   closure("monday", 10, "monday", 10.1), closure("monday", 10, "monday", 200),
                                   closure("monday", 10, "sunday", 20)};

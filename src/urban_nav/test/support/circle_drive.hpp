@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "stage/closures_file.hpp"
+#include "stage/vo_run.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace urban_nav::testing {
+
+constexpr urban_nav_core::StampNs kStep = 50'000'000;
+
+/// A circle of 10 m, once in 600 steps.
+inline urban_nav_core::Pose truthAt(double step) {
+  const double angle = 2.0 * M_PI * step / 600.0;
+  return urban_nav_core::Pose(urban_nav_core::expSo3({0.0, 0.0, angle}),
+                              Eigen::Vector3d(10.0 * std::sin(angle), 10.0 - 10.0 * std::cos(angle), 0.0));
+}
+
+/// Odometry that turns a little too far at each step.
+inline VoRun driveCircle(int first, int last, double turn) {
+  VoRun run;
+  urban_nav_core::Pose odom;
+  for (int i = first; i <= last; ++i) {
+    swf_vo::Settled settled;
+    settled.stamp = i * kStep;
+    settled.from_previous.from = (i == first ? i : i - 1) * kStep;
+    settled.from_previous.to = i * kStep;
+    settled.from_previous.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
+    if (i > first) {
+      settled.from_previous.T_from_to =
+          truthAt(i - 1).inverse() * truthAt(i) *
+          urban_nav_core::Pose(urban_nav_core::expSo3({0.0, 0.0, turn}), Eigen::Vector3d::Zero());
+      odom = odom * settled.from_previous.T_from_to;
+    }
+    settled.T_odom_base.pose = odom;
+    settled.T_odom_base.covariance = 1e-5 * (i - first) * urban_nav_core::Matrix6d::Identity();
+    run.settled.push_back(settled);
+    VoRow row;
+    row.stamp = settled.stamp;
+    run.rows.push_back(row);
+  }
+  return run;
+}
+
+/// A stereo closure between two moments of the circle, exact.
+inline ClosureRow closure(const std::string& a, double step_a, const std::string& b, double step_b) {
+  ClosureRow row;
+  row.session_a = a;
+  row.session_b = b;
+  row.stamp_a = static_cast<urban_nav_core::StampNs>(step_a * static_cast<double>(kStep));
+  row.stamp_b = static_cast<urban_nav_core::StampNs>(step_b * static_cast<double>(kStep));
+  row.kind = "stereo";
+  row.T_a_b = truthAt(step_a).inverse() * truthAt(step_b);
+  row.sigma_m = 0.02;
+  row.sigma_rad = 0.005;
+  row.where = a + std::to_string(step_a) + b + std::to_string(step_b);
+  return row;
+}
+
+}  // namespace urban_nav::testing
