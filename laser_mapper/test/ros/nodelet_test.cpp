@@ -19,7 +19,7 @@
 #include <limits>
 #include <map>
 
-#include "support/room_rounds.hpp"
+#include "../support/room_rounds.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
@@ -230,6 +230,15 @@ TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
   ASSERT_TRUE(WallRobot::until([&] { return robot.pointsOfTiles() == 0; })) << "tiles are emptied";
 }
 
+TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {
+  WallRobot robot;
+  ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
+  ASSERT_TRUE(
+      WallRobot::until([&] { return !robot.statuses.empty() && robot.statuses.back().reason_name == "NoOdometry"; }));
+  EXPECT_EQ(robot.statuses.back().status, urban_nav_msgs::StageStatus::DEGRADED);
+  EXPECT_NE(robot.statuses.back().text.find("/vo/odometry"), std::string::npos) << robot.statuses.back().text;
+}
+
 TEST(LaserMapperNodelet, PlanesOfTwoRoundsConstrainThePosesOfTheGraph) {
   WallRobot robot;
   ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
@@ -257,15 +266,6 @@ TEST(LaserMapperNodelet, PlanesOfTwoRoundsConstrainThePosesOfTheGraph) {
     before += squared(drifting[a].pose.inverse() * drifting[b].pose);
   }
   EXPECT_LT(after, 0.2 * before);
-}
-
-TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {
-  WallRobot robot;
-  ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
-  ASSERT_TRUE(
-      WallRobot::until([&] { return !robot.statuses.empty() && robot.statuses.back().reason_name == "NoOdometry"; }));
-  EXPECT_EQ(robot.statuses.back().status, urban_nav_msgs::StageStatus::DEGRADED);
-  EXPECT_NE(robot.statuses.back().text.find("/vo/odometry"), std::string::npos) << robot.statuses.back().text;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "support/scanned_room.hpp"
+#include "scanned_room.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace laser_mapper::testing_room {

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What constraints from planes make of drift: laser scans of a simulated bag (`simulate --sensors lasers`, no images
+// needed) with an odometry made of the truth and a random walk, relaxed with and without them.
+//
+//   urban_nav-bench-plane_drift [-o FILE.json] [--trials 3] BAG...
+//
+// The truth is read from BAG_STEM.truth/trajectory.tum.
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/quality/map_quality.hpp"
+#include "stages/graph/plane_closures.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/trajectory/errors.hpp"
+#include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+
+namespace urban_nav::bench {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_core::Vector6d;
+using urban_nav_core::testing::cell;
+using urban_nav_store::Store;
+
+constexpr const char* kBenchSession = "0123456789abcdef0123";
+constexpr StampNs kFrame = 50'000'000;  // between two poses of odometry
+// Of the random walk, per root of a second: after 100 s some 5 cm by themselves and 0.2 deg, which over the 100 m make
+// some 20 cm more.
+constexpr double kWalkM = 0.005, kWalkRad = 0.0003;
+constexpr double kRevisitM = 3.0, kRevisitS = 30.0;      // poses that are compared
+constexpr double kClosureM = 0.02, kClosureRad = 0.005;  // standard deviations of closures
+constexpr StampNs kClosurePeriod = 4'000'000'000;
+
+/// Puts the scans of a bag and the extrinsics of its lasers into a store.
+void readScans(const std::string& path, Store& store) {
+  store.sessions().put(urban_nav_store::Session{kBenchSession, "drive", "", "", 1, true});
+  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  urban_nav_ros::StaticTransforms transforms;
+  rosbag::View statics(bag, rosbag::TopicQuery(std::string("/tf_static")));
+  for (const rosbag::MessageInstance& instance : statics) transforms.add(*instance.instantiate<tf2_msgs::TFMessage>());
+  for (const char* topic : {"/laser_left/scan", "/laser_right/scan"}) {
+    rosbag::View scans(bag, rosbag::TopicQuery(std::string(topic)));
+    bool is_placed = false;
+    for (const rosbag::MessageInstance& instance : scans) {
+      const auto message = instance.instantiate<sensor_msgs::LaserScan>();
+      const std::string& frame = message->header.frame_id;
+      if (!is_placed)
+        store.sessions().put(kBenchSession, urban_nav_store::Extrinsic{
+                                                frame, *transforms.lookup(urban_nav_core::frames::base_link, frame)});
+      is_placed = true;
+      if (const auto scan = urban_nav_ros::toPlanarScan(*message))
+        store.scans().put(kBenchSession, frame, urban_nav_core::toScan(*scan));
+    }
+  }
+  store.commit();
+}
+
+Trajectory atFrames(const Trajectory& truth) {
+  Trajectory frames;
+  for (StampNs stamp = truth.front().stamp; stamp <= truth.back().stamp; stamp += kFrame)
+    frames.append(stamp, *truth.at(stamp, kFrame));
+  return frames;
+}
+
+/// An odometry that knows how far it may be off.
+VoRun makeOdometry(const Trajectory& truth, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const double root = std::sqrt(1e-9 * static_cast<double>(kFrame));
+  VoRun run;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    swf_vo::Settled settled;
+    settled.stamp = truth[i].stamp;
+    urban_nav_core::RelativePose& step = settled.from_previous;
+    step.from = truth[i == 0 ? 0 : i - 1].stamp;
+    step.to = truth[i].stamp;
+    Vector6d sigma;
+    sigma << Vector6d::Constant(root * kWalkM).head<3>(), Vector6d::Constant(root * kWalkRad).tail<3>();
+    step.covariance = sigma.cwiseAbs2().asDiagonal();
+    step.drift_covariance = step.covariance;
+    if (i > 0) {
+      const Vector6d noise = Vector6d::NullaryExpr([&](Eigen::Index) { return normal(random); });
+      step.T_from_to = urban_nav_core::boxPlus(truth[i - 1].pose.inverse() * truth[i].pose, sigma.cwiseProduct(noise));
+      settled.T_odom_base.pose = run.settled.back().T_odom_base.pose * step.T_from_to;
+    }
+    run.settled.push_back(settled);
+  }
+  return run;
+}
+
+/// Pairs of poses a few seconds apart from each other at one place, by index.
+std::vector<std::pair<std::size_t, std::size_t>> findRevisits(const Trajectory& truth) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  const auto step = static_cast<std::size_t>(kClosurePeriod / kFrame);
+  for (std::size_t b = 0; b < truth.size(); b += step) {
+    std::optional<std::size_t> nearest;
+    double least = kRevisitM;
+    for (std::size_t a = 0; a + static_cast<std::size_t>(kRevisitS * 20.0) < b; ++a)
+      if (const double d = distanceBetween(truth[a].pose, truth[b].pose); d < least) {
+        least = d;
+        nearest = a;
+      }
+    if (nearest) pairs.emplace_back(*nearest, b);
+  }
+  return pairs;
+}
+
+std::vector<ClosureRow> makeClosures(const Trajectory& truth, unsigned seed) {
+  std::mt19937 random(seed + 1000);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::vector<ClosureRow> rows;
+  for (const auto& [a, b] : findRevisits(truth)) {
+    ClosureRow row;
+    row.session_a = row.session_b = "drive";
+    row.stamp_a = truth[a].stamp;
+    row.stamp_b = truth[b].stamp;
+    row.kind = "stereo";
+    Vector6d error = Vector6d::NullaryExpr([&](Eigen::Index) { return normal(random); });
+    error.head<3>() *= kClosureM;
+    error.tail<3>() *= kClosureRad;
+    row.T_a_b = urban_nav_core::boxPlus(truth[a].pose.inverse() * truth[b].pose, error);
+    row.sigma_m = kClosureM;
+    row.sigma_rad = kClosureRad;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+struct Figures {
+  double displacement = 0.0, angle = 0.0;  ///< m, rad: of the walls of all passes
+  double ate = 0.0;                        ///< m, after alignment
+  double revisits = 0.0;                   ///< m, rms error of one pass relative to another
+};
+
+Figures measure(const GraphRun& run, const Trajectory& truth, Store& store) {
+  const Trajectory trajectory = run.trajectory(0);
+  laser_mapper::Parameters parameters;
+  parameters.ghosts = false;
+  laser_mapper::LaserMap map(parameters, store, {{kBenchSession, &trajectory, nullptr}});
+  map.render();
+  const laser_mapper::QualityFigures walls = laser_mapper::MapQuality(map).walls();
+  Figures figures;
+  figures.displacement = walls.displacement.mean;
+  figures.angle = walls.angle.mean;
+  std::vector<Pose> true_poses, poses;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    true_poses.push_back(truth[i].pose);
+    poses.push_back(trajectory[i].pose);
+  }
+  figures.ate = urban_nav_core::absoluteError(true_poses, poses, urban_nav_core::TrajectoryAlignment::Se3).rmse;
+  const auto pairs = findRevisits(truth);
+  for (const auto& [a, b] : pairs)
+    figures.revisits +=
+        ((poses[a].inverse() * poses[b]).t() - (true_poses[a].inverse() * true_poses[b]).t()).squaredNorm() /
+        static_cast<double>(pairs.size());
+  figures.revisits = std::sqrt(figures.revisits);
+  return figures;
+}
+
+void compare(const std::string& bag, unsigned trials, urban_nav_core::testing::BenchTable& table) {
+  const std::filesystem::path path(bag);
+  const std::string store_path = (std::filesystem::temp_directory_path() / "urban_nav_plane_drift.db").string();
+  urban_nav_store::removeStore(store_path);
+  std::optional<Store> opened(std::in_place, store_path, urban_nav_store::Access::Write);
+  Store& store = *opened;
+  readScans(bag, store);
+  const Trajectory truth = atFrames(
+      urban_nav_core::readTum((path.parent_path() / (path.stem().string() + ".truth") / "trajectory.tum").string()));
+  const double half_length = urban_nav_registration::Parameters().cloud_half_length;
+  const PlaneFinder find_planes = [&](const GraphRun& run) {
+    return findPlaneClosures({}, store, {kBenchSession}, run, half_length);
+  };
+  for (unsigned seed = 1; seed <= trials; ++seed) {
+    const VoRun odometry = makeOdometry(truth, seed);
+    for (const bool has_closures : {false, true})
+      for (const bool has_planes : {false, true}) {
+        const GraphRun run =
+            runGraph({}, {&odometry}, {"drive"}, has_closures ? makeClosures(truth, seed) : std::vector<ClosureRow>(),
+                     {}, {}, {}, has_planes ? find_planes : PlaneFinder());
+        const Figures figures = measure(run, truth, store);
+        const VerdictCounts planes = run.planeVerdicts();
+        table.add({path.stem().string(), std::to_string(seed), has_closures ? "yes" : "no",
+                   has_planes ? std::to_string(planes.accepted) + " of " + std::to_string(planes.all()) : "without",
+                   cell(1e3 * figures.displacement, 1), cell(180.0 / M_PI * figures.angle, 2),
+                   cell(1e3 * figures.revisits, 1), cell(1e3 * figures.ate, 1), cell(1e-3 * run.planes.ms, 1)});
+        std::fputs((table.text() + "\n").c_str(), stderr);
+      }
+  }
+  opened.reset();
+  urban_nav_store::removeStore(store_path);
+}
+
+}  // namespace urban_nav::bench
+
+int main(int argc, char** argv) {
+  urban_nav_core::testing::BenchTable table(
+      {"bag", "trial", "closures", "constraints accepted", "displacement of walls, mm", "angle, deg",
+       "relative error of passes, mm", "ATE, mm", "search and relaxation, s"},
+      argc, argv);
+  std::string output;
+  unsigned trials = 3;
+  std::vector<std::string> bags;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "-o" && i + 1 < argc) output = argv[++i];
+    else if (word == "--trials" && i + 1 < argc) trials = static_cast<unsigned>(std::atoi(argv[++i]));
+    else bags.push_back(word);
+  }
+  for (const std::string& bag : bags) urban_nav::bench::compare(bag, trials, table);
+  std::fputs(table.text().c_str(), stdout);
+  if (!output.empty()) table.write(output);
+  return 0;
+}
