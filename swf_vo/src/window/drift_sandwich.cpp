@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
@@ -11,13 +12,34 @@ namespace swf_vo {
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::SmallCholesky;
+using urban_nav_core::Vector6d;
 
 namespace {
 
-// A landmark lives for the time in which the view changes by half a radian or so: a score of generations.
+// A landmark lives for a view change of half a radian or so: a score of generations.
 constexpr double memory_rad = 10.0;
-// Effective clusters that the model counts for.
-constexpr double model_clusters = 20.0;
+// A few generations: what a surface or a place in the image makes of all that pass there.
+constexpr double correlation_rad = 3.0;
+// Width and height of a region, by direction: a quarter of the depth of what is seen in it.
+constexpr double region_width = 0.25;
+constexpr double widest = 4.0;
+// Effective clusters that the model counts for: the usual degrees of freedom of a variance that is hardly known.
+constexpr double model_clusters = 4.0;
+// What of a score the estimate leaves at least: with less, leverage is not known well enough to correct for it.
+constexpr double least_left = 0.2;
+
+// Share of a coordinate's own information below which what the others leave of it is rounding.
+constexpr double least_rate_pivot = 1e-8;
+
+/// Returns the inverse, or nothing where some direction is hardly known.
+std::optional<Matrix6d> invertWellKnown(const Matrix6d& information) {
+  const SmallCholesky<6> cholesky(information);
+  if (!cholesky.succeeded()) return std::nullopt;
+  for (int i = 0; i < 6; ++i)
+    if (!(cholesky.factor()(i, i) * cholesky.factor()(i, i) > least_rate_pivot * information(i, i)))
+      return std::nullopt;
+  return cholesky.inverse();
+}
 
 std::array<double, 2> traces(const Matrix6d& A) {
   return {A.topLeftCorner<3, 3>().trace(), A.bottomRightCorner<3, 3>().trace()};
@@ -25,50 +47,86 @@ std::array<double, 2> traces(const Matrix6d& A) {
 
 }  // namespace
 
+DriftSandwich::Region& DriftSandwich::find(const Eigen::Vector2d& direction) {
+  const auto place = [](double tangent) {
+    return static_cast<int>(std::floor(std::clamp(tangent, -widest, widest) / region_width));
+  };
+  const std::array<int, 2> here = {place(direction.x()), place(direction.y())};
+  const auto found =
+      std::find_if(regions_.begin(), regions_.end(), [&](const Region& region) { return region.place == here; });
+  if (found != regions_.end()) return *found;
+  regions_.emplace_back();
+  regions_.back().place = here;
+  return regions_.back();
+}
+
 void DriftSandwich::advance(double view_change) {
-  const double kept = std::exp(-view_change / memory_rad);
+  const double kept = std::exp(-view_change / memory_rad), correlated = std::exp(-view_change / correlation_rad),
+               overlapping = life_ > 0.0 ? std::exp(-view_change / life_) : 1.0;
   view_change_ = kept * view_change_ + view_change;
   information_ *= kept;
   expected_ *= kept;
   squares_ *= kept;
+  for (Region& region : regions_) {
+    region.score *= correlated;
+    region.information *= correlated * overlapping;
+    for (double& share : region.share) share *= correlated;
+  }
 }
 
 void DriftSandwich::add(const DriftScore& landmark) {
   if (!(landmark.life > 0.0) || !(view_change_ > 0.0)) return;
   const Matrix6d& I = landmark.information;
-  // The others' information on a drift that is steady for as long as this landmark lived, and its own.
-  const SmallCholesky<6> all(landmark.life / view_change_ * information_ + I);
+  const Vector6d& g = landmark.score;
+  Region& region = find(landmark.direction);
+  // The others' information on a drift that is steady for as long as this landmark lived, and its own; and on one that
+  // it shares with those before it in its region.
+  const SmallCholesky<6> own(landmark.life / view_change_ * information_ + I);
+  const SmallCholesky<6> shared(life_ / view_change_ * information_ + I + region.information);
+  const Matrix6d together = g * region.score.transpose();
+  squares_ += g * g.transpose() + together + together.transpose();
+  if (own.succeeded()) expected_ += I - I * own.solve(I);
+  if (shared.succeeded()) {
+    const Matrix6d both = I * shared.solve(region.information);
+    expected_ -= both + both.transpose();
+  }
+  region.score += g;
+  region.information += I;
   information_ += I;
-  squares_ += landmark.score * landmark.score.transpose();
-  if (all.succeeded()) expected_ += I - I * all.solve(I);
-  const SmallCholesky<6> gain(information_);
-  if (!gain.succeeded()) return;
-  const Matrix6d D = gain.inverse();
-  const std::array<double, 2> own = traces(D * I * D), total = traces(D);
+  const std::optional<Matrix6d> gain = invertWellKnown(information_);
+  if (!gain) return;
+  const Matrix6d& D = *gain;
+  life_ += std::clamp((D * I).trace() / 6.0, 0.0, 1.0) * (landmark.life - life_);
+  const std::array<double, 2> part_own = traces(D * I * D), total = traces(D);
   for (std::size_t part = 0; part < 2; ++part) {
-    const double share = std::clamp(own[part] / total[part], 0.0, 1.0);
-    squared_shares_[part] = (1.0 - share) * (1.0 - share) * squared_shares_[part] + share * share;
+    const double share = std::clamp(part_own[part] / total[part], 0.0, 1.0), others = 1.0 - share;
+    squared_shares_[part] =
+        others * others * squared_shares_[part] + share * (share + 2.0 * others * region.share[part]);
+    for (Region& each : regions_) each.share[part] *= others;
+    region.share[part] += share;
   }
 }
 
-double DriftSandwich::clusters(std::size_t part) const { return 1.0 / squared_shares_[part]; }
-
 DriftSandwich::Ratio DriftSandwich::ratio() const {
-  const SmallCholesky<6> gain(information_);
-  if (!gain.succeeded()) return {};
-  const Matrix6d D = gain.inverse();
-  const std::array<double, 2> measured = traces(D * squares_ * D), expected = traces(D * expected_ * D);
+  const std::optional<Matrix6d> gain = invertWellKnown(information_);
+  if (!gain) return {};
+  const Matrix6d& D = *gain;
+  const std::array<double, 2> measured = traces(D * squares_ * D), expected = traces(D * expected_ * D),
+                              all = traces(D);
   std::array<double, 2> ratios = {1.0, 1.0};
   for (std::size_t part = 0; part < 2; ++part) {
-    const double ratio = measured[part] / expected[part], weight = clusters(part);
-    if (std::isfinite(ratio)) ratios[part] = (model_clusters + weight * ratio) / (model_clusters + weight);
+    const double ratio = measured[part] / std::max(expected[part], least_left * all[part]), weight = clusters(part);
+    if (std::isfinite(ratio) && ratio > 0.0)
+      ratios[part] = (model_clusters + weight * ratio) / (model_clusters + weight);
   }
   return {ratios[0], ratios[1]};
 }
 
+void DriftSandwich::Region::archive(urban_nav_core::Archive& archive) { archive(place, score, information, share); }
+
 void DriftSandwich::archive(urban_nav_core::Archive& archive) {
-  archive(view_change_, information_, expected_, squares_, squared_shares_);
-  for (const double share : squared_shares_) archive.require(share > 0.0 && share <= 1.0, "shares of landmarks");
+  archive(view_change_, life_, information_, expected_, squares_, squared_shares_, regions_);
+  for (const double share : squared_shares_) archive.require(share > 0.0, "shares of landmarks");
 }
 
 }  // namespace swf_vo

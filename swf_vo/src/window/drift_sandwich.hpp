@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "urban_nav_core/io/archive.hpp"
 #include "window/landmark_score.hpp"
@@ -10,17 +11,18 @@ namespace swf_vo {
 
 /// By how much the variance of odometry's drift is larger than the filter's model says, learnt from residuals alone.
 ///
-/// Each landmark that has died is a cluster, with the score g of its whole life and the information I that the model
-/// gives it. The model expects g g^T = I - I (X + I)^-1 I, X being the information of the others, for the estimate
-/// follows each landmark by its leverage. What there is beside what is expected, under the model's gain
-/// D = (sum of I)^-1:
-///   ratio = tr(D sum(g g^T) D) / tr(D sum(I - I (X + I)^-1 I) D), of translation and of rotation.
-/// (Sandwich estimator: Huber 1967, White 1980; clusters: Liang and Zeger 1986; leverage: Bell and McCaffrey 2002.)
-/// It sees whatever errors are individual to landmarks, however long they last, and none that all landmarks share.
+/// Each landmark that has died has a score g, of its whole life, and the information I that the model gives it. Scores
+/// of one region of the image are taken to be correlated, the less the more the view has changed between their deaths
+/// (weights w): so errors count that last for a landmark's life, that a surface shares, or that belong to a place in
+/// the image. Under the model's gain D = (sum of I)^-1 what there is stands beside what the model expects,
+///   ratio = tr(D sum(w g g^T) D) / tr(D sum(w E[g g^T]) D), of translation and of rotation,
+/// with E[g g^T] = I - I (X + I)^-1 I, X being the information of the others: the estimate follows each landmark by its
+/// leverage. (Sandwich estimator: Huber 1967, White 1980; clusters: Liang and Zeger 1986; correlation in space and
+/// time: Conley 1999, Driscoll and Kraay 1998; leverage: Bell and McCaffrey 2002.) Errors that all regions share are
+/// not seen.
 ///
-/// Few clusters say little of a variance: the ratio is a mean of what was measured, weighted with the effective number
-/// of clusters (Kish 1965), and of 1, weighted with 20, the number below which such estimates are taken to be poor
-/// (Cameron and Miller 2015, section VI). Derivation: docs/derivations/cluster_robust_drift.md.
+/// Few clusters say little of a variance: the ratio is the mean of the measured one, weighted with the effective number
+/// of clusters (Kish 1965), and of 1, weighted with 4. Derivation: docs/derivations/cluster_robust_drift.md.
 class DriftSandwich {
  public:
   struct Ratio {
@@ -31,16 +33,28 @@ class DriftSandwich {
   void advance(double view_change);
   void add(const DriftScore& landmark);
   Ratio ratio() const;
-  /// Effective number of clusters, of translation and of rotation.
-  double clusters(std::size_t part) const;
+  /// Returns the effective number of clusters, of translation (0) or of rotation (1).
+  double clusters(std::size_t part) const { return 1.0 / squared_shares_[part]; }
   void archive(urban_nav_core::Archive& archive);
 
  private:
+  /// What has died in one region of the image.
+  struct Region {
+    std::array<int, 2> place = {0, 0};                                        // by 1/4 of direction
+    urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();        // sum w g
+    urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();  // sum of I, of lives that overlap
+    std::array<double, 2> share = {0.0, 0.0};                                 // of all information
+    void archive(urban_nav_core::Archive& archive);
+  };
+  Region& find(const Eigen::Vector2d& direction);
+
   double view_change_ = 0.0;                                                 // rad, that the sums are of
+  double life_ = 0.0;                                                        // usual one, rad
   urban_nav_core::Matrix6d information_ = urban_nav_core::Matrix6d::Zero();  // sum I
-  urban_nav_core::Matrix6d expected_ = urban_nav_core::Matrix6d::Zero();     // sum I - I (X + I)^-1 I
-  urban_nav_core::Matrix6d squares_ = urban_nav_core::Matrix6d::Zero();      // sum g g^T
-  std::array<double, 2> squared_shares_ = {1.0, 1.0};                        // of each landmark in the sum, in all
+  urban_nav_core::Matrix6d expected_ = urban_nav_core::Matrix6d::Zero();     // sum w E[g g^T]
+  urban_nav_core::Matrix6d squares_ = urban_nav_core::Matrix6d::Zero();      // sum w g g^T
+  std::array<double, 2> squared_shares_ = {1.0, 1.0};
+  std::vector<Region> regions_;
 };
 
 }  // namespace swf_vo

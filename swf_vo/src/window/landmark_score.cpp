@@ -23,12 +23,12 @@ void LandmarkScore::add(const LandmarkBlock& landmark, const PoseBlock& pose, do
     used_ = true;
     born_ = view_change;
     reference_ = landmark.estimate;
-    origin_ = landmark.anchor.t_odom_anchor;
+    anchor_ = landmark.anchor;
     information_.setZero();
     score_.setZero();
   }
   last_ = view_change;
-  const Matrix6d G = (view_change - born_) * gauge::ofPose(pose.linearised, origin_);
+  const Matrix6d G = (view_change - born_) * gauge::ofPose(pose.linearised, anchor_.t_odom_anchor);
   const Vector3d moved = landmark.estimate - reference_;
   const Matrix63d cross = G.transpose() * term.cross;
   information_.topLeftCorner<3, 3>() += term.landmark;
@@ -63,7 +63,7 @@ DriftScore LandmarkScore::evaluate(const Pose& T_odom_camera) const {
       for (int k = j + 1; k < 9; ++k) A(i, k) -= factor * A(j, k);
     }
   }
-  const Matrix6d moved = gauge::transport(T_odom_camera.t(), origin_);
+  const Matrix6d moved = gauge::transport(T_odom_camera.t(), anchor_.t_odom_anchor);
   const Eigen::Matrix3d R = T_odom_camera.R();
   Matrix6d T;
   T.leftCols<3>() = moved.leftCols<3>() * R;
@@ -73,12 +73,15 @@ DriftScore LandmarkScore::evaluate(const Pose& T_odom_camera) const {
   const Matrix6d information = T.transpose() * A.bottomRightCorner<6, 6>() * T;
   result.information = 0.5 * (information + information.transpose());
   result.life = last_ - born_;
+  const Eigen::Vector4d point = anchor_.homogeneous(reference_);
+  const Vector3d ray = R.transpose() * (point.head<3>() - point.w() * T_odom_camera.t());
+  if (ray.z() > 0.0) result.direction = ray.head<2>() / ray.z();
   return result;
 }
 
 void LandmarkScore::archive(urban_nav_core::Archive& archive) {
   archive(used_);
-  if (used_) archive(born_, last_, reference_, origin_, information_, score_);
+  if (used_) archive(born_, last_, reference_, anchor_, information_, score_);
 }
 
 }  // namespace swf_vo

@@ -11,7 +11,8 @@ namespace swf_vo {
 struct DriftScore {
   urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();
-  double life = 0.0;  ///< view change (rad) from the first to the last measurement
+  double life = 0.0;                                    ///< view change (rad) from the first to the last measurement
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< of the landmark in that camera: (x, y) / z
 };
 
 /// What the measurements of one landmark, over its whole life, say of a drift of the camera that is steady for as long.
@@ -30,6 +31,7 @@ class LandmarkScore {
   void add(const LandmarkBlock& landmark, const PoseBlock& pose, double view_change, const SensorTerm& term);
   /// Adds template drift since the last measurement (covariance of the bearing).
   void age(const Eigen::Matrix2d& covariance);
+  /// With the camera of its last frame.
   DriftScore evaluate(const urban_nav_core::Pose& T_odom_camera) const;
   void archive(urban_nav_core::Archive& archive);
 
@@ -40,7 +42,7 @@ class LandmarkScore {
   bool used_ = false;
   double born_ = 0.0, last_ = 0.0;                       // view change, rad
   Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();  // theta at which score_ is taken
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();     // of xi, in odom
+  Anchor anchor_;                                        // xi is about its origin
   Matrix9d information_ = Matrix9d::Zero();              // of theta, xi
   Vector9d score_ = Vector9d::Zero();
 };

@@ -51,6 +51,7 @@ struct LandmarkBlock {
 };
 
 void archive(urban_nav_core::Archive& archive, ProcessInput& u);
+void archive(urban_nav_core::Archive& archive, Anchor& anchor);
 void archive(urban_nav_core::Archive& archive, PoseBlock& pose);
 void archive(urban_nav_core::Archive& archive, LandmarkBlock& landmark);
 

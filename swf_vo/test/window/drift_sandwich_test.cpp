@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -24,78 +25,121 @@ using urban_nav_core::Vector6d;
 using urban_nav_core::testing::TrackMotion;
 using urban_nav_core::testing::Tracks;
 
-/// Generations of landmarks that measure one rate each, which is estimated from them: what is left of their scores at
-/// the estimate. Errors are `scale` times what the information says (translation, rotation).
-DriftSandwich generations(int count, int landmarks, const Vector6d& scale, DriftSandwich sandwich = {}) {
+/// How landmarks err: `scale` times what their information says (translation, rotation), each by itself; and all of one
+/// surface alike, by `shared` standard deviations of a generation's estimate, for two generations.
+struct Errors {
+  double translation = 1.0, rotation = 1.0, shared = 0.0;
+};
+
+struct Generations {
+  DriftSandwich sandwich;
+  double squared = 0.0, stated = 0.0;  // of the shift over two generations each
+};
+
+/// Generations of landmarks on ten surfaces that measure one rate each, which is estimated from them: what is left of
+/// their scores at the estimate.
+Generations generations(int count, int landmarks, const Errors& errors, const DriftSandwich& before = {}) {
+  constexpr double shift_weight = 3.0, turn_weight = 200.0;
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
+  struct Surface {
+    Eigen::Vector2d direction;
+    Vector6d error;
+  };
+  std::array<Surface, 10> surfaces;
+  Generations result;
+  result.sandwich = before;
+  Vector6d off = Vector6d::Zero();
   for (int g = 0; g < count; ++g) {
+    if (g % 2 == 0)
+      for (Surface& surface : surfaces) {
+        surface.direction = Eigen::Vector2d(0.5 * normal(generator), 0.3 * normal(generator));
+        for (int i = 0; i < 6; ++i)
+          surface.error[i] =
+              normal(generator) * errors.shared / ((i < 3 ? shift_weight : turn_weight) * std::sqrt(1.5 * landmarks));
+      }
     std::vector<DriftScore> scores(static_cast<std::size_t>(landmarks));
     Matrix6d all = Matrix6d::Zero();
     Vector6d sum = Vector6d::Zero();
-    for (DriftScore& one : scores) {
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+      DriftScore& one = scores[k];
+      const Surface& surface = surfaces[k % surfaces.size()];
       Eigen::Matrix<double, 6, 3> J;
-      Eigen::Vector3d error;
-      for (int i = 0; i < 18; ++i) J(i % 6, i / 6) = normal(generator) * (i % 6 < 3 ? 3.0 : 200.0);
+      for (int i = 0; i < 18; ++i) J(i % 6, i / 6) = normal(generator) * (i % 6 < 3 ? shift_weight : turn_weight);
       // Half of the landmarks see the translation alone, half the rotation alone.
       const bool moved = normal(generator) > 0.0;
       if (moved) J.bottomRows<3>().setZero();
       else J.topRows<3>().setZero();
-      for (int i = 0; i < 3; ++i) error[i] = normal(generator) * (moved ? scale[0] : scale[3]);
+      Eigen::Vector3d error;
+      for (int i = 0; i < 3; ++i) error[i] = normal(generator) * (moved ? errors.translation : errors.rotation);
       one.information = J * J.transpose();
-      one.score = J * error;
+      one.score = J * error + one.information * surface.error;
+      one.direction = surface.direction + 0.02 * Eigen::Vector2d(normal(generator), normal(generator));
       one.life = 0.5;
       all += one.information;
       sum += one.score;
     }
     const Vector6d estimate = all.ldlt().solve(sum);
-    sandwich.advance(0.5);
+    off += estimate;
+    result.stated += all.inverse().topLeftCorner<3, 3>().trace();
+    if (g % 2 == 1) {
+      result.squared += off.head<3>().squaredNorm();
+      off.setZero();
+    }
+    result.sandwich.advance(0.5);
     for (DriftScore& one : scores) {
       one.score -= one.information * estimate;
-      sandwich.add(one);
+      result.sandwich.add(one);
     }
   }
-  return sandwich;
+  return result;
+}
+
+DriftSandwich::Ratio learnt(int count, int landmarks, const Errors& errors) {
+  return generations(count, landmarks, errors).sandwich.ratio();
 }
 
 TEST(DriftSandwich, isOneWhereTheModelIsRight) {
-  const DriftSandwich::Ratio ratio = generations(60, 60, Vector6d::Ones()).ratio();
-  EXPECT_NEAR(ratio.translation, 1.0, 0.1);
-  EXPECT_NEAR(ratio.rotation, 1.0, 0.1);
+  const DriftSandwich::Ratio ratio = learnt(60, 60, {});
+  EXPECT_NEAR(ratio.translation, 1.0, 0.25);
+  EXPECT_NEAR(ratio.rotation, 1.0, 0.25);
 }
 
 TEST(DriftSandwich, correctsForLeverage) {
-  // Six unknowns from twelve landmarks, half of which see each: the residuals have half of the variance.
-  const DriftSandwich::Ratio ratio = generations(300, 12, Vector6d::Ones()).ratio();
-  EXPECT_NEAR(ratio.translation, 1.0, 0.15);
-  EXPECT_NEAR(ratio.rotation, 1.0, 0.15);
+  // Three unknowns from six landmarks each: residuals have half of the variance.
+  const DriftSandwich::Ratio ratio = learnt(300, 12, {});
+  EXPECT_NEAR(ratio.translation, 1.0, 0.3);
+  EXPECT_NEAR(ratio.rotation, 1.0, 0.3);
 }
 
 TEST(DriftSandwich, tellsTranslationFromRotation) {
-  Vector6d scale;
-  scale << 2.0, 2.0, 2.0, 0.7, 0.7, 0.7;
-  const DriftSandwich sandwich = generations(60, 60, scale);
-  const DriftSandwich::Ratio ratio = sandwich.ratio();
-  EXPECT_GT(sandwich.clusters(0), 300.0);
-  EXPECT_NEAR(ratio.translation, 4.0, 0.6);
-  EXPECT_NEAR(ratio.rotation, 0.49, 0.1);
+  const DriftSandwich::Ratio ratio = learnt(60, 60, {2.0, 0.7});
+  EXPECT_NEAR(ratio.translation, 4.0, 1.0);
+  EXPECT_NEAR(ratio.rotation, 0.49, 0.15);
+}
+
+TEST(DriftSandwich, seesWhatASurfaceShares) {
+  const Generations shared = generations(400, 60, {1.0, 1.0, 6.0});
+  const double truth = shared.squared / shared.stated;
+  EXPECT_GT(truth, 4.0);
+  EXPECT_NEAR(std::log(shared.sandwich.ratio().translation / truth), 0.0, std::log(2.0));
 }
 
 TEST(DriftSandwich, fewLandmarksLeaveTheModelAsItIs) {
   EXPECT_EQ(DriftSandwich().ratio().translation, 1.0);
   EXPECT_EQ(DriftSandwich().ratio().rotation, 1.0);
-  const double few = generations(1, 6, Vector6d::Constant(3.0)).ratio().rotation;
-  const double many = generations(100, 6, Vector6d::Constant(3.0)).ratio().rotation;
-  EXPECT_LT(few, 3.0) << "of 9";
-  EXPECT_GT(many, 6.0) << "of 9";
+  const DriftSandwich few = generations(1, 6, {3.0, 3.0}).sandwich, many = generations(100, 60, {3.0, 3.0}).sandwich;
+  EXPECT_LT(few.clusters(1), 4.0);
+  EXPECT_GT(many.clusters(1), 30.0);
+  EXPECT_NEAR(many.ratio().rotation, 9.0, 2.5);
 }
 
 TEST(DriftSandwich, forgetsAsTheViewChanges) {
-  const DriftSandwich before = generations(60, 60, Vector6d::Constant(3.0));
+  const DriftSandwich before = generations(60, 60, {3.0, 3.0}).sandwich;
   DriftSandwich standing = before;
   standing.advance(0.0);
   EXPECT_EQ(standing.ratio().rotation, before.ratio().rotation);
-  EXPECT_LT(generations(60, 60, Vector6d::Ones(), before).ratio().rotation, 0.3 * before.ratio().rotation);
+  EXPECT_LT(generations(60, 60, {}, before).sandwich.ratio().rotation, 0.3 * before.ratio().rotation);
 }
 
 /// Tracks whose landmarks move over their surfaces, each at its own steady rate of this standard deviation, in both
