@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "labelling/class_votes.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 
 namespace scene_labeler {
@@ -73,22 +74,11 @@ void DriveLabeler::addClasses(const DriveFrame& frame, const DriveScene& drive, 
   const SceneView& view = drive.scene.view;
   if (view.image.empty() || frame.view.classes.size() != view.image.size()) return;
   ++class_frames_;
-  const std::size_t classes = model_.classes.size();
-  const bool has_one_wall =
-      std::find(model_.classes.begin(), model_.classes.end(), SceneClass::Wall) != model_.classes.end();
-  const auto right = static_cast<float>(std::log(parameters_.class_accuracy));
-  const auto wrong =
-      static_cast<float>(std::log((1.0 - parameters_.class_accuracy) / static_cast<double>(classes - 1)));
+  const ClassVotes votes(model_.classes, parameters_.class_accuracy);
   for (std::size_t i = 0; i < drive.point_of_return.size(); ++i) {
     const std::size_t point = drive.point_of_return[i], at = first + i - first_;
     if (view.is_visible[point] == 0 || votes_[at].views == 0) continue;
-    auto named = static_cast<SceneClass>(frame.view.classes.at<std::uint8_t>(
-        static_cast<int>(std::lround(view.pixels[point].y())), static_cast<int>(std::lround(view.pixels[point].x()))));
-    if (has_one_wall) named = withOneWall(named);
-    const auto known = std::find(model_.classes.begin(), model_.classes.end(), named);
-    if (known == model_.classes.end()) continue;
-    ++votes_[at].views;
-    for (std::size_t k = 0; k < classes; ++k) logs_[at * classes + k] += model_.classes[k] == named ? right : wrong;
+    if (votes.add(frame.view.classes, view.pixels[point], &logs_[at * model_.classes.size()])) ++votes_[at].views;
   }
 }
 

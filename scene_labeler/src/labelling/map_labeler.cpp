@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "labelling/class_votes.hpp"
 #include "labelling/spread.hpp"
 
 namespace scene_labeler {
@@ -25,11 +26,10 @@ std::vector<PlacedView> inOrder(std::vector<PlacedView> views) {
 
 }  // namespace
 
-MapLabeler::MapLabeler(const LabelModel& model, int superpixel, double reach, std::vector<PlacedView> views,
+MapLabeler::MapLabeler(const LabelModel& model, const Options& options, std::vector<PlacedView> views,
                        Callbacks callbacks)
     : model_(model),
-      superpixel_(superpixel),
-      reach_(reach),
+      options_(options),
       views_(inOrder(std::move(views))),
       callbacks_(std::move(callbacks)),
       next_row_(std::numeric_limits<int>::min()) {}
@@ -108,9 +108,9 @@ void MapLabeler::spreadInSquare(const std::vector<Member>& members, const std::v
 void MapLabeler::labelView(const PlacedView& view) {
   const Eigen::Vector3f place = view.T_map_camera.t().cast<float>();
   std::vector<Member> members = pointsAround({toSquare(view.T_map_camera.t().y()), toSquare(view.T_map_camera.t().x())},
-                                             static_cast<int>(std::ceil(reach_ / square_edge)));
+                                             static_cast<int>(std::ceil(options_.reach / square_edge)));
   const auto is_far = [&](const Member& member) {
-    return (member.point() - place).head<2>().norm() > static_cast<float>(reach_);
+    return (member.point() - place).head<2>().norm() > static_cast<float>(options_.reach);
   };
   members.erase(std::remove_if(members.begin(), members.end(), is_far), members.end());
   if (members.empty()) return;
@@ -124,10 +124,25 @@ void MapLabeler::labelView(const PlacedView& view) {
   const FeatureTable table = measureSceneFeatures(model_, scene);
   MountingCheck& mounting = findMounting(view.device);
   mounting.add(scene, table);
-  if (mounting.isUpsideDown()) return callbacks_.take_view(view.image, {0, true});
-  vote(members, labelScene(model_, scene, superpixel_, table), true);
+  if (mounting.isUpsideDown()) return callbacks_.take_view(view.image, {0, true, false});
+  vote(members, labelScene(model_, scene, options_.superpixel, table), true);
+  const bool has_classes = voteByClasses(view, scene.view, members);
   const auto labelled = std::count(scene.is_asked.begin(), scene.is_asked.end(), std::uint8_t{1});
-  callbacks_.take_view(view.image, {static_cast<std::size_t>(labelled), false});
+  callbacks_.take_view(view.image, {static_cast<std::size_t>(labelled), false, has_classes});
+}
+
+bool MapLabeler::voteByClasses(const PlacedView& view, const SceneView& shown, const std::vector<Member>& members) {
+  if (!callbacks_.load_classes) return false;
+  const cv::Mat image = callbacks_.load_classes(view.image);
+  if (image.empty() || image.size() != shown.image.size()) return false;
+  const ClassVotes votes(model_.classes, options_.class_accuracy);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    SquarePoints& square = *members[i].square;
+    const std::size_t point = members[i].index;
+    if (shown.is_visible[i] == 0 || square.views[point] == 0) continue;
+    if (votes.add(image, shown.pixels[i], &square.logs[point * model_.classes.size()])) ++square.views[point];
+  }
+  return true;
 }
 
 MountingCheck& MapLabeler::findMounting(std::size_t device) {
@@ -140,7 +155,7 @@ void MapLabeler::labelHidden(const Square& square, const SquarePoints& own) {
   Scene scene = makeScene(members);
   for (const Member& member : members)
     scene.is_asked.push_back(member.square == &own && own.is_shown[member.index] == 0 ? 1 : 0);
-  vote(members, labelScene(model_, scene, superpixel_), false);
+  vote(members, labelScene(model_, scene, options_.superpixel), false);
   spreadInSquare(members, scene.is_asked);
 }
 
@@ -164,7 +179,7 @@ void MapLabeler::giveLabels(const SquarePoints& square) {
 
 void MapLabeler::labelRowsBelow(double y) {
   const auto isComplete = [&](int row) {  // the row after it is one of its surroundings
-    return static_cast<double>(row + 2) * square_edge + reach_ <= y;
+    return static_cast<double>(row + 2) * square_edge + options_.reach <= y;
   };
   for (auto& [square, own] : squares_) {
     if (square.first < next_row_) continue;
@@ -181,9 +196,9 @@ void MapLabeler::labelRowsBelow(double y) {
 }
 
 void MapLabeler::sweepTo(double y) {
-  while (next_view_ < views_.size() && views_[next_view_].T_map_camera.t().y() + reach_ < y)
+  while (next_view_ < views_.size() && views_[next_view_].T_map_camera.t().y() + options_.reach < y)
     labelView(views_[next_view_++]);
-  labelRowsBelow(y - reach_);
+  labelRowsBelow(y - options_.reach);
 }
 
 void MapLabeler::finish() { sweepTo(std::numeric_limits<double>::infinity()); }

@@ -14,31 +14,35 @@ namespace {
 /// Labels of points, and what was noted on the way.
 struct LabelledYard {
   std::vector<PointLabel> labels;
-  std::vector<int> times;          // that each point got a label
-  std::vector<std::size_t> shown;  // by each view
-  std::size_t upside_down = 0;     // views
+  std::vector<int> times;                         // that each point got a label
+  std::vector<std::size_t> shown;                 // by each view
+  std::size_t upside_down = 0, class_images = 0;  // views
   std::size_t most_held = 0;
 };
 
 /// Labels points that come in order of y, a metre at a time; `at_once`: all before any is labelled.
 LabelledYard labelPoints(std::vector<Eigen::Vector3f> points, std::vector<PlacedView> views, const cv::Mat& image,
-                         bool at_once = false,
-                         const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted)) {
+                         bool at_once = false, const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted),
+                         const cv::Mat& classes = {}) {
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y() < b.y(); });
   LabelledYard made;
   made.labels.resize(points.size());
   made.times.resize(points.size(), 0);
   MapLabeler::Callbacks callbacks;
   callbacks.load = [&](std::size_t) { return image; };
+  callbacks.load_classes = [&](std::size_t) { return classes; };
   callbacks.take_view = [&](std::size_t, const ViewUse& use) {
     made.shown.push_back(use.shown);
     made.upside_down += use.is_upside_down ? 1U : 0U;
+    made.class_images += use.has_classes ? 1U : 0U;
   };
   callbacks.take_label = [&](std::size_t point, const PointLabel& label) {
     made.labels[point] = label;
     ++made.times[point];
   };
-  MapLabeler labeler(model, 12, 15.0, std::move(views), callbacks);
+  MapLabeler::Options options;
+  options.class_accuracy = 0.98;
+  MapLabeler labeler(model, options, std::move(views), callbacks);
   for (std::size_t begin = 0; begin < points.size();) {
     const float row = points[begin].y();
     if (!at_once) labeler.sweepTo(static_cast<double>(row));
@@ -84,7 +88,7 @@ TEST(MapLabeler, GivesNoLabelToPointsThatAreNotFinite) {
   std::vector<PointLabel> labels;
   MapLabeler::Callbacks callbacks;
   callbacks.take_label = [&](std::size_t, const PointLabel& label) { labels.push_back(label); };
-  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12, 15.0, {}, callbacks);
+  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), MapLabeler::Options(), {}, callbacks);
   labeler.addPoints({{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}}, {100});
   labeler.finish();
   ASSERT_EQ(labels.size(), 1U);
@@ -102,6 +106,31 @@ TEST(MapLabeler, UsesAnImageForThePointsThatItShows) {
   EXPECT_EQ(labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, cv::Mat(81, 101, CV_8UC3, cv::Scalar::all(0))).shown,
             std::vector<std::size_t>{0})
       << "a covered camera";
+}
+
+TEST(MapLabeler, FollowsClassImagesAtThePointsThatTheirImageShows) {
+  const testing::Yard yard = testing::makeYard(32);
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const auto label = [&](const cv::Mat& classes) {
+    return labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, grey_image, false, model, classes);
+  };
+  const auto image_of = [](SceneClass of_all, int width = 101) {
+    return cv::Mat(81, width, CV_8UC1, cv::Scalar(static_cast<double>(toIndex(of_all))));
+  };
+  const auto count = [](const LabelledYard& made, SceneClass wanted) {
+    return static_cast<std::size_t>(std::count_if(made.labels.begin(), made.labels.end(),
+                                                  [&](const PointLabel& point) { return point.label == wanted; }));
+  };
+  const LabelledYard without = label({}), foliage = label(image_of(SceneClass::Foliage));
+  EXPECT_EQ(without.class_images, 0U);
+  EXPECT_EQ(foliage.class_images, 1U);
+  EXPECT_GT(count(foliage, SceneClass::Foliage), count(without, SceneClass::Foliage) + without.shown.at(0) / 2);
+  EXPECT_LT(count(foliage, SceneClass::Foliage), yard.labels.size() - 1000) << "only what the image shows";
+  for (const cv::Mat& silent : {image_of(SceneClass::Vehicle), image_of(SceneClass::Foliage, 50)}) {
+    const LabelledYard made = label(silent);
+    for (std::size_t i = 0; i < made.labels.size(); ++i)
+      ASSERT_EQ(made.labels[i].label, without.labels[i].label) << "a class that the model lacks, another size";
+  }
 }
 
 TEST(MapLabeler, LeavesOutTheImagesOfACameraThatIsUpsideDown) {

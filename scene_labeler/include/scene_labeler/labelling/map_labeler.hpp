@@ -32,25 +32,35 @@ struct PlacedView {
 struct ViewUse {
   std::size_t shown = 0;        ///< points that it labels; 0 of an image that is black, saturated, empty or upside down
   bool is_upside_down = false;  ///< its camera seems to be mounted upside down: it is not used
+  bool has_classes = false;     ///< a class image of another source was used as well
 };
 
 /// Labels the points of a map, each from all images that show it, the others by shape and by what the images say of
-/// their surroundings. Points come in rows along y, and are kept until the labels of their surroundings are known, so
-/// that memory depends on the width of the map, not on its length. The result depends on the order of points and views
-/// only by rounding, and not on the number of threads. Not thread-safe.
+/// their surroundings. Class images of another source count as further views. Points come in rows along y, and are kept
+/// until the labels of their surroundings are known, so that memory depends on the width of the map, not on its length.
+/// The result depends on the order of points and views only by rounding, and not on the number of threads. Not
+/// thread-safe.
 class MapLabeler {
  public:
+  struct Options {
+    int superpixel = 12;          ///< px
+    double reach = 15.0;          ///< m, of a view
+    double class_accuracy = 0.8;  ///< share of the pixels of class images that are right
+  };
   struct Callbacks {
     /// Returns an image (CV_8UC3, blue, green, red) by its number; an empty one if there is none.
     std::function<cv::Mat(std::size_t image)> load;
+    /// Returns the classes of the same image by another source (CV_8U, SceneClass); an empty image if there are none.
+    /// May be empty.
+    std::function<cv::Mat(std::size_t image)> load_classes;
     /// Called after each image.
     std::function<void(std::size_t image, const ViewUse& use)> take_view;
     /// Called once for each point, by its number in the order of addPoints().
     std::function<void(std::size_t point, const PointLabel& label)> take_label;
   };
 
-  /// The model must outlive the labeler. `superpixel`: px. `reach`: m, of a view.
-  MapLabeler(const LabelModel& model, int superpixel, double reach, std::vector<PlacedView> views, Callbacks callbacks);
+  /// The model must outlive the labeler.
+  MapLabeler(const LabelModel& model, const Options& options, std::vector<PlacedView> views, Callbacks callbacks);
 
   /// Adds points, m, some 5 cm apart. `reflectance`: one per point, that of the robot's lasers without the influence of
   /// range and incidence.
@@ -81,6 +91,8 @@ class MapLabeler {
   std::vector<Member> pointsAround(const Square& middle, int margin);
   static Scene makeScene(const std::vector<Member>& members);
   void labelView(const PlacedView& view);
+  /// Adds what the class image of a view says of the points that the view has labelled. Returns false without one.
+  bool voteByClasses(const PlacedView& view, const SceneView& shown, const std::vector<Member>& members);
   /// Returns the mounting of a camera, as far as its images have shown it.
   MountingCheck& findMounting(std::size_t device);
   void labelHidden(const Square& square, const SquarePoints& own);
@@ -91,8 +103,7 @@ class MapLabeler {
   void labelRowsBelow(double y);
 
   const LabelModel& model_;
-  const int superpixel_;
-  const double reach_;
+  const Options options_;
   const std::vector<PlacedView> views_;  // in the order of y
   const Callbacks callbacks_;
   std::size_t next_view_ = 0, next_point_ = 0, held_ = 0;

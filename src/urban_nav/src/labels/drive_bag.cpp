@@ -15,9 +15,9 @@
 #include "input/bag_panorama.hpp"
 #include "input/bag_topics.hpp"
 #include "input/first_message.hpp"
-#include "labels/class_images.hpp"
 #include "scene_labeler/drive/side_drive.hpp"
 #include "scene_labeler/parameters.hpp"
+#include "stage/class_images.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -144,7 +144,10 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
     bags.emplace_back(bag, rosbag::bagmode::Read);
     const BagTopics topics = chooseTopics(topicTypes(bags), options.topics);
     const std::array<SideTopics, 2> rigs = readRigs(bags, bag, topics, console);
-    const ClassImages classes(bags.front(), parameters.class_topic, parameters.class_file);
+    const ClassImages classes({bag}, parameters.class_topic, parameters.class_file);
+    if (!parameters.class_topic.empty() && classes.size() == 0)
+      throw UserError("scene_labeler.class_topic", "no sensor_msgs/Image on " + parameters.class_topic,
+                      "a topic of the bag with mono8 class images");
     std::vector<SideReader> sides;
     for (const DriveSide side : both_sides)
       sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, parameters.spacing, classes,

@@ -67,6 +67,10 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
     warnings.push_back("a side camera seems to be mounted upside down, or to have the calibration of one that is: " +
                        std::to_string(run.upsideDown()) + " of " + std::to_string(run.views()) +
                        " images of the side cameras are not used");
+  if (!run.class_topic.empty() && run.classImages() == 0)
+    warnings.push_back("no class image is used: " + run.class_topic +
+                       " has none in mono8 with the frame, stamp and size of an image that is labelled, or there is no "
+                       "such topic in the bags of this run");
   const double unsure = labelShare(run.unsure(), run.labelled());
   if (unsure > many_unsure)
     warnings.push_back(forPerson(100.0 * unsure, 3) +
@@ -106,6 +110,7 @@ std::string printLabelsCsv(const LabelsRun& run) {
 Json toJson(const LabelsRun& run) {
   Json json = Json::object();
   json["frames"] = run.views();
+  if (!run.class_topic.empty()) json["class_frames"] = run.classImages();
   std::vector<double> sorted = run.milliseconds;
   std::sort(sorted.begin(), sorted.end());
   json["ms_median"] = sorted.empty() ? Json() : Json(sorted[sorted.size() / 2]);

@@ -11,6 +11,7 @@
 #include "laser_mapper/map_picture.hpp"
 #include "scene_labeler/drive/travelled_path.hpp"
 #include "scene_labeler/parameters.hpp"
+#include "stage/class_images.hpp"
 #include "stage/even_thinning.hpp"
 #include "stage/labelled_map.hpp"
 #include "stage/map_layer.hpp"
@@ -54,11 +55,23 @@ cv::Mat toImage(const urban_nav_registration::Picture& picture) {
   return cv::Mat(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data())).clone();
 }
 
+/// Class images of the sessions of this run, whose bags are at hand.
+using ClassImagesOfSessions = std::map<urban_nav_store::SessionId, ClassImages>;
+
+ClassImagesOfSessions findClassImages(const scene_labeler::Parameters& parameters, const MapContext& context) {
+  ClassImagesOfSessions classes;
+  if (parameters.class_topic.empty()) return classes;
+  for (const MapSession& session : context.sessions)
+    classes.try_emplace(session.id, session.input.paths, parameters.class_topic, parameters.class_file);
+  return classes;
+}
+
 /// Images of the side cameras, every `spacing` along the path of their session.
 struct PlannedViews {
   std::vector<scene_labeler::PlacedView> views;
   std::vector<PanoramaKey> images;
-  std::size_t devices = 0;  ///< cameras of sessions
+  std::vector<std::string> frames;  ///< of the images
+  std::size_t devices = 0;          ///< cameras of sessions
 };
 
 void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession& session,
@@ -74,6 +87,7 @@ void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession
     next = *travelled + spacing;
     planned.views.push_back({rawCamera(camera), *T_map_base * camera.T_base_camera, planned.images.size(), device});
     planned.images.push_back({session.id, row.camera, row.stamp});
+    planned.frames.push_back(camera.frame);
   });
 }
 
@@ -158,7 +172,8 @@ void describeLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
 /// Labels all points of a map, in its order, row of tiles by row of tiles.
 std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler::Parameters& parameters,
                                     const LaserMap& map, const PlannedViews& planned, urban_nav_store::Store& store,
-                                    MapPointsDigest& digest, LabelledMap& made, std::vector<double>& milliseconds) {
+                                    const ClassImagesOfSessions& classes, MapPointsDigest& digest, LabelledMap& made,
+                                    std::vector<double>& milliseconds) {
   std::vector<PointLabel> labels;
   LabelsClock::time_point begin;
   MapLabeler::Callbacks callbacks;
@@ -166,15 +181,23 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
     begin = LabelsClock::now();
     return toImage(loadPanorama(store, planned.images[image]));
   };
+  if (!classes.empty())
+    callbacks.load_classes = [&](std::size_t image) {
+      const PanoramaKey& key = planned.images[image];
+      const auto of_session = classes.find(key.session);
+      return of_session == classes.end() ? cv::Mat() : of_session->second.at(planned.frames[image], key.stamp);
+    };
   callbacks.take_view = [&](std::size_t, const scene_labeler::ViewUse& use) {
     made.shown += use.shown;
     made.unusable += use.shown == 0 && !use.is_upside_down ? 1U : 0U;
     made.upside_down += use.is_upside_down ? 1U : 0U;
+    made.class_images += use.has_classes ? 1U : 0U;
     ++made.views;
     milliseconds.push_back(millisecondsSince(begin));
   };
   callbacks.take_label = [&](std::size_t point, const PointLabel& label) { labels[point] = label; };
-  MapLabeler labeler(model, parameters.superpixel, 1.5 * parameters.reach, planned.views, callbacks);
+  const MapLabeler::Options options{parameters.superpixel, 1.5 * parameters.reach, parameters.class_accuracy};
+  MapLabeler labeler(model, options, planned.views, callbacks);
   const double tile_edge = laser_mapper::kTileCells * map.parameters().voxel;
   std::optional<int> row;
   map.forEachTile([&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
@@ -195,8 +218,8 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
 }
 
 LabelledMap labelMap(const NamedLabelModel& model, std::size_t number,
-                     const std::vector<laser_mapper::MappedSession>& sessions, MapContext& context,
-                     std::vector<double>& milliseconds) {
+                     const std::vector<laser_mapper::MappedSession>& sessions, const ClassImagesOfSessions& classes,
+                     MapContext& context, std::vector<double>& milliseconds) {
   const scene_labeler::Parameters& parameters = context.options.parameters.get(scene_labeler::table());
   LaserMap map(context.options.parameters.get(laser_mapper::table()), *context.store, sessions);
   map.load();
@@ -205,7 +228,7 @@ LabelledMap labelMap(const NamedLabelModel& model, std::size_t number,
   const PlannedViews planned = planViews(*context.store, sessions, parameters.spacing);
   MapPointsDigest digest;
   const std::vector<PointLabel> labels =
-      labelPoints(model.model, parameters, map, planned, *context.store, digest, made, milliseconds);
+      labelPoints(model.model, parameters, map, planned, *context.store, classes, digest, made, milliseconds);
   made.points = labels.size();
   for (const PointLabel& label : labels) {
     if (label.label == SceneClass::None) continue;
@@ -235,6 +258,7 @@ std::size_t LabelsRun::points() const { return sumOverMaps(*this, &LabelledMap::
 std::size_t LabelsRun::labelled() const { return sumOverMaps(*this, &LabelledMap::labelled); }
 std::size_t LabelsRun::unusable() const { return sumOverMaps(*this, &LabelledMap::unusable); }
 std::size_t LabelsRun::upsideDown() const { return sumOverMaps(*this, &LabelledMap::upside_down); }
+std::size_t LabelsRun::classImages() const { return sumOverMaps(*this, &LabelledMap::class_images); }
 std::size_t LabelsRun::unsure() const { return sumOverMaps(*this, &LabelledMap::unsure); }
 
 LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
@@ -246,11 +270,14 @@ LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
     if (session.written && !context.store->scans().lasers(ids[s]).empty())
       sessions_of_map[session.map].push_back({ids[s], &session.T_map_base, &session.covariances});
   }
+  const scene_labeler::Parameters& parameters = context.options.parameters.get(scene_labeler::table());
+  const ClassImagesOfSessions classes = findClassImages(parameters, context);
   LabelsRun run;
   run.model = model.digest;
+  run.class_topic = parameters.class_topic;
   Progress bar(context.console, "labels", "maps", static_cast<std::int64_t>(sessions_of_map.size()));
   for (const auto& [map, sessions] : sessions_of_map) {
-    run.maps.push_back(labelMap(model, map, sessions, context, run.milliseconds));
+    run.maps.push_back(labelMap(model, map, sessions, classes, context, run.milliseconds));
     bar.update(static_cast<std::int64_t>(run.maps.size()));
   }
   bar.finish(static_cast<std::int64_t>(run.maps.size()));

@@ -28,6 +28,7 @@ struct LabelledMap {
   std::size_t views = 0, shown = 0;  ///< images, and points that these show
   std::size_t unusable = 0;          ///< images that show no point, or are black or saturated
   std::size_t upside_down = 0;       ///< images whose camera seems to be mounted upside down
+  std::size_t class_images = 0;      ///< images of which a class image of another source was used
   std::array<ClassExtent, scene_labeler::class_count> extents;
   std::vector<PagePicture> pictures;
   std::string layer;  ///< markup of the classes in the view of the map; empty without points
@@ -38,6 +39,7 @@ struct LabelsRun {
   std::vector<LabelledMap> maps;
   std::vector<double> milliseconds;  ///< of each image
   std::string model;                 ///< digest
+  std::string class_topic;           ///< of class images of another source; empty: none are asked for
   double seconds = 0.0;
 
   std::size_t points() const;
@@ -46,6 +48,7 @@ struct LabelsRun {
   std::size_t views() const { return milliseconds.size(); }
   std::size_t unusable() const;
   std::size_t upsideDown() const;
+  std::size_t classImages() const;
 };
 
 /// Labels the maps that stage lasers has left in the store and the output folder, and adds the labels to map.ply.

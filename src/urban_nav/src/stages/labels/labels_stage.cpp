@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "report/plot.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "scene_labeler/parameters.hpp"
 #include "stage/stage_result.hpp"
 #include "stages/labels/labels_report.hpp"
@@ -21,9 +22,11 @@ class LabelsStage final : public Stage {
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!isRequested(options, "labels")) return {false, "not in --stages", {}};
-    const std::string& model = options.parameters.get(scene_labeler::table()).model;
-    if (model != "default") readLabelModel(model);  // reports a bad file before the work
-    return {true, "", {"labels: model " + model}};
+    const scene_labeler::Parameters& parameters = options.parameters.get(scene_labeler::table());
+    // Bad files are reported before the work.
+    if (parameters.model != "default") readLabelModel(parameters.model);
+    if (!parameters.class_file.empty()) scene_labeler::ClassMap(parameters.class_file);
+    return {true, "", {"labels: model " + parameters.model}};
   }
 
   std::string missingInput(const MapContext& context) const override {
@@ -36,10 +39,13 @@ class LabelsStage final : public Stage {
 
   Messages run(MapContext& context) override {
     run_ = runLabels(readLabelModel(context.options.parameters.get(scene_labeler::table()).model), context);
-    return {{"labels: " + std::to_string(run_->labelled()) + " of " + std::to_string(run_->points()) + " points from " +
-             std::to_string(run_->views()) + " images, " + std::to_string(run_->unsure()) + " of them unsure, in " +
-             forPerson(run_->seconds, 3) + " s"},
-            labelsWarnings(*run_)};
+    return {
+        {"labels: " + std::to_string(run_->labelled()) + " of " + std::to_string(run_->points()) + " points from " +
+         std::to_string(run_->views()) + " images, " + std::to_string(run_->unsure()) + " of them unsure, in " +
+         forPerson(run_->seconds, 3) + " s" +
+         (run_->class_topic.empty() ? ""
+                                    : ", with class images for " + std::to_string(run_->classImages()) + " images")},
+        labelsWarnings(*run_)};
   }
 
   StageResult result(const MapContext&) const override {
