@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "listener.hpp"
+#include "urban_nav_core/geometry/geodetic.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
@@ -184,6 +185,35 @@ TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
   EXPECT_EQ(listener().jumps.back().reason, 1);
   EXPECT_EQ(listener().jumps.back().reason_name, "Believed");
   EXPECT_EQ(listener().jumps.back().text, "a closure is believed now");
+}
+
+TEST_F(PoseGraphNodelet, positionsOfSatellitesBringTheRobotHome) {
+  constexpr int laps = 10, last = laps * lap;
+  const urban_nav_core::LocalTangent tangent({0.9, -0.02, 120.0});
+  const Pose T_east_map(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, 0.7)), Eigen::Vector3d(30.0, -8.0, 1.0));
+  drive(0, last);
+  ASSERT_TRUE(driven(last + 1));
+  Pose T_map_base;
+  for (int i = 0; i <= last; ++i, T_map_base = T_map_base * turned(2.0 * M_PI / lap, 1.0)) {
+    if (i % 10 != 0) continue;
+    const urban_nav_core::Geodetic position = tangent.toGeodetic((T_east_map * T_map_base).t());
+    sensor_msgs::NavSatFix fix;
+    fix.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
+    fix.header.frame_id = "gps";
+    fix.latitude = position.latitude * 180.0 / M_PI;
+    fix.longitude = position.longitude * 180.0 / M_PI;
+    fix.altitude = position.height;
+    fix.position_covariance = {4e-4, 0, 0, 0, 4e-4, 0, 0, 0, 1e-3};
+    fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+    listener().fixes.publish(fix);
+  }
+  EXPECT_GT(odomPose(last).t().norm(), 2.0) << "odometry has drifted";
+  const auto apart = [&] {
+    const auto run = trajectory().runs.at(0);
+    return distanceBetween(*urban_nav_ros::toPose(run.T_map_base.front()),
+                           *urban_nav_ros::toPose(run.T_map_base.back()));
+  };
+  EXPECT_TRUE(Listener::until([&] { return apart() < 0.5; })) << apart() << " m between equal places";
 }
 
 TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
