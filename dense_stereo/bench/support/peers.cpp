@@ -125,6 +125,7 @@ std::vector<TruePair> middleburyPairs(const std::string& data) {
     const cv::Mat visible = cv::imread(folder + "/nonocc.png", cv::IMREAD_UNCHANGED);
     if (pair.left.empty() || truth.empty()) continue;
     truth.convertTo(pair.truth, CV_32F, 1.0 / scale);
+    pair.step = static_cast<float>(1.0 / scale);
     pair.truth.setTo(-1.0F, visible == 0);
     pairs.push_back(pair);
   }

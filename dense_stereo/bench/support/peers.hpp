@@ -28,6 +28,7 @@ struct TruePair {
   std::string name;
   cv::Mat left, right;  ///< grey
   cv::Mat truth;        ///< CV_32F, px; below 0: not to be counted; infinite depth is 0
+  float step = 0.0F;    ///< px, of the values of `truth`; 0: it is exact
   cv::Mat sky;          ///< CV_8U, nonzero where there is no surface; empty if there is none
   int disparities = 64;
 };
