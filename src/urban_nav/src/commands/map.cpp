@@ -4,6 +4,7 @@
 #include "pipeline/map_pipeline.hpp"
 #include "pipeline/parameters.hpp"
 #include "pipeline/stage_list.hpp"
+#include "scene_labeler/parameters.hpp"
 
 namespace urban_nav {
 
@@ -18,7 +19,8 @@ MapOptions readOptions(const Arguments& arguments) {
                              input.motion_input,
                              input.wheel_noise,
                              input.gyro_noise,
-                             input.right_delay};
+                             input.right_delay,
+                             {parameters.get(scene_labeler::table()).class_topic}};
   const std::optional<double> so_far =
       arguments.has("so-far") ? std::optional(arguments.number("so-far", 1.0, 0.0, 1.0)) : std::nullopt;
   return {arguments.all("INPUT"),

@@ -281,6 +281,7 @@ class BagSource : public Source {
 
   void noteUnused() {
     std::set<std::string> used(names_.begin(), names_.end());
+    used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
     for (const auto& [role, topic] : topics_.chosen)
       if (role != Role::Wheels && role != Role::Imu) used.insert(topic.name);  // these are read only if they are of use
     if (std::string sentence = describeUnusedTopics(bags_, used); !sentence.empty())

@@ -12,13 +12,14 @@ namespace urban_nav {
 
 /// What the user said about inputs.
 struct SourceOptions {
-  std::vector<std::string> topics;    ///< ROLE:=NAME, for bags
-  std::string calibration;            ///< file for bags and KITTI folders; empty: their own
-  double rate = 0.0;                  ///< Hz of an image folder without stamps; 0: 10 Hz
-  std::string motion_input = "none";  ///< as input.motion_input
-  double wheel_noise = 0.0;           ///< as input.wheel_noise
-  double gyro_noise = 0.0;            ///< as input.gyro_noise
-  double right_delay = 0.0;           ///< ms, as input.right_delay
+  std::vector<std::string> topics;               ///< ROLE:=NAME, for bags
+  std::string calibration;                       ///< file for bags and KITTI folders; empty: their own
+  double rate = 0.0;                             ///< Hz of an image folder without stamps; 0: 10 Hz
+  std::string motion_input = "none";             ///< as input.motion_input
+  double wheel_noise = 0.0;                      ///< as input.wheel_noise
+  double gyro_noise = 0.0;                       ///< as input.gyro_noise
+  double right_delay = 0.0;                      ///< ms, as input.right_delay
+  std::vector<std::string> read_elsewhere = {};  ///< topics of bags that do not count as unused
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };
