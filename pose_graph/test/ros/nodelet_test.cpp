@@ -189,7 +189,7 @@ TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
 }
 
 TEST_F(PoseGraphNodelet, positionsOfSatellitesBringTheRobotHome) {
-  constexpr int laps = 10, last = laps * lap;
+  constexpr int last = 8 * lap, again = 7 * lap;  // the fixes of 30 s are used at once
   const urban_nav_core::LocalTangent tangent({0.9, -0.02, 120.0});
   const Pose T_east_map(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, 0.7)), Eigen::Vector3d(30.0, -8.0, 1.0));
   drive(0, last, 1e-2);
@@ -208,13 +208,13 @@ TEST_F(PoseGraphNodelet, positionsOfSatellitesBringTheRobotHome) {
     fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
     listener().fixes.publish(fix);
   }
-  EXPECT_GT(odomPose(last).t().norm(), 2.0) << "odometry has drifted";
+  EXPECT_GT(odomPose(again).t().norm(), 5.0) << "odometry has drifted";
   const auto apart = [&] {
     const auto run = trajectory().runs.at(0);
     return distanceBetween(*urban_nav_ros::toPose(run.T_map_base.front()),
-                           *urban_nav_ros::toPose(run.T_map_base.back()));
+                           *urban_nav_ros::toPose(run.T_map_base.at(again)));
   };
-  EXPECT_TRUE(Listener::until([&] { return apart() < 0.5; })) << apart() << " m between equal places";
+  EXPECT_TRUE(Listener::until([&] { return apart() < 1.0; })) << apart() << " m between equal places";
 }
 
 TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
