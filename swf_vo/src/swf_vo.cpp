@@ -158,7 +158,7 @@ class SwfVo::Implementation {
     evidence.disparity_offset_px = started_ ? window_.disparityOffset() : 0.0;
     evidence.disparity_offset_sigma_px = started_ ? window_.disparityOffsetSigma() : 0.0;
     if (health_.isUnexplained(evidence))
-      evidence.rows_disagree_px = rows_.measure(usable, seen != nullptr ? seen->row_offset_px : 0.0);
+      evidence.rows_disagree_px = rows_.measureSometimes(usable, seen != nullptr ? seen->row_offset_px : 0.0);
     const bool trusted = health_.isTrusted(evidence);
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
@@ -195,7 +195,7 @@ class SwfVo::Implementation {
 
   void archive(urban_nav_core::Archive& archive) {
     archive(started_, doubtful_, frame_, newest_known_, stamp_, seconds_, period_);
-    archive(images_, prediction_, front_end_, window_, health_);
+    archive(images_, rows_, prediction_, front_end_, window_, health_);
     output_.archive(archive, window_);
     archive.require(!started_ || window_.poses() > 0, "the window is empty");
   }

@@ -24,6 +24,7 @@ constexpr int nearest_disparity = -8;        // px: a camera that squints
 constexpr double unique_share = 0.85;        // best over second best, more than two pixels away
 constexpr double contrast_share = 0.75;      // best over the patch's own contrast
 constexpr std::size_t enough_to_judge = 15;  // matches
+constexpr int pairs_apart = 20;
 
 int contrastOf(const SadPatch& patch) {
   int sum = 0;
@@ -85,5 +86,16 @@ std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, 
   std::nth_element(differences_.begin(), middle, differences_.end());
   return *middle;
 }
+
+std::optional<double> RowCheck::measureSometimes(const urban_nav_core::StereoPair& pair, double row_offset_px) {
+  if (pairs_until_next_ == 0) {
+    last_ = measure(pair, row_offset_px);
+    pairs_until_next_ = pairs_apart;
+  }
+  --pairs_until_next_;
+  return last_;
+}
+
+void RowCheck::archive(urban_nav_core::Archive& archive) { archive(pairs_until_next_, last_); }
 
 }  // namespace swf_vo

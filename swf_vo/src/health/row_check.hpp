@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/patch.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 
 namespace swf_vo {
@@ -20,6 +21,11 @@ class RowCheck {
   /// the right image is known to show everything lower. Empty with fewer than 15 matches. Both images of one size.
   std::optional<double> measure(const urban_nav_core::StereoPair& pair, double row_offset_px = 0.0);
 
+  /// Measures the first of these pairs and every 20th after it, and returns the last result: the mounting of cameras
+  /// does not change from frame to frame, and measuring takes about as long as the odometry of a frame.
+  std::optional<double> measureSometimes(const urban_nav_core::StereoPair& pair, double row_offset_px = 0.0);
+  void archive(urban_nav_core::Archive& archive);
+
  private:
   struct Place {
     int sad = std::numeric_limits<int>::max(), second = std::numeric_limits<int>::max();  ///< grey levels
@@ -28,6 +34,8 @@ class RowCheck {
   Place search(const urban_nav_core::SadPatch& patch, const urban_nav_core::ImageView& image, int first, int last,
                int v);
 
+  int pairs_until_next_ = 0;
+  std::optional<double> last_;
   urban_nav_core::Fast fast_;
   std::vector<urban_nav_core::Corner> strongest_;  // of each cell
   std::vector<int> costs_;

@@ -67,6 +67,18 @@ TEST(RowCheck, saysNothingOfImagesThatAreNoPair) {
   EXPECT_FALSE(RowCheck().measure(frame.pair()).has_value());
 }
 
+TEST(RowCheck, measuresAPairInTwenty) {
+  const StereoFrame straight = roomPair();
+  StereoFrame lower = straight;
+  lower.right = displaced(lower.right, 0.0, 12.0);
+  RowCheck rows;
+  EXPECT_LE(rows.measureSometimes(straight.pair()).value_or(9.0), 1.0);
+  int answers = 1;
+  while (answers < 100 && rows.measureSometimes(lower.pair()).value_or(9.0) <= 1.0) ++answers;
+  EXPECT_EQ(answers, 20);
+  EXPECT_NEAR(rows.measureSometimes(straight.pair()).value_or(0.0), 12.0, 1.0);
+}
+
 TEST(SwfVo, namesImagesThatAreNotRectified) {
   const Recording& room = inTheRoom("loop", 1.0, 10);
   SwfVo filter(Parameters(), stereoCamera(), urban_nav_core::Pose());
