@@ -39,9 +39,7 @@ std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_na
     input.laser = laserNumber(lasers[i].frame, i);
     const StampNs delay = lasers[i].delay;
     store.scans().forEach(session, lasers[i].frame, begin + delay, begin + delay + kChunkNs - 1, [&](const Scan& scan) {
-      input.scans.push_back(scan);
-      input.scans.back().stamp -= delay;
-      for (urban_nav_core::Beam& beam : input.scans.back().beams) beam.stamp -= delay;
+      input.scans.push_back(urban_nav_registration::withoutDelay(scan, delay));
     });
     inputs.push_back(std::move(input));
   }

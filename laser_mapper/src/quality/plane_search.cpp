@@ -5,11 +5,11 @@
 #include <memory>
 #include <set>
 
-#include "calibration/calibration_state.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
 #include "laser_mapper/revisits.hpp"
 #include "mounted_laser.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/session/adopted_calibration.hpp"
 
 namespace laser_mapper {
 
@@ -51,8 +51,7 @@ class ScratchStore {
 /// Copies lasers with their adopted calibration, and thinned scans of the given chunks.
 void copyScans(Store& from, Store& to, const SessionId& session, const std::set<StampNs>& chunks) {
   to.sessions().put(urban_nav_store::Session{session, "", "", "", 0, true});
-  if (const auto bytes = from.states().get(session, kCalibrationState))
-    to.states().put(session, kCalibrationState, *bytes);
+  urban_nav_registration::writeCalibration(to, session, urban_nav_registration::readCalibration(from, session));
   for (const MountedLaser& laser : statedLasers(from, session)) {
     to.sessions().put(session, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});
     StampNs last = 0;

@@ -59,15 +59,15 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
                                   const urban_nav_core::Trajectory& T_map_base,
                                   const urban_nav_core::OdometryChain* odometry);
 
-/// Makes the map of a session use the adopted terms of a calibration, or, with none adopted, the extrinsics alone.
-/// Chunks rendered with another calibration are rendered again by LaserMap::render().
+/// Makes all stages use the adopted terms of a calibration of a session's lasers, or, with none adopted, the extrinsics
+/// alone; what is adopted of the panoramas stays. Chunks rendered with another calibration are rendered again by
+/// LaserMap::render().
 void storeCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                       const CalibrationResult& calibration);
-/// Makes the colours of a session's map use its panoramas as late by `delay` (s); 0: as stamped.
+/// Makes all stages use a session's panoramas as late by `delay` (s); 0: as stamped. What is adopted of the lasers
+/// stays.
 void storePanoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session, double delay);
-/// Returns by how much the panoramas of a session are late. Throws DataError if the stored calibration is damaged.
-urban_nav_core::StampNs panoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
-/// Makes the map of a session use its extrinsics and stamps alone.
+/// Makes all stages use the extrinsics and stamps of a session alone.
 void forgetCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 }  // namespace laser_mapper

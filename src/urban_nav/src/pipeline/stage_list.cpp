@@ -6,6 +6,7 @@
 #include "stages/graph/graph_stage.hpp"
 #include "stages/keyframes/keyframes_stage.hpp"
 #include "stages/labels/labels_stage.hpp"
+#include "stages/lasers/calibration_stage.hpp"
 #include "stages/lasers/lasers_stage.hpp"
 #include "stages/localization/localization_stage.hpp"
 #include "stages/loops/loops_stage.hpp"
@@ -21,6 +22,7 @@ std::vector<std::unique_ptr<Stage>> makeStages() {
   stages.push_back(makeKeyframesStage());
   stages.push_back(makePlacesStage());
   stages.push_back(makeStereoStage());
+  stages.push_back(makeCalibrationStage());
   stages.push_back(makeLoopsStage());
   stages.push_back(makeGraphStage());
   stages.push_back(makeLasersStage());

@@ -12,6 +12,7 @@
 #include "stage/closures_file.hpp"
 #include "stage/map_options.hpp"
 #include "stage/previous_sessions.hpp"
+#include "stage/session_calibration.hpp"
 #include "stage/session_trajectory.hpp"
 #include "urban_nav_store/store.hpp"
 
@@ -48,6 +49,7 @@ struct MapContext {
 
   std::vector<ClosureRow> closures;             ///< candidates, then with transforms, then with verdicts
   std::vector<SessionTrajectory> trajectories;  ///< over all sessions; by stage vo, then by graph and localization
+  std::vector<SessionCalibration> calibrations;  ///< of sessions of this run along odometry, with --calibrate
   bool relaxed = false;                         ///< the trajectories are those of the pose graph
   std::vector<urban_nav_core::Trajectory>
       stereo_only;                              ///< over all sessions, relaxed without ICP; empty: no difference

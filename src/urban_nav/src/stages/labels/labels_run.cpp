@@ -20,6 +20,7 @@
 #include "stages/labels/class_colours.hpp"
 #include "stages/labels/labelled_ply.hpp"
 #include "urban_nav_registration/cloud/cell_table.hpp"
+#include "urban_nav_registration/session/adopted_calibration.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_panorama.hpp"
 
@@ -78,11 +79,12 @@ void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession
                 const StoredPanoramaCamera& camera, double spacing, PlannedViews& planned) {
   const std::size_t device = planned.devices++;
   const scene_labeler::TravelledPath path(*session.T_map_base);
+  const urban_nav_core::StampNs delay = urban_nav_registration::panoramaDelay(store, session.id);
   double next = 0.0;
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
     if (row.camera != camera.camera) return;
-    const auto travelled = path.at(row.stamp);
-    const auto T_map_base = session.T_map_base->at(row.stamp, longest_view_gap);
+    const auto travelled = path.at(row.stamp - delay);
+    const auto T_map_base = session.T_map_base->at(row.stamp - delay, longest_view_gap);
     if (!travelled || !T_map_base || *travelled < next) return;
     next = *travelled + spacing;
     planned.views.push_back({rawCamera(camera), *T_map_base * camera.T_base_camera, planned.images.size(), device});

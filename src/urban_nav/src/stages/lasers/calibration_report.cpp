@@ -2,6 +2,8 @@
 #include "stages/lasers/calibration_report.hpp"
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "report/plot.hpp"
 
@@ -57,6 +59,22 @@ std::string panoramaSentence(const laser_mapper::ViewDelay& found) {
   return "delay of its stamps " + withSigma(kTerms[0], found.delay) +
          (found.delay.adopted != 0.0 ? ", adopted" : ", the stamps are kept");
 }
+
+/// Mean over the sessions that constrain the delay of a device, by their information.
+class DelayMean {
+ public:
+  void add(const CalibrationEstimate& delay) {
+    if (!delay.constrained || !(delay.sigma > 0.0)) return;
+    const double weight = 1.0 / (delay.sigma * delay.sigma);
+    weights_ += weight;
+    sum_ += weight * delay.value;
+  }
+  /// Returns the mean, ms; null: no session constrains it.
+  Json toJson() const { return weights_ > 0.0 ? Json(1e3 * sum_ / weights_) : Json(); }
+
+ private:
+  double weights_ = 0.0, sum_ = 0.0;
+};
 
 Json termJson(const TermText& text, const CalibrationEstimate& term) {
   Json row = Json::object();
@@ -145,15 +163,15 @@ Json calibrationJson(const LasersRun& run) {
 }
 
 Json delaysJson(const LasersRun& run) {
-  Json delays = Json::object();
-  if (run.calibrations.empty()) return delays;
-  for (const LaserCalibration& laser : run.calibrations.front().found.lasers) {
-    const CalibrationEstimate& delay = laser.at(laser_mapper::CalibrationTerm::Delay);
-    delays[laser.frame] = delay.constrained ? Json(1e3 * delay.value) : Json();
+  std::map<std::string, DelayMean> delays;
+  for (const SessionCalibration& session : run.calibrations) {
+    for (const LaserCalibration& laser : session.found.lasers)
+      delays[laser.frame].add(laser.at(laser_mapper::CalibrationTerm::Delay));
+    if (session.panorama) delays["panorama"].add(session.panorama->delay);
   }
-  if (const auto& panorama = run.calibrations.front().panorama)
-    delays["panorama"] = panorama->delay.constrained ? Json(1e3 * panorama->delay.value) : Json();
-  return delays;
+  Json json = Json::object();
+  for (const auto& [device, delay] : delays) json[device] = delay.toJson();
+  return json;
 }
 
 }  // namespace urban_nav

@@ -14,7 +14,8 @@ namespace urban_nav {
 std::vector<std::string> calibrationSentences(const LasersRun& run);
 std::vector<PageTable> calibrationTables(const LasersRun& run);
 Json calibrationJson(const LasersRun& run);
-/// Returns the delay of each device that its session constrains, ms, of the first session that was calibrated.
+/// Returns the delay of each device, ms: the mean over the sessions that constrain it, weighted by their information;
+/// null where none does.
 Json delaysJson(const LasersRun& run);
 
 }  // namespace urban_nav

@@ -130,25 +130,15 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
   return run;
 }
 
-/// Calibrates the lasers of a session of this run if that is asked for; otherwise its map uses the extrinsics alone.
-/// Previous sessions keep what their own runs have adopted.
-void calibrateSession(const laser_mapper::Parameters& parameters, std::size_t session, MapContext& context,
-                      LasersRun& run) {
-  const std::size_t previous = context.previous.runs.size();
-  if (session < previous) return;
-  const urban_nav_store::SessionId id = context.ids()[session];
-  if (!context.options.calibrate) {
-    laser_mapper::forgetCalibration(*context.store, id);
-    return;
-  }
-  const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[session]);
-  SessionCalibration calibration;
-  calibration.number = session;
-  calibration.session = context.names[session];
-  calibration.found = laser_mapper::calibrateLasers(parameters, *context.store, id,
-                                                    context.trajectories[session].T_map_base, &odometry);
-  laser_mapper::storeCalibration(*context.store, id, calibration.found);
-  run.calibrations.push_back(std::move(calibration));
+/// Calibrates the lasers of a session of this run if that is asked for. Previous sessions keep what their own runs have
+/// adopted. What stage calibration has found stands where no relaxation has changed the trajectory since.
+void calibrateForMap(const laser_mapper::Parameters& parameters, std::size_t session, const MapContext& context,
+                     LasersRun& run) {
+  if (!context.options.calibrate || session < context.previous.runs.size()) return;
+  const auto found = std::find_if(context.calibrations.begin(), context.calibrations.end(),
+                                  [&](const SessionCalibration& each) { return each.number == session; });
+  if (found != context.calibrations.end() && !context.relaxed) run.calibrations.push_back(*found);
+  else run.calibrations.push_back(calibrateSession(parameters, session, context));
 }
 
 /// Calibrates the panoramas of sessions whose lasers have been calibrated, by the map that these have made.
@@ -215,6 +205,19 @@ laser_mapper::BeamCounts LasersRun::beams() const {
   return all;
 }
 
+SessionCalibration calibrateSession(const laser_mapper::Parameters& parameters, std::size_t session,
+                                    const MapContext& context) {
+  const urban_nav_store::SessionId id = context.ids()[session];
+  const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[session]);
+  SessionCalibration calibration;
+  calibration.number = session;
+  calibration.session = context.names[session];
+  calibration.found = laser_mapper::calibrateLasers(parameters, *context.store, id,
+                                                    context.trajectories[session].T_map_base, &odometry);
+  laser_mapper::storeCalibration(*context.store, id, calibration.found);
+  return calibration;
+}
+
 LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<urban_nav_store::SessionId> ids = context.ids();
@@ -228,7 +231,7 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
     for (const std::size_t s : sessions) {
       const SessionTrajectory& session = context.trajectories[s];
       if (context.store->scans().lasers(ids[s]).empty()) continue;
-      calibrateSession(parameters, s, context, run);
+      calibrateForMap(parameters, s, context, run);
       mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
       trajectories.push_back(&session.T_map_base);
     }

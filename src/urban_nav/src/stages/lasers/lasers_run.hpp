@@ -2,16 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "laser_mapper/calibration/laser_calibration.hpp"
-#include "laser_mapper/calibration/view_delay.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
 #include "report/page.hpp"
 #include "stage/context.hpp"
+#include "stage/session_calibration.hpp"
 
 namespace urban_nav {
 
@@ -33,14 +31,6 @@ struct LaserMapRun {
   std::string viewer;  ///< markup of the view in three dimensions
 };
 
-/// Calibration of the lasers of one session, with --calibrate.
-struct SessionCalibration {
-  std::size_t number = 0;  ///< over all sessions
-  std::string session;     ///< name
-  laser_mapper::CalibrationResult found;
-  std::optional<laser_mapper::ViewDelay> panorama = {};  ///< nullopt: there are no panoramas
-};
-
 /// What stage lasers made.
 struct LasersRun {
   std::vector<LaserMapRun> maps;
@@ -57,6 +47,11 @@ struct LasersRun {
   laser_mapper::QualityFigures ground() const;
   laser_mapper::BeamCounts beams() const;
 };
+
+/// Estimates the calibration of the lasers of a session of this run along its trajectory, whatever that is by now, and
+/// makes all stages use what is adopted of it. `session`: number over all sessions.
+SessionCalibration calibrateSession(const laser_mapper::Parameters& parameters, std::size_t session,
+                                    const MapContext& context);
 
 /// Renders the maps of all sessions whose trajectories are written, and writes their files into the output folder.
 LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& context);

@@ -32,7 +32,8 @@ class LasersStage final : public Stage {
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
-    storeFixes(context, start.session);  // export --crs needs them
+    storeFixes(context, start.session);                                                   // export --crs needs them
+    laser_mapper::forgetCalibration(*context.store, context.sessions[start.session].id);  // of an earlier run
     if (context.sessions[start.session].info.panorama.empty()) return nullptr;
     return std::make_unique<PanoramaPass>(context, start);
   }

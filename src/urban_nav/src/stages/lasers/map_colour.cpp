@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "stage/panorama_views.hpp"
+#include "urban_nav_registration/session/adopted_calibration.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_panorama.hpp"
 
@@ -61,7 +62,7 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
                                                          double memory_mb) {
   SessionViews made;
   for (const MappedSession& session : sessions)
-    addViews(store, session, laser_mapper::panoramaDelay(store, session.id), made);
+    addViews(store, session, urban_nav_registration::panoramaDelay(store, session.id), made);
   if (made.views.empty()) return nullptr;
   const urban_nav_core::Pinhole& pinhole = made.views.front().camera.pinhole;
   const double image_mb = std::max(0.1, 3e-6 * pinhole.width * pinhole.height);

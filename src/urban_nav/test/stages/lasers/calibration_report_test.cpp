@@ -54,6 +54,19 @@ TEST(CalibrationReport, SaysWhatWasFoundAndWhatTheSessionCannotTell) {
   EXPECT_NE(delays.find("\"laser_right\": null"), std::string::npos) << delays;
 }
 
+TEST(CalibrationReport, DelaysAreThoseOfAllSessionsByTheirInformation) {
+  LasersRun run = runWithCalibration(true);
+  run.calibrations.push_back(run.calibrations.front());
+  SessionCalibration& second = run.calibrations.back();
+  second.found.lasers[0].terms[0] = {0.034, 0.0004, true, 0.034};   // as sure as the first one
+  second.found.lasers[1].terms[0] = {-0.012, 0.002, true, -0.012};  // the first one does not tell
+  second.panorama->delay = {0.026, 0.0005, true, 0.026};            // four times the information
+  const std::string delays = delaysJson(run).print();
+  EXPECT_NE(delays.find("\"laser_left\": 32"), std::string::npos) << delays;
+  EXPECT_NE(delays.find("\"laser_right\": -12"), std::string::npos) << delays;
+  EXPECT_NE(delays.find("\"panorama\": 24.8"), std::string::npos) << delays;
+}
+
 TEST(CalibrationReport, SaysWhyTheStatedCalibrationIsKept) {
   EXPECT_TRUE(
       holds(calibrationSentences(runWithCalibration(false)), "calibration of quad: the stated calibration is kept"));
