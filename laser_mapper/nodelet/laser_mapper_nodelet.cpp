@@ -120,7 +120,7 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
   node.subscribeInput<urban_nav_msgs::GraphUpdate>(
       urban_nav_ros::topics::graph_update, options,
       [](const urban_nav_msgs::GraphUpdateConstPtr& message) { return urban_nav_ros::toGraphUpdate(*message); });
-  if (!parameters_.constraints) return;
+  if (!nodelet_.live_constraints) return;
   constraints_ = node.nh().advertise<urban_nav_msgs::RelativeConstraint>(urban_nav_ros::topics::map_constraints, 1000);
   node.subscribeInput<urban_nav_msgs::MetricClosure>(
       urban_nav_ros::topics::metric_closure, options,
@@ -184,7 +184,7 @@ LaserMapperStage::Clock::time_point LaserMapperStage::nextTime(Clock::time_point
 }
 
 void LaserMapperStage::publishConstraints() {
-  if (!parameters_.constraints || !has_new_poses_ || Clock::now() < constraints_due_ ||
+  if (!nodelet_.live_constraints || !has_new_poses_ || Clock::now() < constraints_due_ ||
       constraints_.getNumSubscribers() == 0)
     return;
   const Clock::time_point begin = Clock::now();
@@ -272,7 +272,7 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   report.add("chunks", counts.chunks);
   report.add("chunks rendered last", counts.chunks_rendered);
   report.add("time of the last cloud (s)", seconds_);
-  if (parameters_.constraints) {
+  if (nodelet_.live_constraints) {
     report.add("constraints from planes", counts.constraints);
     report.add("constraints left out for ICP closures", counts.constraints_shared);
   }

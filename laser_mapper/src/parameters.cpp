@@ -47,9 +47,9 @@ const Table<Parameters>& table() {
           {"max_shift", &P::max_shift, "m", 0.005, 0.0, 10.0, {},
            "A part of the map is rendered again when its points have moved by more than this.",
            "docs/methods/laser_mapper.md"},
-          {"constraints", &P::constraints, "", false, false, false, {},
-           "Planes that several passes measured take part in the relaxation of the pose graph.",
-           "section 6.3; docs/methods/laser_mapper.md"},
+          {"constraints", &P::constraints, "", true, false, false, {},
+           "Planes that several passes measured take part in the relaxation of the pose graph, in `map`.",
+           "section 6.3; src/urban_nav/bench/plane_drift.cpp"},
       });
   return rows;
 }

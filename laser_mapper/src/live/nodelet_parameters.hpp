@@ -12,7 +12,8 @@ struct NodeletParameters {
   std::string base_frame, map_frame;
   double period;          // s
   double tile_bandwidth;  // MB/s
-  int queue_size;         // messages
+  bool live_constraints;
+  int queue_size;  // messages
 
   NodeletParameters();
 };
