@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/session/session_lasers.hpp"
 
