@@ -58,16 +58,19 @@ SiteLoss computeSiteLoss(const SiteFold& fold, double prior_deviation, double ri
   return sum;
 }
 
-/// Standard error of the sum of `values` as an estimate of a ratio to the sum of `weights`, which is one.
-double computeStandardError(const std::vector<double>& values, const std::vector<SiteLoss>& sites) {
-  double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value;
-  for (std::size_t s = 0; s < values.size(); ++s) {
-    const double residual = values[s] - mean * sites[s].weight;
+/// Sum of the losses, with its standard error as an estimate of a ratio to the sum of the weights, which is one.
+HeldOutLoss sumSites(double prior_deviation, const std::vector<SiteLoss>& sites) {
+  HeldOutLoss sum;
+  sum.prior_deviation = prior_deviation;
+  for (const SiteLoss& site : sites) sum.log_loss += site.loss;
+  double squares = 0.0;
+  for (const SiteLoss& site : sites) {
+    const double residual = site.loss - sum.log_loss * site.weight;
     squares += residual * residual;
   }
-  const auto count = static_cast<double>(values.size());
-  return std::sqrt(squares * count / (count - 1.0));
+  const auto count = static_cast<double>(sites.size());
+  sum.standard_error = std::sqrt(squares * count / (count - 1.0));
+  return sum;
 }
 
 }  // namespace
@@ -85,21 +88,13 @@ PriorChoice choosePrior(const std::vector<CalibrationSample>& samples) {
     const std::size_t d = task / folds.size(), s = task % folds.size();
     losses[d][s] = computeSiteLoss(folds[s], deviations[d], right_weight, wrong_weight);
   });
-  std::size_t best = 0;
-  for (std::size_t d = 0; d < deviations.size(); ++d) {
-    HeldOutLoss& sum = choice.losses.emplace_back();
-    sum.prior_deviation = deviations[d];
-    for (const SiteLoss& site : losses[d]) sum.log_loss += site.loss;
-    if (sum.log_loss < choice.losses[best].log_loss) best = d;
-  }
-  for (std::size_t d = 0; d < deviations.size(); ++d) {
-    std::vector<double> excess;
-    for (std::size_t s = 0; s < folds.size(); ++s) excess.push_back(losses[d][s].loss - losses[best][s].loss);
-    choice.losses[d].excess = choice.losses[d].log_loss - choice.losses[best].log_loss;
-    choice.losses[d].excess_standard_error = computeStandardError(excess, losses[d]);
-  }
+  for (std::size_t d = 0; d < deviations.size(); ++d) choice.losses.push_back(sumSites(deviations[d], losses[d]));
+  const auto best =
+      std::min_element(choice.losses.begin(), choice.losses.end(),
+                       [](const HeldOutLoss& a, const HeldOutLoss& b) { return a.log_loss < b.log_loss; });
+  const double most = best->log_loss + best->standard_error;
   const auto chosen = std::find_if(choice.losses.begin(), choice.losses.end(),
-                                   [](const HeldOutLoss& loss) { return loss.excess <= loss.excess_standard_error; });
+                                   [most](const HeldOutLoss& loss) { return loss.log_loss <= most; });
   choice.prior_deviation = chosen->prior_deviation;
   return choice;
 }

@@ -10,9 +10,8 @@ namespace fabmap_node {
 /// What a fit with a prior of one deviation predicts for sites that it has not seen.
 struct HeldOutLoss {
   double prior_deviation = 0.0;
-  double log_loss = 0.0;               ///< mean of the samples, right and wrong ones weighing the same, nats
-  double excess = 0.0;                 ///< `log_loss` less that of the best deviation
-  double excess_standard_error = 0.0;  ///< of `excess`, from its scatter over sites
+  double log_loss = 0.0;        ///< mean of the samples, right and wrong ones weighing the same, nats
+  double standard_error = 0.0;  ///< of `log_loss`, from its scatter over sites
 };
 
 /// Deviation of the prior of a calibration.
@@ -23,9 +22,8 @@ struct PriorChoice {
 
 /// Chooses the deviation of the prior of fitCalibration() by leaving one site out: the samples of each site are
 /// predicted by the fit to those of all others. Of the deviations, the smallest whose loss exceeds the lowest one by no
-/// more than a standard error is chosen (Hastie et al. 2009, section 7.10, with the error of the difference: sites are
-/// the same for all). Returns the default with fewer than five sites, or unless both kinds of samples are at two.
-/// Deterministic for any number of threads.
+/// more than the standard error of that one is chosen (Hastie et al. 2009, section 7.10). Returns the default with
+/// fewer than five sites, or unless both kinds of samples are at two. Deterministic for any number of threads.
 PriorChoice choosePrior(const std::vector<CalibrationSample>& samples);
 
 }  // namespace fabmap_node

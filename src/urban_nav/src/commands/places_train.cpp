@@ -33,8 +33,7 @@ Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
     for (const fabmap_node::HeldOutLoss& loss : prior.choice.losses)
       losses.append(Json::object({{"prior_deviation", loss.prior_deviation},
                                   {"log_loss", loss.log_loss},
-                                  {"excess", loss.excess},
-                                  {"excess_standard_error", loss.excess_standard_error}}));
+                                  {"standard_error", loss.standard_error}}));
     json[prior.calibration] =
         Json::object({{"prior_deviation", prior.choice.prior_deviation}, {"held_out", std::move(losses)}});
   }
