@@ -65,6 +65,15 @@ TEST_F(StageSelectionTest, selectsWhatIsRequestedAndWhatThatNeeds) {
   EXPECT_EQ(select(), (Names{"vo", "keyframes", "loops"}));
 }
 
+TEST_F(StageSelectionTest, calibratesBeforeClosuresAreMeasured) {
+  options.calibrate = true;
+  EXPECT_EQ(select(),
+            (Names{"vo", "keyframes", "places", "stereo", "calibration", "loops", "graph", "lasers", "labels"}));
+  options.stages = {"vo", "loops", "graph"};
+  EXPECT_THROW(select(), UserError) << "there is nothing to calibrate without lasers";
+  ::testing::internal::GetCapturedStderr();
+}
+
 TEST_F(StageSelectionTest, localizationTakesThePlaceOfMapping) {
   const testing::TemporaryFolder folder;
   options.localise = folder.file("map.db");
