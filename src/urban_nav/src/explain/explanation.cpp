@@ -95,6 +95,12 @@ constexpr const char* kHowToReadClouds =
     "says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
 constexpr const char* kGate = "Against odometry and its neighbours";
 constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
+constexpr const char* kPlaneEvidence =
+    "Planes around both moments, which the lasers measured in two passes; how far the passes of each lie apart is in quality.csv.";
+
+std::string sentenceWithoutEvidence(const StoredClosure& closure) {
+  return closure.edge.kind == urban_nav_store::EdgeKind::Plane ? kPlaneEvidence : kNoEvidence;
+}
 
 /// The sessions of both moments under the names that the evidence has for them.
 std::vector<CandidateSession> namedIn(const StoredClosure& closure, const PreviousSessions& kept) {
@@ -124,7 +130,7 @@ std::string explain(const StoredClosure& closure) {
             (each.sentence.empty() ? "" : ": " + each.sentence) + "\n" + toLines(each.tests);
   }
   if (!evidence.gate.empty()) text += "  " + std::string(kGate) + ":\n" + toLines(evidence.gate);
-  if (evidence.tries.empty() && evidence.gate.empty()) text += "  " + std::string(kNoEvidence) + "\n";
+  if (evidence.tries.empty() && evidence.gate.empty()) text += "  " + sentenceWithoutEvidence(closure) + "\n";
   return text;
 }
 
@@ -157,7 +163,7 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
   }
   if (!evidence.gate.empty()) page.sections.push_back({"gate", kGate, "", {}, {}, {makeTable("Tests", evidence.gate)}});
   if (evidence.tries.empty() && evidence.gate.empty())
-    page.sections.push_back({"none", "Evidence", kNoEvidence, {}, {}, {}});
+    page.sections.push_back({"none", "Evidence", sentenceWithoutEvidence(closure), {}, {}, {}});
   page.footer = "urban_nav why, from the evidence in " + store.path() + ".";
   return page;
 }
