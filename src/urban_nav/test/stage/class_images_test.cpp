@@ -71,9 +71,9 @@ TEST(ClassImages, OfOtherEncodingsAreNone) {
   EXPECT_TRUE(ClassImages({bag}, "/classes", "").at("camera1", image_time).empty());
 }
 
-TEST(ClassImages, ABagThatCannotBeReadIsNamed) {
-  const std::string path = ::testing::TempDir() + "no_bag.bag";
-  urban_nav_core::writeAtomically(path, "no bag");
+TEST(ClassImages, ABagThatWasCutOffIsNamed) {
+  const std::string path = ::testing::TempDir() + "class_images_cut.bag";
+  urban_nav_core::writeAtomically(path, "#ROSBAG V2.0\n");
   EXPECT_THROW(ClassImages({path}, "/classes", ""), urban_nav_core::DataError);
 }
 
