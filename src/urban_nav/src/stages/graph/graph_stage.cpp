@@ -152,7 +152,7 @@ class GraphStage final : public Stage {
             ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
                   " (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
             : "map not aligned with gravity: " + level.sentence};
-    if (run_->planes.searched)
+    if (planes.all() + run_->planes.shared > 0)
       lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
                       std::to_string(planes.accepted) + " accepted" +
                       (run_->planes.shared > 0
