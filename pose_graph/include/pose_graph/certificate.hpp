@@ -30,7 +30,16 @@ template <int D>
 Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& poses,
                     const std::vector<double>& weights = {});
 
+/// Minimises the chordal objective further, from `poses` until round-off decides, and certifies the result. The bound
+/// is some 1e-8 of the cost where that is the global minimum: as far as poses are from a minimum, S has negative
+/// eigenvalues. `poses` are replaced unless they cost less than the result. Some factorisations more than certify().
+template <int D>
+Certificate certifyConverged(const Problem<D>& problem, std::vector<Rigid<D>>& poses,
+                             const std::vector<double>& weights = {});
+
 extern template Certificate certify(const Problem<2>&, const std::vector<Rigid<2>>&, const std::vector<double>&);
 extern template Certificate certify(const Problem<3>&, const std::vector<Rigid<3>>&, const std::vector<double>&);
+extern template Certificate certifyConverged(const Problem<2>&, std::vector<Rigid<2>>&, const std::vector<double>&);
+extern template Certificate certifyConverged(const Problem<3>&, std::vector<Rigid<3>>&, const std::vector<double>&);
 
 }  // namespace pose_graph

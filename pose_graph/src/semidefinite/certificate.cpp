@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "linear/index.hpp"
 #include "pose_graph/solution.hpp"
@@ -16,8 +17,12 @@ namespace {
 // two, by halves of the exponent. What is less drowns in round-off.
 constexpr double kLeastEigenvalueShare = 1e-9, kCertified = 1e-4;
 constexpr int kHalvings = 4;
+// Of the cost: what a further step may still gain.
+constexpr double kConverged = 1e-15;
 // Of the largest entry: as much as a factorisation of some thousand poses may err.
 constexpr double kFactorRoundOff = 1e-13;
+// Of the same and the number of rotations' entries: the cost of residuals that are round-off.
+constexpr double kNoCost = 1e-20;
 
 /// Half the gradient by each rotation, (X M)_i, seen from it and symmetric.
 template <int D>
@@ -73,12 +78,27 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
     made.gap = std::max(made.cost - dual, 0.0) + eta * numbers;
   }
   // Where measurements fit to the last digit, the cost is nothing and any share of it less.
-  const double nothing = 1e3 * kFactorRoundOff * largest * numbers;
-  made.certified = made.gap && *made.gap <= std::max(kCertified * made.cost, nothing);
+  const double scale = largest * numbers;
+  const bool fits = made.cost <= kNoCost * scale && made.gap && *made.gap <= 1e3 * kFactorRoundOff * scale;
+  made.certified = fits || (made.gap && *made.gap <= kCertified * made.cost);
   return made;
+}
+
+template <int D>
+Certificate certifyConverged(const Problem<D>& problem, std::vector<Rigid<D>>& poses,
+                             const std::vector<double>& weights) {
+  SolveOptions options;
+  options.objective = Objective::Chordal;
+  options.start = Start::Vertices;
+  options.tolerance = kConverged;
+  Solution<D> converged = solve(Problem<D>{poses, problem.edges}, options, weights);
+  if (converged.cost <= cost(problem, poses, Objective::Chordal, weights)) poses = std::move(converged.poses);
+  return certify(problem, poses, weights);
 }
 
 template Certificate certify(const Problem<2>&, const std::vector<Rigid<2>>&, const std::vector<double>&);
 template Certificate certify(const Problem<3>&, const std::vector<Rigid<3>>&, const std::vector<double>&);
+template Certificate certifyConverged(const Problem<2>&, std::vector<Rigid<2>>&, const std::vector<double>&);
+template Certificate certifyConverged(const Problem<3>&, std::vector<Rigid<3>>&, const std::vector<double>&);
 
 }  // namespace pose_graph

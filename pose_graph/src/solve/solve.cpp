@@ -91,7 +91,10 @@ double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objec
 }
 
 template <int D>
-Solution<D> solve(const Problem<D>& problem, const SolveOptions& options, const std::vector<double>& weights) {
+Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const std::vector<double>& weights) {
+  SolveOptions options = given;
+  // In the plane the two are one, and only the geodesic solver condenses chains, which it needs where they are long.
+  if (D == 2 && options.objective == Objective::G2o) options.objective = Objective::Geodesic;
   auto condensed = solveCondensed(problem, options, weights);
   const bool may_untangle = options.start == Start::Auto;
   if (condensed && !(may_untangle && isTangled(problem, weights, condensed->poses))) return *std::move(condensed);

@@ -58,6 +58,37 @@ TEST(Certificate, isNotGivenToAKnot) {
   }
 }
 
+/// One edge that is stiffer than the others by far hides what the others cost in round-off: nothing is certified then.
+TEST(Certificate, isNotGivenWhereRoundOffHidesTheCost) {
+  Dice dice(31);
+  Problem<2> problem = drawProblem<2>(dice, 20, 10, 0.05, 0.05);
+  problem.edges.push_back(problem.edges.front());
+  problem.edges.back().information *= 1e10;
+  const Solution<2> solution = solve(problem, chordal());
+  const Certificate certificate = certify(problem, solution.poses);
+  ASSERT_TRUE(certificate.gap);
+  EXPECT_GT(*certificate.gap, 1e-4 * certificate.cost);
+  EXPECT_FALSE(certificate.certified);
+}
+
+/// A minimisation that ends early leaves the bound wide; the same poses, converged, have a narrow one.
+TEST(Certificate, isNarrowWherePosesHaveConverged) {
+  Dice dice(29);
+  const Problem<3> problem = drawProblem<3>(dice, 50, 30, 0.1, 0.1);
+  SolveOptions early = chordal();
+  early.tolerance = 1e-3;
+  std::vector<Rigid<3>> poses = solve(problem, early).poses;
+  const Certificate wide = certify(problem, poses);
+  const Certificate narrow = certifyConverged(problem, poses);
+  ASSERT_TRUE(wide.gap && narrow.gap);
+  EXPECT_TRUE(narrow.certified);
+  EXPECT_LT(*narrow.gap, 1e-6 * narrow.cost);
+  EXPECT_LT(*narrow.gap, 0.1 * *wide.gap);
+  EXPECT_LE(narrow.cost, wide.cost);
+  EXPECT_GE(narrow.cost, wide.cost - *wide.gap) << "the wide bound holds too";
+  EXPECT_DOUBLE_EQ(narrow.cost, cost(problem, poses, Objective::Chordal)) << "poses are those of the certificate";
+}
+
 TEST(Certificate, leavesOutWhatHasNoWeightAndKnowsParts) {
   Dice dice(23);
   Problem<3> problem = drawProblem<3>(dice, 20, 10, 0.05, 0.05);

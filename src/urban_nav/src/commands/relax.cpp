@@ -8,6 +8,7 @@
 #include "pipeline/parameters.hpp"
 #include "pose_graph/ceres.hpp"
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph/parameters.hpp"
 #include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
 #include "pose_graph/solution.hpp"
@@ -72,12 +73,20 @@ GraphCosts computeCosts(const pose_graph::Problem<D>& problem, const std::vector
           cost(problem, poses, Objective::G2o)};
 }
 
+/// Parameters of the stage, over which the options of the command prevail.
+pose_graph::Parameters relaxParameters(const Arguments& arguments) {
+  pose_graph::Parameters parameters = loadParameters(arguments).get(pose_graph::table());
+  parameters.solver = arguments.get("solver", parameters.solver);
+  parameters.robust = arguments.get("robust", parameters.robust ? "on" : "off") == "on";
+  return parameters;
+}
+
 /// Poses, and what is thought of each edge.
 template <int D>
-pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, const Arguments& arguments,
+pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, const pose_graph::Parameters& parameters,
                                      const pose_graph::SolveOptions& options) {
-  const bool doubted = arguments.get("robust", "on") == "on";
-  const std::string solver = arguments.get("solver", "gauss_newton");
+  const bool doubted = parameters.robust;
+  const std::string& solver = parameters.solver;
   if (solver == "relative_pcg" && file.problem.edges.size() != file.edges.size())
     throw UserError("", "--solver relative_pcg with priors, landmarks or fixed vertices",
                     "--solver gauss_newton, ceres");
@@ -170,9 +179,11 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   Warnings warnings(console, name, report.warnings);
   for (const auto& [tag, count] : unknownTags(graph))
     warnings.add(std::to_string(count) + " lines " + tag + " are of an unknown kind and left out");
+  const pose_graph::Parameters parameters = relaxParameters(arguments);
   pose_graph::SolveOptions options;
   options.objective = parseObjective(arguments.get("objective", "geodesic"));
-  const bool doubted = arguments.get("robust", "on") == "on";
+  options.iterations = parameters.iterations;
+  const bool doubted = parameters.robust;
   const bool blocks = options.objective == Objective::Chordal && !doubted;
   const pose_graph::FileProblem<D> file = pose_graph::makeProblem<D>(
       graph, name, blocks ? pose_graph::Semidefinite::Blocks : pose_graph::Semidefinite::Whole);
@@ -184,14 +195,14 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
     return true;
   };
   const auto begin = Clock::now();
-  const pose_graph::RobustSolution<D> robust = solved(file, arguments, options);
+  pose_graph::RobustSolution<D> robust = solved(file, parameters, options);
   report.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  summarise(file, robust, doubted, warnings, report);
   if (options.objective == Objective::Chordal) {
     std::vector<double> weights;
     for (const pose_graph::EdgeAssessment& edge : robust.edges) weights.push_back(edge.weight);
-    report.certificate = certify(file.problem, robust.solution.poses, weights);
+    report.certificate = certifyConverged(file.problem, robust.solution.poses, weights);
   }
+  summarise(file, robust, doubted, warnings, report);
   writeOutputs(graph, file, robust, arguments);
   return report;
 }
