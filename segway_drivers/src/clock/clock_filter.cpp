@@ -10,24 +10,24 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double least_sigma = 10e-6;        // s
-constexpr double least_height_sigma = 1e-6;  // s
-constexpr double acquisition = 2.0;          // s in which lower arrivals are no surprise
-constexpr double young = 20.0;               // s in which the line still improves fast
-constexpr double gated_from = 60.0;          // s after which the skew may change slowly only
-constexpr double disproof = 0.5e-3;          // s below the line
-constexpr double contradiction = 0.25;       // s below the line that no backlog explains
-constexpr int passing_contradiction = 5;     // measurements
-constexpr double late_limit = 0.05;          // s above the line
-constexpr double late_duration = 1.0;        // s
-constexpr double refused_limit = 600.0;      // s without an accepted skew
-constexpr double slew_rate = 1e-3;           // s/s, of corrections after acquisition
-constexpr double young_slew_rate = 10e-3;    // s/s
-constexpr double skew_drift = 1e-6 / 60.0;   // 1/s, of a crystal that warms up
-constexpr double memory_of_change = 0.98;    // per estimate, one a second
-constexpr double hard_from = 3.0;            // s after which the data may show a skew beyond the tolerance
-constexpr double most_bias = 1e-3;           // s
-constexpr double unknown_spacing = 5e-3;     // s
+constexpr double least_sigma = 10e-6;       // s
+constexpr double acquisition = 2.0;         // s in which lower arrivals are no surprise
+constexpr double young = 20.0;              // s in which the line still improves fast
+constexpr double gated_from = 60.0;         // s after which the skew may change slowly only
+constexpr double disproof = 0.5e-3;         // s below the line
+constexpr double contradiction = 0.25;      // s below the line that no backlog explains
+constexpr int passing_contradiction = 5;    // measurements
+constexpr double late_limit = 0.05;         // s above the line
+constexpr double late_duration = 1.0;       // s
+constexpr double refused_limit = 600.0;     // s without an accepted skew
+constexpr double slew_rate = 1e-3;          // s/s, of corrections after acquisition
+constexpr double young_slew_rate = 10e-3;   // s/s
+constexpr double skew_gate = 2.0;           // standard deviations of a slope beyond the accepted change
+constexpr double skew_drift = 1e-6 / 60.0;  // 1/s, of a crystal that warms up
+constexpr double memory_of_change = 0.98;   // per estimate, one a second
+constexpr double hard_from = 3.0;           // s after which the data may show a skew beyond the tolerance
+constexpr double most_bias = 1e-3;          // s
+constexpr double unknown_spacing = 5e-3;    // s
 constexpr double block_periods = 32.0, least_block = 0.5;  // s
 constexpr std::size_t most_points = 16384;
 
@@ -187,7 +187,7 @@ void ClockFilter::fit() {
   const auto fitted = fitLowerLine(points, count, block, now_.skew, options_.hard_tolerance);
   if (!fitted) return;
   const double x = points[count - 1].x, age = x - now_.begin_x;
-  acceptSkew(fitted->slope, std::max(8.0 * fitted->spacing, least_height_sigma) / fitted->span, age);
+  acceptSkew(fitted->slope, fitted->slope_sigma, age);
   if (x - now_.accepted_at > refused_limit) {
     ++epoch_;
     now_.skew_known = false;
@@ -220,7 +220,7 @@ void ClockFilter::acceptSkew(double slope, double slope_sigma, double age) {
     return;
   }
   const double change = std::abs(slope - now_.skew), known = now_.skew_sigma + skew_drift * (x - now_.accepted_at);
-  if (change > options_.max_skew_change + 3.0 * slope_sigma || slope_sigma > known) return;
+  if (change > options_.max_skew_change + skew_gate * slope_sigma || slope_sigma > known) return;
   // A change beyond chance may be the onset of a tilt: it counts as uncertainty for a while.
   now_.skew_sigma = std::max({slope_sigma, 0.5 * change, memory_of_change * now_.skew_sigma});
   now_.skew = slope;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clock/floor_slope.hpp"
+
 namespace segway_drivers {
 
 namespace {
@@ -11,6 +13,9 @@ namespace {
 constexpr std::size_t fewest_blocks = 6;  // below that every point belongs to the floor
 constexpr double widest_floor = 6.0;      // times the median step between lowest points of adjacent blocks
 constexpr double least_floor = 0.1e-3;    // s
+constexpr double least_spacing = 1e-7;    // s
+constexpr std::size_t fewest_raised = 100;
+constexpr double slope_agreement = 3.0;  // standard deviations
 
 struct ClockBlock {
   std::size_t begin = 0, end = 0;  // of the points
@@ -46,22 +51,6 @@ double floorHeight(const std::vector<ClockBlock>& blocks, double skew) {
 
 double clockEdgeSlope(const ClockPoint& a, const ClockPoint& b) { return (b.z - a.z) / (b.x - a.x); }
 
-double heightOfHull(const std::vector<ClockPoint>& hull, double x) {
-  std::size_t i = 1;
-  while (i + 1 < hull.size() && hull[i].x < x) ++i;
-  return hull[i].z + clockEdgeSlope(hull[i - 1], hull[i]) * (x - hull[i].x);
-}
-
-/// Slope of the chord of the hull between the means of the first and the second half of the points. The edge over the
-/// mean of all would be the best line, but it may be short, and then its slope is wrong.
-double chordSlope(const std::vector<ClockPoint>& hull, const std::vector<ClockPoint>& points) {
-  const std::size_t half = points.size() / 2;
-  double first = 0.0, second = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) (i < half ? first : second) += points[i].x;
-  const double a = first / static_cast<double>(half), b = second / static_cast<double>(points.size() - half);
-  return (heightOfHull(hull, b) - heightOfHull(hull, a)) / (b - a);
-}
-
 /// Slope of the edge with the least sum of heights of the blocks, each counted up to `height`; empty if no edge is
 /// within the limit.
 std::optional<double> slopeOfMostBlocks(const std::vector<ClockPoint>& hull, const std::vector<ClockBlock>& blocks,
@@ -93,6 +82,20 @@ double floorSpacing(const std::vector<ClockPoint>& points, double slope) {
   return (heights[count] - lowest) / static_cast<double>(count);
 }
 
+/// Averages the slope with that of a stretch of raised delays, if that has a floor of its own which agrees with it.
+void includeRaised(const std::vector<ClockPoint>& points, SlopeEstimate& slope) {
+  if (points.size() < fewest_raised) return;
+  const std::vector<ClockPoint> hull = lowerHull(points.data(), points.size());
+  double mean_x = 0.0;
+  for (const ClockPoint& point : points) mean_x += point.x / static_cast<double>(points.size());
+  const double spacing = floorSpacing(points, slope.slope);
+  const SlopeEstimate own = estimateFloorSlope(hull, mean_x, std::max(spacing, least_spacing));
+  if (std::abs(own.slope - slope.slope) > slope_agreement * std::hypot(own.sigma, slope.sigma)) return;
+  const double a = 1.0 / (slope.sigma * slope.sigma), b = 1.0 / (own.sigma * own.sigma);
+  slope.slope += b / (a + b) * (own.slope - slope.slope);
+  slope.sigma = 1.0 / std::sqrt(a + b);
+}
+
 }  // namespace
 
 std::vector<ClockPoint> lowerHull(const ClockPoint* points, std::size_t count) {
@@ -122,9 +125,13 @@ std::optional<LowerLine> fitLowerLine(const ClockPoint* points, std::size_t coun
     if (first) floor = lowestAlong(hull, *first) + height;
   }
   std::vector<ClockPoint> on_floor;
-  for (const ClockBlock& each : blocks)
-    if (!first || lowestAlong(each.hull, *first) <= floor)
-      on_floor.insert(on_floor.end(), points + each.begin, points + each.end);
+  std::vector<std::vector<ClockPoint>> raised(1);
+  for (const ClockBlock& each : blocks) {
+    const bool is_raised = first && lowestAlong(each.hull, *first) > floor;
+    if (!is_raised && !raised.back().empty()) raised.emplace_back();
+    std::vector<ClockPoint>& stretch = is_raised ? raised.back() : on_floor;
+    stretch.insert(stretch.end(), points + each.begin, points + each.end);
+  }
   LowerLine line;
   line.points = static_cast<double>(on_floor.size());
   line.span = on_floor.back().x - on_floor.front().x;
@@ -133,8 +140,11 @@ std::optional<LowerLine> fitLowerLine(const ClockPoint* points, std::size_t coun
     line.mean_z += point.z / line.points;
   }
   if (on_floor.size() < count) hull = lowerHull(on_floor.data(), on_floor.size());
-  line.slope = chordSlope(hull, on_floor);
-  line.spacing = floorSpacing(on_floor, line.slope);
+  line.spacing = floorSpacing(on_floor, estimateFloorSlope(hull, line.mean_x, least_spacing).slope);
+  SlopeEstimate slope = estimateFloorSlope(hull, line.mean_x, std::max(line.spacing, least_spacing));
+  for (const std::vector<ClockPoint>& stretch : raised) includeRaised(stretch, slope);
+  line.slope = slope.slope;
+  line.slope_sigma = slope.sigma;
   return line;
 }
 

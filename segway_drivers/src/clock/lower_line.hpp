@@ -15,11 +15,12 @@ std::vector<ClockPoint> lowerHull(const ClockPoint* points, std::size_t count);
 /// Slope of a line below all points, and the points that share its floor.
 struct LowerLine {
   double slope = 0.0;
-  double points = 0.0;   ///< number of points in blocks that reach down to the line
-  double mean_x = 0.0;   ///< s, of these points
-  double mean_z = 0.0;   ///< s, of these points
-  double span = 0.0;     ///< s, from the first to the last of these points
-  double spacing = 0.0;  ///< s, mean distance in height between neighbours of the lowest quarter of these points
+  double slope_sigma = 0.0;  ///< s/s
+  double points = 0.0;       ///< number of points in blocks that reach down to the line
+  double mean_x = 0.0;       ///< s, of these points
+  double mean_z = 0.0;       ///< s, of these points
+  double span = 0.0;         ///< s, from the first to the last of these points
+  double spacing = 0.0;      ///< s, mean distance in height between neighbours of the lowest quarter of these points
 };
 
 /// Line below all points that is as high as possible over the mean of the points on its floor. The points are cut into
