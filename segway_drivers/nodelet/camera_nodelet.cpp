@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "device_parameters.hpp"
-#include "segway_drivers/transport/session_begin.hpp"
+#include "urban_nav_core/io/agreed_number.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -63,7 +63,8 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   SimCameraOptions options;
   options.model = simulatedModel();
   try {
-    if (!nodelet_.session_begin.empty()) options.begin = agreeOnBegin(nodelet_.session_begin, session_lead);
+    if (!nodelet_.session_begin.empty())
+      options.begin = urban_nav_core::agreeOnNumber(nodelet_.session_begin, steadyTime() + session_lead);
     return std::make_unique<SimSource>(readBag(nodelet_.port), options, realSimClock());
   } catch (const urban_nav_core::UserError& no_pictures) {
     error = no_pictures.what();

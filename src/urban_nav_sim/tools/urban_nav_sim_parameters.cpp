@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md says of the parameters; test/live/simulator_parameters_test.cpp holds it equal to the table.
+// Writes the parameter tables of README.md; tests in test/live compare them with the tables.
+#include "live/device_parameters.hpp"
 #include "live/simulator_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 
 int main(int argc, char** argv) {
-  const auto& table = urban_nav_sim::simulatorTable();
-  return urban_nav_core::documentParameters(argc, argv, {{table.stage(), table.rows()}});
+  const auto& simulator = urban_nav_sim::simulatorTable();
+  const auto& device = urban_nav_sim::deviceTable();
+  return urban_nav_core::documentParameters(argc, argv,
+                                            {{simulator.stage(), simulator.rows()}, {device.stage(), device.rows()}});
 }

@@ -8,6 +8,7 @@
 #include "command_line/held_signals.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "device/device_options.hpp"
 #include "device/simulate_camera.hpp"
 #include "device/simulate_device.hpp"
 #include "segway_drivers/driver/run_device.hpp"
@@ -150,55 +151,32 @@ int runDeviceRun(const Arguments& arguments, Console& console) {
   return 0;
 }
 
-urban_nav_sim::DeviceOptions deviceOptions(const Arguments& arguments) {
-  urban_nav_sim::DeviceOptions options;
-  options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 4294967295));
-  for (const std::string& fault : arguments.all("fault"))
-    options.faults.push_back(urban_nav_sim::parseDeviceFault(fault));
-  if (arguments.has("clock")) options.clock = urban_nav_sim::DeviceClock::parse(arguments.get("clock"));
-  if (arguments.has("delay")) options.delay = urban_nav_sim::DelayModel::parse(arguments.get("delay"), 1.0);
-  return options;
-}
-
-/// The session that --world and its options describe, for jobs without --bag.
-urban_nav_sim::SessionOptions sessionOptions(const Arguments& arguments) {
-  if (!arguments.has("bag") && !arguments.has("world"))
-    throw UserError("urban_nav device", "--bag is missing", "--bag BAG, or --world W");
-  urban_nav_sim::SessionOptions session;
-  session.world = arguments.get("world", session.world);
-  session.route = arguments.get("route", session.route);
-  session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
-  session.duration = arguments.number("duration", session.duration, 0.1, 86400.0);
-  session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
-  return session;
-}
-
 std::int64_t runSimulatedCamera(const std::string& kind, const Arguments& arguments,
                                 const std::function<bool()>& stop) {
   SimulateCameraJob job;
   job.kind = kind;
   job.source = requiredValue(arguments, "source");
   job.bag = arguments.get("bag");
-  job.session = sessionOptions(arguments);
+  job.session = simulatedSession(arguments);
   job.truth = arguments.get("truth");
-  job.options = deviceOptions(arguments);
+  job.options = simulatedDeviceOptions(arguments);
   return simulateCamera(job, stop);
 }
 
 std::int64_t runSimulatedDevice(const std::string& kind, const Arguments& arguments,
                                 const std::function<bool()>& stop) {
   SimulateDeviceJob job;
-  job.kind = kind;
+  job.device.kind = kind;
   if (arguments.has("source")) throw UserError("--source", kind, "bumblebee2, ladybug2");
-  job.tcp = static_cast<int>(arguments.integer("tcp", 0, 1, 65535));
-  if (job.tcp > 0 && job.kind != "gps") throw UserError("--tcp", job.kind, "gps");
-  if (job.tcp == 0) job.link = requiredValue(arguments, "link");
+  job.device.tcp = static_cast<int>(arguments.integer("tcp", 0, 1, 65535));
+  if (job.device.tcp > 0 && kind != "gps") throw UserError("--tcp", kind, "gps");
+  if (job.device.tcp == 0) job.device.link = requiredValue(arguments, "link");
   job.bag = arguments.get("bag");
-  job.session = sessionOptions(arguments);
+  job.session = simulatedSession(arguments);
   job.side = arguments.get("side", "left");
-  job.begin = arguments.get("begin");
-  job.truth = arguments.get("truth");
-  job.options = deviceOptions(arguments);
+  job.device.begin = arguments.get("begin");
+  job.device.truth = arguments.get("truth");
+  job.device.options = simulatedDeviceOptions(arguments);
   return simulateDevice(job, stop);
 }
 

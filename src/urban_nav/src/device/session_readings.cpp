@@ -54,7 +54,7 @@ class ReadingCollector {
   template <typename Other>
   void operator()(const Other&) {}
 
-  DeviceReadings readings;
+  urban_nav_sim::DeviceReadings readings;
 
  private:
   double since(urban_nav_core::StampNs stamp) {
@@ -68,8 +68,8 @@ class ReadingCollector {
 
 }  // namespace
 
-DeviceReadings simulateReadings(urban_nav_sim::SessionOptions options, const std::string& kind,
-                                const std::string& side) {
+urban_nav_sim::DeviceReadings simulateReadings(urban_nav_sim::SessionOptions options, const std::string& kind,
+                                               const std::string& side) {
   static const std::map<std::string, urban_nav_sim::Sensor> sensors = {{"lms291", urban_nav_sim::Sensor::Lasers},
                                                                        {"xsens_mti", urban_nav_sim::Sensor::Imu},
                                                                        {"segway_rmp", urban_nav_sim::Sensor::Wheels},

@@ -28,8 +28,8 @@ std::vector<double> delayNumbers(const std::vector<std::string_view>& parts, std
 
 }  // namespace
 
-DelayModel DelayModel::parse(const std::string& text, double least) {
-  const std::string where = "--delay " + text, allowed = "exponential:MIN:MEAN:MAX, uniform:MIN:MAX, batch:MS, in ms";
+DelayModel DelayModel::parse(const std::string& text, double least, const std::string& option) {
+  const std::string where = option + " " + text, allowed = "exponential:MIN:MEAN:MAX, uniform:MIN:MAX, batch:MS, in ms";
   const auto parts = urban_nav_core::splitAt(text, ':');
   const std::vector<double> numbers = delayNumbers(parts, 1, where);
   DelayModel model;
@@ -60,10 +60,10 @@ double DelayModel::drawExcess(std::mt19937_64& random, double arrival_ms) const 
   return 0.0;
 }
 
-DeviceClock DeviceClock::parse(const std::string& text) {
+DeviceClock DeviceClock::parse(const std::string& text, const std::string& option) {
   const auto parts = urban_nav_core::splitAt(text, ':');
-  const std::vector<double> numbers = delayNumbers(parts, 0, "--clock " + text);
-  if (numbers.size() != 2 || std::abs(numbers[1]) > 50000.0) throw UserError("--clock", text, "OFFSET_S:PPM");
+  const std::vector<double> numbers = delayNumbers(parts, 0, option + " " + text);
+  if (numbers.size() != 2 || std::abs(numbers[1]) > 50000.0) throw UserError(option, text, "OFFSET_S:PPM");
   return {numbers[0], 1e-6 * numbers[1]};
 }
 

@@ -27,8 +27,8 @@ std::string deviceFaultList() {
   return list;
 }
 
-DeviceFault parseDeviceFault(const std::string& text) {
-  const std::string where = "--fault " + text;
+DeviceFault parseDeviceFault(const std::string& text, const std::string& option) {
+  const std::string where = option + " " + text;
   const auto parts = urban_nav_core::splitAt(text, ':');
   if (parts.size() < 3 || parts.size() > 4) throw UserError(where, "not a fault", "KIND:START_S:DURATION_S[:VALUE]");
   const auto* const name = std::find(device_fault_names.begin(), device_fault_names.end(), parts[0]);

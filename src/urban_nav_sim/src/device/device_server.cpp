@@ -17,17 +17,19 @@ DeviceTime readServerClock(clockid_t clock) {
 
 }  // namespace
 
+DeviceTime serverTime() { return readServerClock(CLOCK_MONOTONIC); }
+
 std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, const std::function<bool()>& stop,
                                      std::optional<DeviceTime> begin) {
   std::vector<DeviceTruth> truth;
-  DeviceTime next = readServerClock(CLOCK_MONOTONIC);
+  DeviceTime next = serverTime();
   device.start(begin.value_or(next));
   bool plugged = true;
   while (!device.isFinished() && !stop()) {
     next += server_step;
     const timespec wake{static_cast<time_t>(next / 1'000'000'000), static_cast<long>(next % 1'000'000'000)};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr);
-    const DeviceTime now = readServerClock(CLOCK_MONOTONIC);
+    const DeviceTime now = serverTime();
     if (plugged != device.isPlugged(now)) {
       plugged = !plugged;
       link.setPlugged(plugged);
@@ -36,7 +38,7 @@ std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, 
     device.receive(plugged ? link.read() : DeviceBytes(), baud, now);
     const DeviceBytes bytes = device.transmit(baud, now);
     if (plugged && !bytes.empty()) link.write(bytes);
-    const DeviceTime offset = readServerClock(CLOCK_REALTIME) - readServerClock(CLOCK_MONOTONIC);
+    const DeviceTime offset = readServerClock(CLOCK_REALTIME) - serverTime();
     for (DeviceTruth each : device.takeTruth()) {
       each.time += offset;
       truth.push_back(each);

@@ -3,29 +3,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
+#include "live/split_words.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_sim {
 
 using urban_nav_core::Table;
-
-namespace {
-
-/// Words between commas and blanks.
-std::vector<std::string> splitWords(const std::string& text) {
-  std::vector<std::string> words;
-  constexpr const char* separators = ", \t\n";
-  for (std::size_t begin = text.find_first_not_of(separators); begin != std::string::npos;) {
-    const std::size_t end = text.find_first_of(separators, begin);
-    words.push_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(separators, end);
-  }
-  return words;
-}
-
-}  // namespace
 
 SimulatorParameters::SimulatorParameters() { simulatorTable().setDefaults(*this); }
 

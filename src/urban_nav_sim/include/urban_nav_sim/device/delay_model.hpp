@@ -14,8 +14,8 @@ struct DelayModel {
          max_ms = 0.0;  ///< mean: of the exponential; batch: max is the period of the reads
 
   /// "exponential:MIN:MEAN:MAX", "uniform:MIN:MAX" or "batch:MS", in ms. `least`: ms, the least delay of a batch.
-  /// Throws UserError.
-  static DelayModel parse(const std::string& text, double least);
+  /// Throws UserError; `option`: where the text stood.
+  static DelayModel parse(const std::string& text, double least, const std::string& option = "--delay");
   /// Draws the part beyond min_ms, ms; `arrival_ms`: when the frame would arrive, for batches.
   double drawExcess(std::mt19937_64& random, double arrival_ms) const;
 };
@@ -25,7 +25,8 @@ struct DeviceClock {
   double offset = 0.0;  ///< s
   double skew = 0.0;    ///< device seconds per host second minus 1
 
-  static DeviceClock parse(const std::string& text);
+  /// Throws UserError; `option`: where the text stood.
+  static DeviceClock parse(const std::string& text, const std::string& option = "--clock");
 };
 
 }  // namespace urban_nav_sim

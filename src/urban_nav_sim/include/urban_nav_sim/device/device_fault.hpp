@@ -40,8 +40,9 @@ struct DeviceFault {
   bool isActive(double t) const { return t >= start && t < start + duration; }
 };
 
-/// "KIND:START_S:DURATION_S[:VALUE]". Throws UserError that names what is wrong and what is allowed.
-DeviceFault parseDeviceFault(const std::string& text);
+/// "KIND:START_S:DURATION_S[:VALUE]". Throws UserError that names what is wrong and what is allowed; `option`: where
+/// the text stood.
+DeviceFault parseDeviceFault(const std::string& text, const std::string& option = "--fault");
 
 /// Active fault of a kind at a time; null if there is none.
 const DeviceFault* findDeviceFault(const std::vector<DeviceFault>& faults, DeviceFaultKind kind, double t);

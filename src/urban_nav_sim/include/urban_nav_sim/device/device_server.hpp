@@ -29,6 +29,9 @@ std::unique_ptr<DeviceLink> openPseudoTerminal(const std::string& path);
 /// TCP server for one client at a time at a port of this host; each is sent the greeting. Throws DataError.
 std::unique_ptr<DeviceLink> openTcpServer(int port, const std::string& greeting);
 
+/// Steady clock of serveDevice(), ns.
+DeviceTime serverTime();
+
 /// Runs a device in real time until its session ends or `stop` returns true. `begin`: of the session by the steady
 /// clock, ns; before it the device is there and does not measure; nullopt: now. Returns the truth of all measurements,
 /// by real time.
