@@ -93,6 +93,7 @@ Json toJson(const Alignment& alignment, double ms) {
   Json directions = Json::array();
   for (const urban_nav_core::Vector6d& direction : alignment.free_directions) directions.append(rowMajor(direction));
   json["free_directions"] = directions;
+  json["planar"] = alignment.planar;
   json["verdict"] = toString(alignment.verdict);
   json["reason"] = toReason(alignment);
   json["tests"] = testsJson(alignment);
@@ -120,6 +121,7 @@ std::string toText(const Alignment& alignment, double ms) {
     for (int c = 0; c < 4; ++c) text += (c == 0 ? "" : " ") + printNumber(T(r, c));
     text += "\n";
   }
+  if (alignment.planar) text += "planar scans: height, roll and pitch are not measured\n";
   for (const urban_nav_core::Vector6d& direction : alignment.free_directions) {
     text += "free:";
     for (int i = 0; i < 6; ++i) text += " " + forPerson(direction[i], 3);

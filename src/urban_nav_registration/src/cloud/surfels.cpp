@@ -219,9 +219,9 @@ std::vector<Lie> computeLies(const SurfelGrid& grid, const std::vector<std::uint
 
 constexpr int kScales = 4;  // cubes of 1, 2, 4, 8 voxels: far from the sensor its beams are metres apart
 
-/// n n^T of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them; zero where they
-/// don't. A plane that the sensor looks down upon is ground.
-Eigen::Matrix3f computeFlatness(const SurfelGrid& grid, float voxel) {
+/// Normal of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them. A plane that the
+/// sensor looks down upon is ground.
+std::optional<Eigen::Vector3f> findScanPlane(const SurfelGrid& grid, float voxel) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
   for (const Moments& cube : grid.cubes) {
@@ -233,20 +233,19 @@ Eigen::Matrix3f computeFlatness(const SurfelGrid& grid, float voxel) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(share * outer - share * share * sum * sum.transpose());
   const double square = static_cast<double>(voxel * voxel);
-  if (!(eigen.eigenvalues()[0] < 1e-4 * square) || !(eigen.eigenvalues()[1] > square)) return Eigen::Matrix3f::Zero();
-  if (std::abs(share * sum.dot(eigen.eigenvectors().col(0))) > 0.5 * static_cast<double>(voxel))
-    return Eigen::Matrix3f::Zero();
-  const Eigen::Vector3f normal = eigen.eigenvectors().col(0).cast<float>();
-  return normal * normal.transpose();
+  if (!(eigen.eigenvalues()[0] < 1e-4 * square) || !(eigen.eigenvalues()[1] > square)) return std::nullopt;
+  if (std::abs(share * sum.dot(eigen.eigenvectors().col(0))) > 0.5 * static_cast<double>(voxel)) return std::nullopt;
+  return eigen.eigenvectors().col(0).cast<float>();
 }
 
 }  // namespace
 
 Surfels makeSurfels(const PointCloud& cloud, float voxel) {
   SurfelGrid grid = makeGrid(cloud, voxel);
-  const Eigen::Matrix3f flat =
-      computeFlatness(grid, voxel);  // added to covariances: what a scan of one plane does not see of its walls
   Surfels surfels;
+  surfels.scan_plane = findScanPlane(grid, voxel);
+  Eigen::Matrix3f flat = Eigen::Matrix3f::Zero();  // added to covariances: what such a scan does not see of its walls
+  if (surfels.scan_plane) flat = *surfels.scan_plane * surfels.scan_plane->transpose();
   surfels.voxel = voxel;
   surfels.points = grid.used;
   surfels.left_out = cloud.points.size() - surfels.points;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "icp/alignment_validation.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::size_t kFewPoints = 30;  // less is no cloud: a plane of 25 pieces cannot come of it
 constexpr std::size_t kFewSurfaces = 25;
+constexpr double kAllHeadings = 3.14159265358979323846;
 constexpr float kFreeCube = 2.0F;  // voxels: a beam's neighbours in the next scans go through the same cube
 
 /// What clouds that were gathered by odometry tell beyond their surfaces.
@@ -48,7 +50,25 @@ struct Pair {
   const PosePredicate& is_possible;
   std::optional<RobustScale> explained;  ///< where it is asked for
   std::optional<Spaces> spaces;          ///< of gathered clouds
+  bool is_planar = false;                ///< two scans of one plane each, from files
 };
+
+/// Normal of the plane of planar scans in the target frame.
+std::optional<Vector3d> scanPlane(const Pair& pair) {
+  if (!pair.is_planar) return std::nullopt;
+  return pair.target_surfels.scan_plane->cast<double>();
+}
+
+/// Logarithm of the number of poses in the plane, a voxel apart, within a distance and a turn of a guess.
+double countPoses(const Pair& pair, double radius, double turn) {
+  double squares = 0.0;
+  for (const Surfel& surfel : pair.source_surfels.all) squares += static_cast<double>(surfel.mean.squaredNorm());
+  const double lever =
+      std::sqrt(squares / static_cast<double>(std::max<std::size_t>(pair.source_surfels.all.size(), 1)));
+  const double voxel = static_cast<double>(pair.source_surfels.voxel),
+               cells = kAllHeadings * radius * radius / voxel / voxel;
+  return std::log(std::max(cells * std::max(2.0 * turn * lever / voxel, 1.0), 1.0));
+}
 
 struct Try {
   Refined refined;
@@ -64,7 +84,8 @@ Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t 
 
 Observability computeObservability(const Try& made, const Pair& pair) {
   const double bias = pair.spaces ? pair.explained->all : pair.parameters.laser_bias;
-  return computeObservability(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters);
+  return computeObservability(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters,
+                              scanPlane(pair));
 }
 
 std::optional<ValidationContext> validationContext(const Try& made, const Pair& pair) {
@@ -97,13 +118,30 @@ bool mayBe(const Pose& candidate, const Pair& pair) {
   return pair.is_possible(rough);
 }
 
-Alignment judged(const Try& made, const Pair& pair, Alignment alignment, bool is_alone = false) {
+/// Of an alignment from a guess: no further than its counterparts were looked for.
+std::optional<PlanarEvidence> localEvidence(const Try& made, const Pair& pair) {
+  if (!pair.is_planar) return std::nullopt;
+  constexpr double kBasin = 0.5;  // rad
+  return PlanarEvidence{computePlanarEvidence(made.fit, made.fit.score()),
+                        countPoses(pair, pair.parameters.max_correspondence_distance, kBasin)};
+}
+
+/// Of the best pose of a search against the best different one, which has this share of its score.
+std::optional<PlanarEvidence> searchEvidence(const Try& made, double second, const Pair& pair) {
+  if (!pair.is_planar) return std::nullopt;
+  const double score = made.fit.score();
+  return PlanarEvidence{computePlanarEvidence(made.fit, score) - computePlanarEvidence(made.fit, second * score),
+                        countPoses(pair, pair.parameters.search_radius, kAllHeadings)};
+}
+
+Alignment judged(const Try& made, const Pair& pair, const std::optional<PlanarEvidence>& planar, Alignment alignment,
+                 bool is_alone = false) {
   alignment.T_target_source = made.refined.T_target_source;
   alignment.iterations += made.refined.iterations;
   const Observability observed = computeObservability(made, pair);
   std::optional<ValidationContext> plausibility = validationContext(made, pair);
   if (plausibility) plausibility->is_alone = is_alone;
-  judge(made.fit, plausibility, made.refined, observed, pair.parameters, alignment);
+  judge(made.fit, plausibility, planar, made.refined, observed, pair.parameters, alignment);
   if (alignment.verdict != ClosureVerdict::Rejected && pair.is_possible &&
       !pair.is_possible({made.refined.T_target_source, observed.information}))
     reject(alignment, AlignmentReason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
@@ -200,18 +238,20 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   const auto is_possible = [&](const Try& made) { return isPossible(made, pair); };
   const auto found = std::find_if(tries.begin(), tries.end(), is_possible);
   if (found == tries.end()) {
-    alignment = judged(tries.front(), pair, alignment);
+    alignment = judged(tries.front(), pair, searchEvidence(tries.front(), 0.0, pair), alignment);
     alignment.searched = true;
     if (alignment.verdict != ClosureVerdict::Rejected)
       reject(alignment, AlignmentReason::Impossible, "no pose that can be was found");
     return alignment;
   }
-  const Alignment first_judged = judged(*found, pair, alignment);
+  const Alignment first_judged = judged(*found, pair, std::nullopt, alignment);
   const auto second = std::find_if(found + 1, tries.end(), [&](const Try& made) {
     return isAnother(made.refined.T_target_source, first_judged) && is_possible(made);
   });
   const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
-  alignment = share < kNear ? judged(*found, pair, alignment, true) : first_judged;
+  alignment = share < kNear || pair.is_planar
+                  ? judged(*found, pair, searchEvidence(*found, share, pair), alignment, share < kNear)
+                  : first_judged;
   alignment.searched = true;
   if (second != tries.end()) alignment.alternative = Alternative{second->refined.T_target_source, share};
   alignment.tests.push_back(
@@ -238,12 +278,14 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   if (!checkClouds(surfels[0], surfels[1], alignment)) return alignment;
   Target index(surfels[1], parameters.max_correspondence_distance);
   Source steps(surfels[0], index);
-  Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, known.is_possible, {}, {}};
+  Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, known.is_possible, {}, {}, false};
   const auto voxel = static_cast<float>(parameters.voxel_size);
   if (known.deformation_sigma && !source.origins.empty() && !target.origins.empty()) {
     pair.explained = explainedBy(source, target, *known.deformation_sigma, voxel);
     pair.spaces.emplace(source, target, voxel);
   }
+  pair.is_planar = !known.deformation_sigma && surfels[0].scan_plane && surfels[1].scan_plane;
+  alignment.planar = pair.is_planar;
   const auto explain = [&] {
     if (!pair.explained) pair.explained = explainedBy(source, target, parameters.laser_bias, voxel);
   };
@@ -256,7 +298,7 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
     return searched(pair, guess, alignment, nullptr, look(guess.t(), fine_resolution));
   }
   const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
-  const Alignment local = judged(first, pair, alignment);
+  const Alignment local = judged(first, pair, localEvidence(first, pair), alignment);
   if (search == SearchMode::Never || local.verdict == ClosureVerdict::Degenerate) return local;
   const bool failed = local.verdict == ClosureVerdict::Rejected;
   const std::vector<PoseCandidate> others =

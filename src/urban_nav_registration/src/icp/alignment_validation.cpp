@@ -15,12 +15,19 @@ constexpr double kUprightMisfit =
 constexpr double kEnoughAlone =
     0.67;  // of min_upright_inliers, where nothing else comes near: leaves and crowds fall upon themselves by a third
 constexpr double kStillMoving = 0.005;  // m in the last step
+constexpr double kChanceShare = 0.1;    // of pieces of wall at a pose that is wrong, before it is aligned: measured
 constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
 
 struct Failure {
   AlignmentReason reason;
   const char* sentence;
 };
+
+std::string explainFree(std::size_t directions, bool planar) {
+  return std::to_string(directions) + " of " +
+         (planar ? "the three directions in the plane of the scans" : "six directions") +
+         " are held by nothing in the clouds";
+}
 
 }  // namespace
 
@@ -49,9 +56,17 @@ Fit computeFit(const std::vector<Surfel>& source, const Refined& refined, const 
   return fit;
 }
 
-Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters) {
-  const Doubt doubt{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation};
+Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters,
+                                   const std::optional<Vector3d>& scan_plane) {
+  const Doubt doubt{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation, scan_plane};
   return observe(refined.matches, std::max(refined.sigma, 1e-4), doubt, kPatchVoxels * voxel);
+}
+
+double computePlanarEvidence(const Fit& fit, double share) {
+  if (share <= kChanceShare) return 0.0;
+  const double rest = 1.0 - share;
+  return fit.matches *
+         (share * std::log(share / kChanceShare) + (rest > 0.0 ? rest * std::log(rest / (1.0 - kChanceShare)) : 0.0));
 }
 
 void reject(Alignment& alignment, AlignmentReason reason, const std::string& sentence) {
@@ -73,8 +88,9 @@ bool isPlausible(const ValidationContext& plausibility, const Parameters& parame
          *plausibility.seen_through <= parameters.max_seen_through;
 }
 
-void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility, const Refined& refined,
-           const Observability& observed, const Parameters& parameters, Alignment& alignment) {
+void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
+           const std::optional<PlanarEvidence>& planar, const Refined& refined, const Observability& observed,
+           const Parameters& parameters, Alignment& alignment) {
   Failure failure{AlignmentReason::None, ""};
   const auto test = [&](const char* name, double value, double threshold, bool at_least, AlignmentReason reason,
                         const char* sentence) {
@@ -108,11 +124,14 @@ void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
       test("upright_inliers", fit.upright_inliers, enough * parameters.min_upright_inliers, true,
            AlignmentReason::TooFewInliers, "too few of the upright surfaces fall upon each other");
   }
+  if (planar)
+    test("planar_evidence", planar->evidence, planar->least, true, AlignmentReason::Ambiguous,
+         "so few surfaces of planar scans also fall upon each other where the places differ");
   test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, AlignmentReason::NotConverged,
        "the alignment did not come to rest");
   alignment.tests.push_back(
       {"weakest_direction_m", observed.weakest, parameters.free_deviation, false, observed.free_directions.empty()});
-  if (failure.reason == AlignmentReason::None && observed.free_directions.size() > 4)
+  if (failure.reason == AlignmentReason::None && observed.held < 2)
     failure = {AlignmentReason::TooFewMatches, "hardly any direction is held"};
   if (failure.reason != AlignmentReason::None) {
     reject(alignment, failure.reason, failure.sentence);
@@ -124,9 +143,7 @@ void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
   const bool free = !observed.free_directions.empty();
   alignment.verdict = free ? ClosureVerdict::Degenerate : ClosureVerdict::Accepted;
   alignment.reason = free ? AlignmentReason::FreeDirections : AlignmentReason::None;
-  alignment.sentence =
-      free ? std::to_string(observed.free_directions.size()) + " of six directions are held by nothing in the clouds"
-           : "";
+  alignment.sentence = free ? explainFree(observed.free_directions.size(), planar.has_value()) : "";
 }
 
 }  // namespace urban_nav_registration

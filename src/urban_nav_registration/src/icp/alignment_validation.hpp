@@ -21,7 +21,9 @@ struct Fit {
 Fit computeFit(const std::vector<Surfel>& source, const Refined& refined, const Parameters& parameters);
 
 /// What the matches of an alignment hold. `bias`: what all of a cloud's points may be off together, m.
-Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters);
+/// `scan_plane`: normal of the plane of two planar scans, in the target frame.
+Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters,
+                                   const std::optional<Vector3d>& scan_plane);
 
 /// What is known of an alignment beside how its surfaces fall upon each other.
 struct ValidationContext {
@@ -33,12 +35,22 @@ struct ValidationContext {
   /// Of clouds that know neither: a search found no other pose that fits nearly as well.
   bool is_alone = false;
 };
+
+/// Planar scans show some dozens of pieces of wall, of which a third falls upon those of any other place: what says
+/// that the places are one.
+struct PlanarEvidence {
+  double evidence = 0.0;  ///< log-likelihood ratio of the pose to chance, or to the best different pose
+  double least = 0.0;     ///< logarithm of the number of poses that were looked at
+};
+/// Log-likelihood ratio of as many pieces of wall within the inlier distance to as many as chance puts there.
+double computePlanarEvidence(const Fit& fit, double share);
 bool isPlausible(const ValidationContext& plausibility, const Parameters& parameters);
 
 /// `plausibility`: none where only the surfaces are to be judged. Fills in the verdict, its reason, the tests,
-/// information and covariance.
-void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility, const Refined& refined,
-           const Observability& observed, const Parameters& parameters, Alignment& alignment);
+/// information and covariance. `planar`: of planar scans.
+void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
+           const std::optional<PlanarEvidence>& planar, const Refined& refined, const Observability& observed,
+           const Parameters& parameters, Alignment& alignment);
 
 /// No pose: nothing is known of any direction.
 void reject(Alignment& alignment, AlignmentReason reason, const std::string& sentence);

@@ -126,31 +126,42 @@ double cloudNoise(const Sums& sums, const Vector6d& u) {
   return std::sqrt(squares);
 }
 
+/// Orthonormal tangents, in scaled coordinates, of the motions that scans can measure: all six, or those in a plane.
+Eigen::MatrixXd measurableMotions(const std::optional<Vector3d>& scan_plane) {
+  if (!scan_plane) return Eigen::MatrixXd::Identity(6, 6);
+  const Vector3d across = scan_plane->unitOrthogonal();
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(6, 3);
+  motions.col(0).head<3>() = across;
+  motions.col(1).head<3>() = scan_plane->cross(across);
+  motions.col(2).tail<3>() = *scan_plane;
+  return motions;
+}
+
 }  // namespace
 
 Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch) {
   Observability observed;
   const Scaled scaled = scaleMatches(matches, sigma);
   const Sums sums = computeSums(matches, scaled, sigma, patch);
-  const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(sums.agreed));
+  const Eigen::MatrixXd motions = measurableMotions(doubt.scan_plane);
+  const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(motions.transpose() * sums.agreed * motions));
   const double bias = std::max(doubt.bias, 1e-4);
   const double least = std::pow(bias / doubt.free_deviation, 2);
-  Matrix6d held = Matrix6d::Zero();  // projector, in scaled coordinates
-  Matrix6d free = Matrix6d::Zero();
+  Matrix6d free = Matrix6d::Identity() - motions * motions.transpose();  // projector, in scaled coordinates
   std::vector<Vector6d> held_directions;
-  for (int i = 0; i < 6; ++i) {
-    const Vector6d u = eigen ? Vector6d(eigen->vectors.col(i)) : Vector6d(Vector6d::Unit(i));
+  for (Eigen::Index i = 0; i < motions.cols(); ++i) {
+    const Vector6d u = eigen ? Vector6d(motions * eigen->vectors.col(i)) : Vector6d(motions.col(i));
     const double mean = eigen ? eigen->values[i] : 0.0;
     const double sure = mean - 2.0 * cloudNoise(sums, u);
     if (i == 0) observed.weakest = mean > 0.0 ? bias / std::sqrt(mean) : 1e3;
     if (sure > least) {
-      held += u * u.transpose();
       held_directions.push_back(u);
     } else {
       free += u * u.transpose();
       observed.free_directions.push_back((scaled.S_inverse * u).normalized());
     }
   }
+  observed.held = held_directions.size();
   Vector6d unlimited;
   unlimited << Vector3d::Constant(kFreeTranslation), Vector3d::Constant(kFreeRotation * scaled.length * scaled.length);
   Matrix6d covariance = free * unlimited.asDiagonal() * free;

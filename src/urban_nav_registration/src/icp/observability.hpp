@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "icp/normal_equations.hpp"
@@ -10,7 +11,8 @@ namespace urban_nav_registration {
 struct Observability {
   Matrix6d information = Matrix6d::Zero();  ///< (rho, phi) in the target frame; exactly zero along what is free
   Matrix6d covariance = Matrix6d::Zero();   ///< for display
-  std::vector<Vector6d> free_directions;    ///< unit, in the same tangent
+  std::vector<Vector6d> free_directions;    ///< unit, in the same tangent; of planar scans those in the plane alone
+  std::size_t held = 0;                     ///< number of directions that are not free
   double weakest = 0.0;  ///< deviation that `Doubt::bias` alone leaves in the weakest direction, m at the mean distance
 };
 
@@ -19,6 +21,8 @@ struct Doubt {
   double bias = 0.0;            ///< what all of a cloud's points may be off together
   double most = 0.0;            ///< that a patch may be off as a whole, where residuals cannot tell
   double free_deviation = 0.0;  ///< a direction that `bias` moves by more than this is free
+  /// Unit normal in the target frame of the plane of two planar scans, which measure nothing out of it.
+  std::optional<Vector3d> scan_plane = {};
 };
 
 /// What the matches say about each direction.

@@ -242,6 +242,60 @@ TEST(Align, neverTakesOnePlaceForAnother) {
   }
 }
 
+/// A laser that looks around level.
+PointCloud scanLevel(const World& world, const Pose& T_world_sensor, std::uint64_t seed) {
+  Scanner scanner;
+  scanner.rings = 1;
+  scanner.beams = 720;
+  scanner.lowest = scanner.highest = 0.0;
+  return scan(world, T_world_sensor, scanner, seed);
+}
+
+TEST(Align, planarScansThatAreHeldInTheirPlaneAreAccepted) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (const SearchMode search : {SearchMode::IfRejected, SearchMode::AtOnce}) {
+      const Pose T_world_source = stand(1.0, 0.5, 5.0), T_world_target = stand(0.3, 0.1, 0.0);
+      const Alignment alignment = align(scanLevel(courtyard(seed), T_world_source, 2 * seed),
+                                        scanLevel(courtyard(seed), T_world_target, 2 * seed + 1), {}, {}, search);
+      const Pose truth = T_world_target.inverse() * T_world_source;
+      EXPECT_EQ(alignment.verdict, ClosureVerdict::Accepted) << seed << ": " << alignment.sentence;
+      EXPECT_TRUE(alignment.planar);
+      EXPECT_TRUE(alignment.free_directions.empty());
+      EXPECT_LT(distanceBetween(alignment.T_target_source, truth), 0.03) << seed;
+      EXPECT_LT(squaredDeviations(alignment, truth), 22.5);
+      for (const int i : {2, 3, 4}) {
+        EXPECT_LT(alignment.information.col(i).norm(), 1e-9 * alignment.information.norm()) << "not measured";
+        EXPECT_GT(alignment.covariance(i, i), 1.0);
+      }
+      for (const int i : {0, 1, 5}) EXPECT_GT(alignment.information(i, i), 100.0) << i;
+      expectFinite(alignment);
+    }
+}
+
+TEST(Align, planarScansOfACorridorSlideInTheirPlane) {
+  World corridor;
+  corridor.blocks = {{0.0, 3.0, 200.0, 1.0, 0.0, 5.0, 0.0}, {0.0, -3.0, 200.0, 1.0, 0.0, 5.0, 0.0}};
+  const Alignment alignment =
+      align(scanLevel(corridor, stand(1.0, 0.2, 2.0), 1), scanLevel(corridor, stand(0.0, 0.0, 0.0), 2), {});
+  EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate) << alignment.sentence;
+  ASSERT_EQ(alignment.free_directions.size(), 1U);
+  EXPECT_GT(std::abs(alignment.free_directions[0][0]), 0.99);
+  for (const int i : {2, 3, 4}) EXPECT_NEAR(alignment.free_directions[0][i], 0.0, 1e-6);
+  EXPECT_NEAR(alignment.T_target_source.t().y(), 0.2, 0.03);
+  expectFinite(alignment);
+}
+
+TEST(Align, planarScansOfDifferentPlacesAreRejected) {
+  int rejected = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Alignment alignment =
+        align(scanLevel(courtyard(seed), stand(0.0, 0.0, 0.0), 1),
+              scanLevel(courtyard(seed + 100), stand(0.0, 0.0, 40.0), 2), {}, {}, SearchMode::AtOnce);
+    rejected += alignment.verdict == ClosureVerdict::Rejected ? 1 : 0;
+  }
+  EXPECT_GE(rejected, 19) << "courtyards are rectangles, and two may have the same sides";
+}
+
 TEST(Align, aFacadeLeavesItsDirectionFree) {
   const Pair pair = makePair(urban_nav_core::testing::facade(), stand(3.0, 0.2, 2.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});

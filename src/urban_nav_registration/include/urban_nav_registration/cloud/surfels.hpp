@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "urban_nav_core/types/point_cloud.hpp"
@@ -23,6 +24,9 @@ struct Surfels {
   float voxel = 0.0F;        ///< edge of the cubes, m
   std::size_t points = 0;    ///< that were used
   std::size_t left_out = 0;  ///< NaN, infinite, or beyond the grid
+  /// Unit normal of the plane in which all points lie, and the sensor with them: a scan of one plane. Normals of its
+  /// surfaces lie in the plane.
+  std::optional<Eigen::Vector3f> scan_plane;
 };
 
 /// Extracts surface elements in one pass over the points and one over the cubes. Normals come from the moments of

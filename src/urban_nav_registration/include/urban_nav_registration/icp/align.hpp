@@ -63,7 +63,10 @@ struct Alignment {
   std::size_t source_left_out = 0, target_left_out = 0;  ///< NaN, infinite, or absurdly far
   std::size_t matches = 0;
   int iterations = 0;
-  bool searched = false;                   ///< the pose comes from the global search
+  bool searched = false;  ///< the pose comes from the global search
+  /// Both clouds are scans of one plane. Height, roll and pitch are not measured: the information along them is zero,
+  /// and neither the verdict nor `free_directions` speaks of them.
+  bool planar = false;
   std::optional<Alternative> alternative;  ///< of a global search that found several possible poses
 };
 
