@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processor time of place recognition on one core: describing a panorama, likelihoods of all places by the inverted
-// index, the second look, and a whole match. Places are drawn at random with word frequencies as in text (Zipf).
+// index, the second look, a whole match, and keyframes of a stored map for localization. Places are drawn at random
+// with word frequencies as in text (Zipf).
 //
 //   fabmap_node-bench-speed [-o FILE.json]
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -21,8 +24,14 @@
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "fabmap_node/recognition/place_describer.hpp"
 #include "fabmap_node/recognition/place_matcher.hpp"
+#include "fabmap_node/retrieval/keyframe_places.hpp"
+#include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_keyframe_place.hpp"
+#include "urban_nav_store/tables/stored_model.hpp"
 
 namespace {
 
@@ -123,6 +132,70 @@ std::vector<urban_nav_core::ImageView> panorama(const std::vector<cv::Mat>& imag
   return views;
 }
 
+urban_nav_core::ImageView toView(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])};
+}
+
+double residentKb() {
+  std::ifstream file("/proc/self/statm");
+  double pages = 0.0, resident = 0.0;
+  file >> pages >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1024.0;
+}
+
+/// Writes a map of `count` keyframes that show `images` in turns, as `map` stores them, and returns them.
+std::vector<urban_nav_registration::SearchedKeyframe> writeKeyframes(const std::string& path,
+                                                                     const std::vector<cv::Mat>& images,
+                                                                     std::size_t count) {
+  const PlaceModel model = defaultModel();
+  const std::string hash = modelHash(defaultModelBytes());
+  const PlaceDescriber describer(model.vocabulary, {}, keyframe_look_features);
+  std::vector<urban_nav_registration::SearchedKeyframe> keyframes;
+  urban_nav_store::Store store(path, urban_nav_store::Access::Write);
+  store.sessions().put(urban_nav_store::Session{"s", "day", "", "", 0, true});
+  urban_nav_store::TableStore<urban_nav_store::StoredModel>(store).put(
+      {"s", hash, "fabmap_node", std::string(defaultModelBytes())});
+  urban_nav_store::TableStore<urban_nav_store::StoredKeyframePlace> rows(store);
+  constexpr std::size_t described = 200;
+  std::vector<PlaceDescription> descriptions;
+  for (std::size_t k = 0; k < described; ++k)
+    descriptions.push_back(describer.describe({toView(images[(k + 1) % images.size()])}));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto stamp = static_cast<urban_nav_core::StampNs>(i + 1);
+    rows.put({toStoredPlace("s", stamp, descriptions[i % described], hash)});
+    keyframes.push_back({{"s", stamp}, nullptr});
+  }
+  store.commit();
+  return keyframes;
+}
+
+/// Returns the memory per keyframe, kB.
+double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
+  constexpr std::size_t count = 10000;
+  std::string folder = (std::filesystem::temp_directory_path() / "places_speed_XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) return 0.0;
+  const auto keyframes = writeKeyframes(folder + "/map.db", images, count);
+  urban_nav_registration::Keyframe query;
+  query.image = urban_nav_registration::encodeJpeg(toView(images[0]), 90);
+  query.width = images[0].cols;
+  query.height = images[0].rows;
+  double memory = 0.0;
+  {
+    urban_nav_store::Store store(folder + "/map.db", urban_nav_store::Access::Read);
+    KeyframePlaces places;
+    const double before = residentKb(), begin = processorMs();
+    places.open(store, keyframes);
+    while (places.readNext()) {
+    }
+    table.add({"keyframes of a map ready for localization", std::to_string(count), cell(processorMs() - begin, 0)});
+    memory = (residentKb() - before) / static_cast<double>(count);
+    table.add({"search for a keyframe among them", std::to_string(count) + ", image decoded and described",
+               cell(medianMs(15, [&] { places.find(query, 3); }), 1)});
+  }
+  std::filesystem::remove_all(folder);
+  return memory;
+}
+
 void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const PlaceModel model = defaultModel();
   const MatcherOptions options;
@@ -162,9 +235,14 @@ int main(int argc, char** argv) {
   const auto images = readHeadImages(std::string(data == nullptr ? "" : data) + "/places/malaga_07/images");
   if (images.empty())
     std::fputs("URBAN_NAV_DATA names no folder with places/malaga_07: no images are described\n", stderr);
-  else addImages(images, table);
-  table.note(
-      "One core, medians. Images: five of a street sequence at a time, resized; 4 000 places repeat 39 panoramas.");
+  if (!images.empty()) {
+    addImages(images, table);
+    const double memory = addKeyframes(images, table);
+    table.note(
+        "One core, medians. Images: five of a street sequence at a time, resized; 4 000 places repeat 39 panoramas, "
+        "10 000 keyframes 200 images. Memory of these: " +
+        cell(memory, 1) + " kB each, the model included.");
+  }
   std::fputs(table.text().c_str(), stdout);
   if (argc == 3 && std::string(argv[1]) == "-o") table.write(argv[2]);
   return 0;

@@ -57,7 +57,7 @@ def start(bag, begin, map_folder, motion, truth, folder):
     """Of one piece: time to KNOWN (s, None: never), errors (m) and squared normalised errors of KNOWN frames, what the summary says."""
     piece, out = folder / "piece.bag", folder / "piece"
     cut(bag, begin, SECONDS, piece)
-    urban_nav("map", piece, "--localise", map_folder / "session.db", "--out", out)
+    urban_nav("map", piece, "--localise", map_folder / "session.db", "--overwrite", "--out", out)
     turn, shift = motion
     errors, squares, first, begun = [], [], None, None
     with (out / "localisation.csv").open() as file:
@@ -92,7 +92,7 @@ def row_of(case, arguments):
     bags[1:] = driven(arguments.folder, strange) if strange else bags[1:]
     out = arguments.folder / f"{bags[0].stem}_frozen"
     if not (out / "summary.json").exists():
-        urban_nav("map", bags[0], "--stages", "vo,loops,graph", "--closures", bags[0].with_suffix(".truth") / "closures_true.csv", "--out", out)
+        urban_nav("map", bags[0], "--stages", "vo,places,loops,graph", "--closures", bags[0].with_suffix(".truth") / "closures_true.csv", "--out", out)
     mapped, truths = trajectory(out / "trajectory.tum"), [trajectory(bag.with_suffix(".truth") / "trajectory.tum") for bag in bags]
     motion = onto(mapped[1], places_at(truths[0], mapped[0]))
     dice = np.random.default_rng(arguments.seed)

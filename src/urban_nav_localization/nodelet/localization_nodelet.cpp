@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <pluginlib/class_list_macros.hpp>
+#include <pluginlib/class_loader.hpp>
 
 #include <atomic>
 #include <memory>
@@ -20,10 +21,17 @@ namespace urban_nav_localization {
 
 using urban_nav_core::Error;
 using urban_nav_core::UserError;
+using urban_nav_registration::KeyframeRetrieval;
 using urban_nav_ros::ImageInput;
 using urban_nav_ros::InfoInput;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
+
+namespace {
+
+constexpr const char* place_recognition = "fabmap_node/KeyframePlaces";  // plugin that finds keyframes of the map
+
+}  // namespace
 
 /// Localization on topics, in a map that is not changed.
 class LocalizationStage {
@@ -49,6 +57,8 @@ class LocalizationStage {
   using Inputs = urban_nav_ros::RobotInputs<LiveLocaliser, urban_nav_registration::MountedCamera>;
   /// Throws UserError that names the parameter.
   void openMap();
+  /// Returns the place recognition. Throws UserError if it is not installed.
+  std::shared_ptr<KeyframeRetrieval> makeRetrieval();
   void subscribe();
 
   Node& node_;
@@ -56,6 +66,8 @@ class LocalizationStage {
   Parameters parameters_;
   std::vector<urban_nav_store::StoredTrajectory> map_;
   std::unique_ptr<LocalizationPublisher> publisher_;
+  pluginlib::ClassLoader<KeyframeRetrieval> plugins_{"urban_nav_registration",
+                                                     "urban_nav_registration::KeyframeRetrieval"};
   std::unique_ptr<LiveLocaliser> localiser_;
   std::unique_ptr<Inputs> inputs_;
   std::string map_fault_;
@@ -85,10 +97,18 @@ void LocalizationStage::openMap() {
     publisher_->publish(map_);
     publisher_->publish(LocalizationEstimate(), std::nullopt);
     localiser_ = std::make_unique<LiveLocaliser>(
-        parameters_, std::move(store), std::move(map),
+        parameters_, std::move(store), std::move(map), [this] { return makeRetrieval(); },
         [this](const auto& estimate, const auto& T_map_odom) { publisher_->publish(estimate, T_map_odom); });
   } catch (const Error& error) {
     throw UserError(parameter, error.what(), "");
+  }
+}
+
+std::shared_ptr<KeyframeRetrieval> LocalizationStage::makeRetrieval() {
+  try {
+    return plugins_.createUniqueInstance(place_recognition);
+  } catch (const pluginlib::PluginlibException& error) {
+    throw UserError(place_recognition, error.what(), "the package fabmap_node of the same installation");
   }
 }
 

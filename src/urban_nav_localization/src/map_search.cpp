@@ -8,7 +8,6 @@
 
 #include "near.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
-#include "urban_nav_registration/retrieval/descriptor_voting.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 #include "urban_nav_registration/session/stored_keyframe.hpp"
 #include "urban_nav_registration/stereo/stereo_closure.hpp"
@@ -18,16 +17,18 @@ namespace urban_nav_localization {
 using urban_nav_core::Constraint;
 using urban_nav_core::Pose;
 using urban_nav_registration::betweenBases;
-using urban_nav_registration::DescriptorVoting;
 using urban_nav_registration::Keyframe;
 using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::KeyframeRetrieval;
+using urban_nav_registration::MountedCamera;
+using urban_nav_registration::SearchedKeyframe;
 using urban_nav_registration::StereoClosure;
 using urban_nav_registration::StereoMatcher;
 using urban_nav_registration::toKeyframe;
 
 namespace {
 
-constexpr double search_spacing = 1.5;               // m between keyframes of the map that are in memory for the search
+constexpr double search_spacing = 1.5;               // m between keyframes of the map that are found in the whole map
 constexpr std::size_t max_registered_keyframes = 3;  // of one query
 constexpr double max_near_distance = 6.0;            // m from the prior to keyframes that are tried first, and
 constexpr double max_near_angle = 0.9;               // rad
@@ -50,14 +51,14 @@ bool isFirm(const Constraint& measured) {
 
 class MapSearch::Implementation {
  public:
-  Implementation(const Parameters& parameters, std::vector<MapKeyframe> views,
-                 const urban_nav_store::KeyframeStore& store, const urban_nav_core::StereoCamera& camera,
-                 const Pose& T_base_left)
-      : store_(store),
+  Implementation(const Parameters& parameters, std::vector<MapKeyframe> views, urban_nav_store::Store& store,
+                 const MountedCamera& camera, std::shared_ptr<KeyframeRetrieval> retrieval)
+      : store_(store.keyframes()),
         views_(std::move(views)),
-        finder_(camera),
-        matcher_(camera, parameters.registration),
-        T_base_left_(T_base_left) {
+        retrieval_(std::move(retrieval)),
+        matcher_(camera.camera, parameters.registration),
+        T_base_left_(camera.T_base_left) {
+    std::vector<SearchedKeyframe> searched;
     std::map<urban_nav_store::SessionId, Pose> last;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const auto before = last.find(views_[i].session);
@@ -66,15 +67,14 @@ class MapSearch::Implementation {
         continue;
       last[views_[i].session] = views_[i].T_map_base;
       searched_.push_back(i);
+      searched.push_back({{views_[i].session, views_[i].stamp}, views_[i].conversion});
     }
+    retrieval_->open(store, std::move(searched));
   }
 
   std::size_t views() const { return searched_.size(); }
-  std::size_t read() const { return finder_.size(); }
-  bool readNext() {
-    if (read() < views()) finder_.add(keyframe(views_[searched_[read()]]));
-    return read() < views();
-  }
+  std::size_t read() const { return retrieval_->read(); }
+  bool readNext() { return retrieval_->readNext(); }
 
   bool query(const Keyframe& view, Localiser& localiser) {
     const LocalizationEstimate prior = localiser.at(view.at.stamp);
@@ -86,8 +86,7 @@ class MapSearch::Implementation {
     // map.
     if (!seen) {
       std::vector<std::size_t> found;
-      for (const DescriptorVoting::Found& each : finder_.find(view, max_registered_keyframes))
-        found.push_back(searched_[each.view]);
+      for (const std::size_t each : retrieval_->find(view, max_registered_keyframes)) found.push_back(searched_[each]);
       seen = findFirst(found, view);
     }
     if (seen) localiser.addMatch(view.at.stamp, views_[seen->view].T_map_base, seen->measured, isFirm(seen->measured));
@@ -150,16 +149,16 @@ class MapSearch::Implementation {
 
   const urban_nav_store::KeyframeStore& store_;
   std::vector<MapKeyframe> views_;
-  std::vector<std::size_t> searched_;  // indices in views_ of those that finder_ has or will have
-  DescriptorVoting finder_;
+  std::vector<std::size_t> searched_;  // indices in views_ of those that retrieval_ finds
+  std::shared_ptr<KeyframeRetrieval> retrieval_;
   StereoMatcher matcher_;
   Pose T_base_left_;
 };
 
-MapSearch::MapSearch(const Parameters& parameters, const FrozenMap& map, const urban_nav_store::KeyframeStore& store,
-                     const urban_nav_core::StereoCamera& camera, const Pose& T_base_left)
-    : implementation_(std::make_unique<Implementation>(parameters, map.findKeyframes({camera, T_base_left}), store,
-                                                       camera, T_base_left)) {}
+MapSearch::MapSearch(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store,
+                     const MountedCamera& camera, std::shared_ptr<KeyframeRetrieval> retrieval)
+    : implementation_(std::make_unique<Implementation>(parameters, map.findKeyframes(camera), store, camera,
+                                                       std::move(retrieval))) {}
 MapSearch::~MapSearch() = default;
 
 std::size_t MapSearch::views() const { return implementation_->views(); }

@@ -32,6 +32,28 @@ using urban_nav_store::Store;
 
 constexpr StampNs second = 1'000'000'000;
 
+/// Finds what the test expects to be found.
+class GivenRetrieval final : public urban_nav_registration::KeyframeRetrieval {
+ public:
+  void open(Store&, std::vector<urban_nav_registration::SearchedKeyframe> given) override { keyframes = given; }
+  std::size_t read() const override { return read_; }
+  bool readNext() override { return ++read_ < keyframes.size(); }
+  std::vector<std::size_t> find(const Keyframe&, std::size_t most) const override {
+    ++queries;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < keyframes.size() && found.size() < most; ++i)
+      if (std::abs(keyframes[i].at.stamp - wanted) <= second) found.push_back(i);
+    return found;
+  }
+
+  std::vector<urban_nav_registration::SearchedKeyframe> keyframes;
+  StampNs wanted = 0;  ///< of the keyframe of the map that shows where the robot is
+  mutable int queries = 0;
+
+ private:
+  std::size_t read_ = 0;
+};
+
 /// A street that was driven at a metre a second, with a view each metre; base_link is the left camera.
 class MapSearchTest : public ::testing::Test {
  protected:
@@ -67,6 +89,7 @@ class MapSearchTest : public ::testing::Test {
       step.covariance *= 1e-6;
       EXPECT_TRUE(localiser_.addOdometry(step));
     }
+    retrieval_->wanted = static_cast<StampNs>((i + carried) * static_cast<double>(second));
     Keyframe view = street_.keyframe(place(i + carried, 0.3), 0.8);
     view.at.stamp = i * second;
     return view;
@@ -76,6 +99,7 @@ class MapSearchTest : public ::testing::Test {
   const std::string id_ = "0123456789abcdef0123";
   std::filesystem::path folder_;
   std::optional<Store> store_;
+  std::shared_ptr<GivenRetrieval> retrieval_ = std::make_shared<GivenRetrieval>();
   Localiser localiser_{Parameters()};
 };
 
@@ -85,7 +109,7 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverTheInitialPose) {
   ASSERT_EQ(map.sessions().size(), 1U);
   EXPECT_EQ(map.sessions()[0].T_map_base.size(), 13U);
   EXPECT_EQ(map.findKeyframes({street_.camera(), Pose()}).size(), 13U);
-  MapSearch search(Parameters(), map, store_->keyframes(), street_.camera(), Pose());
+  MapSearch search(Parameters(), map, *store_, {street_.camera(), Pose()}, retrieval_);
   EXPECT_EQ(search.read(), 0U);
   while (search.readNext()) {
   }
@@ -106,12 +130,14 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverTheInitialPose) {
 TEST_F(MapSearchTest, FindsARobotThatWasCarriedWhileItWasKnown) {
   drive(20);
   const FrozenMap map(*store_);
-  MapSearch search(Parameters(), map, store_->keyframes(), street_.camera(), Pose());
+  MapSearch search(Parameters(), map, *store_, {street_.camera(), Pose()}, retrieval_);
   while (search.readNext()) {
   }
   visit(0);
   for (int i = 1; i <= 4; ++i) EXPECT_TRUE(search.query(visit(i), localiser_));
   ASSERT_EQ(localiser_.now().state, LocalizationState::Localized);
+  const int asked = retrieval_->queries;
+  EXPECT_LE(asked, 2) << "near a known pose nothing is searched for";
   for (int i = 5; i <= 7; ++i) EXPECT_TRUE(search.query(visit(i, 10.0), localiser_)) << i;
   EXPECT_EQ(localiser_.now().state, LocalizationState::Localized) << localiser_.now().sentence;
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, place(17, 0.3)), 0.05);
@@ -120,7 +146,7 @@ TEST_F(MapSearchTest, FindsARobotThatWasCarriedWhileItWasKnown) {
 TEST_F(MapSearchTest, WhatIsNoViewIsALookInVain) {
   drive(1);
   const FrozenMap map(*store_);
-  MapSearch search(Parameters(), map, store_->keyframes(), street_.camera(), Pose());
+  MapSearch search(Parameters(), map, *store_, {street_.camera(), Pose()}, retrieval_);
   while (search.readNext()) {
   }
   visit(0);

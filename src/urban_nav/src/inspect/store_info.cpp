@@ -10,7 +10,7 @@
 #include "stage/store_keys.hpp"
 #include "urban_nav_store/stored_map.hpp"
 #include "urban_nav_store/table_store.hpp"
-#include "urban_nav_store/tables/stored_place.hpp"
+#include "urban_nav_store/tables/stored_keyframe_place.hpp"
 
 namespace urban_nav {
 
@@ -100,6 +100,8 @@ std::string toText(const StoredSession& each) {
             (stream.type.empty() ? "" : ", " + stream.type) + "\n";
   for (const auto& [model, places] : each.places)
     text += "    places: " + std::to_string(places) + ", words of model " + model + "\n";
+  for (const auto& [model, places] : each.keyframe_places)
+    text += "    keyframes for localization: " + std::to_string(places) + ", words of model " + model + "\n";
   for (const auto& [laser, scans] : each.scans) text += "    scans of " + laser + ": " + std::to_string(scans) + "\n";
   if (!each.frames.empty()) {
     text += "    frames base_link";
@@ -145,6 +147,8 @@ StoreInfo lookIntoStore(const std::string& path) {
       each.scans[laser] = store.scans().count(session.id, laser);
     urban_nav_store::TableStore<StoredPlace>(store).forEach(session.id,
                                                             [&](const StoredPlace& row) { ++each.places[row.model]; });
+    urban_nav_store::TableStore<urban_nav_store::StoredKeyframePlace>(store).forEach(
+        session.id, [&](const StoredPlace& row) { ++each.keyframe_places[row.model]; });
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       each.frames.push_back(extrinsic.frame);
     const std::vector<std::string> stages = store.states().stages(session.id);
@@ -221,6 +225,8 @@ Json toJson(const StoreInfo& info) {
     for (const auto& [laser, count] : each.scans) scans[laser] = count;
     Json& of_places = entry["places"] = Json::object();
     for (const auto& [model, count] : each.places) of_places[model] = count;
+    Json& of_keyframes = entry["keyframe_places"] = Json::object();
+    for (const auto& [model, count] : each.keyframe_places) of_keyframes[model] = count;
     Json& frames = entry["frames"] = Json::array();
     for (const std::string& frame : each.frames) frames.append(frame);
     entry["map"] = each.map;

@@ -23,8 +23,9 @@ struct StoredSession {
   std::vector<StreamInfo> streams;             ///< what the stages saw, by the order of inputs; `type`: "n not used"
   std::map<std::string, std::int64_t> scans;   ///< kept, by laser
   std::map<std::string, std::int64_t> places;  ///< observations of places by the hash of the model of their words
-  std::vector<std::string> frames;             ///< sensors whose place on the robot is known
-  std::string map;                             ///< id of the session that gives its map the frame
+  std::map<std::string, std::int64_t> keyframe_places;  ///< keyframes beside panoramas, by the hash of the model
+  std::vector<std::string> frames;                      ///< sensors whose place on the robot is known
+  std::string map;                                      ///< id of the session that gives its map the frame
   bool relaxed = false;
   bool resumable = false;        ///< holds the state of a run that was cut off
   bool next_bag = false;         ///< holds the state at the end of a bag, from which the next one goes on

@@ -9,7 +9,8 @@
 #include "urban_nav_localization/localiser.hpp"
 #include "urban_nav_localization/parameters.hpp"
 #include "urban_nav_registration/keyframe/keyframe_conversion.hpp"
-#include "urban_nav_store/keyframe_store.hpp"
+#include "urban_nav_registration/retrieval/keyframe_retrieval.hpp"
+#include "urban_nav_store/store.hpp"
 #include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav_localization {
@@ -47,22 +48,23 @@ class FrozenMap {
 };
 
 /// Matches keyframes of a drive with those of a map: with those near the estimated pose or the initial pose, otherwise
-/// with all of them. Results are registered by StereoMatcher, so that only a validated transform is a match. Not
-/// thread-safe.
+/// with the likeliest ones that place recognition finds among all of them. Results are registered by StereoMatcher, so
+/// that only a validated transform is a match. Not thread-safe.
 class MapSearch {
  public:
-  /// `store` must outlive it, unchanged. Throws DataError if the map has no keyframes of this camera.
-  MapSearch(const Parameters& parameters, const FrozenMap& map, const urban_nav_store::KeyframeStore& store,
-            const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
+  /// `store` must outlive it, unchanged; `retrieval` is not open yet. Throws DataError if the map has no keyframes of
+  /// this camera.
+  MapSearch(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store,
+            const urban_nav_registration::MountedCamera& camera,
+            std::shared_ptr<urban_nav_registration::KeyframeRetrieval> retrieval);
   ~MapSearch();
   MapSearch(const MapSearch&) = delete;
   MapSearch& operator=(const MapSearch&) = delete;
 
-  /// Returns the number of keyframes to be read for the search, one in 1.5 m, and of those read so far. Reading takes
-  /// some 10 ms each.
+  /// Returns the number of keyframes to be read for the search, one in 1.5 m, and of those read so far.
   std::size_t views() const;
   std::size_t read() const;
-  /// Reads one more keyframe. Returns false if none is left.
+  /// Reads some more keyframes, for at most some 10 ms. Returns false if none is left.
   bool readNext();
 
   /// Searches for a keyframe, and adds the match or the miss to the localiser, whose odometry has reached the keyframe.

@@ -31,10 +31,11 @@ double millisecondsSince(Clock::time_point begin) {
 }  // namespace
 
 LiveLocaliser::LiveLocaliser(const Parameters& parameters, urban_nav_store::Store store, FrozenMap map,
-                             Listener listener)
+                             urban_nav_registration::KeyframeRetrievalFactory make_retrieval, Listener listener)
     : parameters_(parameters),
       store_(std::move(store)),
       map_(std::move(map)),
+      make_retrieval_(std::move(make_retrieval)),
       listener_(std::move(listener)),
       builder_(parameters.registration),
       localiser_(parameters),
@@ -59,7 +60,7 @@ void LiveLocaliser::setCamera(const std::optional<urban_nav_registration::Mounte
   search_.reset();
   state_.map_fault.clear();
   try {
-    search_ = std::make_unique<MapSearch>(parameters_, map_, store_.keyframes(), camera->camera, camera->T_base_left);
+    search_ = std::make_unique<MapSearch>(parameters_, map_, store_, *camera, make_retrieval_());
   } catch (const Error& error) {
     state_.map_fault = error.what();
   }

@@ -48,8 +48,9 @@ class LiveLocaliser {
     std::string map_fault;                        ///< why keyframes or clouds cannot be searched for
   };
 
-  /// `store` holds `map` and stays open.
-  LiveLocaliser(const Parameters& parameters, urban_nav_store::Store store, FrozenMap map, Listener listener);
+  /// `store` holds `map` and stays open. `make_retrieval`: called for each camera.
+  LiveLocaliser(const Parameters& parameters, urban_nav_store::Store store, FrozenMap map,
+                urban_nav_registration::KeyframeRetrievalFactory make_retrieval, Listener listener);
 
   /// Sets the camera of the pairs that follow; nullopt: its calibration has changed.
   void setCamera(const std::optional<urban_nav_registration::MountedCamera>& camera);
@@ -68,7 +69,7 @@ class LiveLocaliser {
   /// The robot was moved: its pose is unknown.
   void restart();
 
-  /// Reads a keyframe or place of the map, or answers one query. Returns false if there is nothing to do.
+  /// Reads some keyframes or a place of the map, or answers one query. Returns false if there is nothing to do.
   bool work();
   State state() const;
 
@@ -81,6 +82,7 @@ class LiveLocaliser {
   const Parameters parameters_;
   urban_nav_store::Store store_;
   const FrozenMap map_;
+  const urban_nav_registration::KeyframeRetrievalFactory make_retrieval_;
   const Listener listener_;
   urban_nav_registration::KeyframeBuilder builder_;
   std::string camera_;  // fingerprint of the camera of search_

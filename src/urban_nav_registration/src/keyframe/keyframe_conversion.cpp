@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "io/jpeg.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 
 namespace urban_nav_registration {

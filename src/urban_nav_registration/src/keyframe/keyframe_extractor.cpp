@@ -3,13 +3,13 @@
 #include <array>
 #include <cmath>
 
-#include "io/jpeg.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/feature_quadtree.hpp"
 #include "urban_nav_core/image/harris.hpp"
 #include "urban_nav_core/image/patch.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 #include "urban_nav_core/image/row_match.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
 #include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
 
 namespace urban_nav_registration {

@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "io/jpeg.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
 
 namespace urban_nav_registration {
 

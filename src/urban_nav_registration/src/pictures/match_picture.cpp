@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
-#include "io/jpeg.hpp"
 #include "pictures/canvas.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
 
 namespace urban_nav_registration {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "io/jpeg.hpp"
 #include "urban_nav_core/camera/surface.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
 
 namespace urban_nav_registration {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/jpeg.hpp"
+#include "urban_nav_registration/io/jpeg.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "evaluation/statistics.hpp"
+#include "fabmap_node/retrieval/keyframe_places.hpp"
 #include "stage/store_keys.hpp"
 #include "stage/vo_run.hpp"
 #include "urban_nav_core/io/csv.hpp"
@@ -73,7 +74,8 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
                                 const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
   LocalizationRun made;
   const urban_nav_localization::FrozenMap map(frozen);
-  urban_nav_localization::MapSearch search(parameters, map, frozen.keyframes(), run.camera, run.T_base_camera);
+  urban_nav_localization::MapSearch search(parameters, map, frozen, {run.camera, run.T_base_camera},
+                                           std::make_shared<fabmap_node::KeyframePlaces>());
   Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search.views()));
   while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
   reading.finish(static_cast<std::int64_t>(search.views()));

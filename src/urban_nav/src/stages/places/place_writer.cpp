@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "fabmap_node/fab_map.hpp"
+#include "fabmap_node/retrieval/keyframe_places.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -16,14 +17,14 @@ constexpr std::size_t kMaxPendingPlaces = 4;
 
 PlaceWriter::Described describePlace(const LoadedPlaceModel& model, const fabmap_node::PlaceDescriber& describer,
                                      const urban_nav_store::SessionId& session, urban_nav_core::StampNs stamp,
-                                     const PlaceWriter::Images& images) {
+                                     PlaceWriter::Kind kind, const PlaceWriter::Images& images) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<cv::Mat> grey = images();
   std::vector<urban_nav_core::ImageView> views;
   for (const cv::Mat& image : grey) views.push_back(urban_nav_ros::toView(image));
   PlaceWriter::Described described;
   described.row = fabmap_node::toStoredPlace(session, stamp, describer.describe(views), model.hash);
-  described.row.thumbnail = fabmap_node::placeThumbnail(views);
+  if (kind == PlaceWriter::Kind::Place) described.row.thumbnail = fabmap_node::placeThumbnail(views);
   described.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return described;
 }
@@ -41,21 +42,22 @@ std::shared_ptr<const LoadedPlaceModel> loadPlaceModel(const fabmap_node::Parame
 }
 
 PlaceWriter::PlaceWriter(std::shared_ptr<const LoadedPlaceModel> model, const fabmap_node::Parameters& parameters,
-                         urban_nav_store::SessionId session, bool one_thread)
+                         urban_nav_store::SessionId session, Kind kind, bool one_thread)
     : model_(std::move(model)),
-      describer_(std::make_shared<fabmap_node::PlaceDescriber>(model_->model.vocabulary,
-                                                               fabmap_node::featureOptions(parameters),
-                                                               fabmap_node::MatcherOptions().look_features)),
+      describer_(std::make_shared<fabmap_node::PlaceDescriber>(
+          model_->model.vocabulary, fabmap_node::featureOptions(parameters),
+          kind == Kind::Place ? fabmap_node::MatcherOptions().look_features : fabmap_node::keyframe_look_features)),
       session_(std::move(session)),
+      kind_(kind),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {}
 
 std::optional<PlaceWriter::Described> PlaceWriter::add(urban_nav_core::StampNs stamp, Images images) {
   std::optional<Described> done;
   if (made_.size() == kMaxPendingPlaces) done = next();
-  made_.push_back(std::async(
-      launch_, [model = model_, describer = describer_, session = session_, stamp, images = std::move(images)] {
-        return describePlace(*model, *describer, session, stamp, images);
-      }));
+  made_.push_back(std::async(launch_, [model = model_, describer = describer_, session = session_, kind = kind_, stamp,
+                                       images = std::move(images)] {
+    return describePlace(*model, *describer, session, stamp, kind, images);
+  }));
   return done;
 }
 

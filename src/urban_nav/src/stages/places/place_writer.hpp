@@ -37,8 +37,12 @@ class PlaceWriter {
   /// Returns grey images by camera number; an empty one is missing.
   using Images = std::function<std::vector<cv::Mat>()>;
 
+  /// Place: all that recognition compares, and a thumbnail. Keyframe: what localization needs, and the keyframe itself
+  /// is stored beside it.
+  enum class Kind { Place, Keyframe };
+
   PlaceWriter(std::shared_ptr<const LoadedPlaceModel> model, const fabmap_node::Parameters& parameters,
-              urban_nav_store::SessionId session, bool one_thread);
+              urban_nav_store::SessionId session, Kind kind, bool one_thread);
 
   /// Adds an observation. Returns a finished earlier one, if there is one. `images`: called once, in any thread.
   std::optional<Described> add(urban_nav_core::StampNs stamp, Images images);
@@ -49,6 +53,7 @@ class PlaceWriter {
   std::shared_ptr<const LoadedPlaceModel> model_;
   std::shared_ptr<const fabmap_node::PlaceDescriber> describer_;
   urban_nav_store::SessionId session_;
+  Kind kind_;
   std::launch launch_;
   std::deque<std::future<Described>> made_;
 };

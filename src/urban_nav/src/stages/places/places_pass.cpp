@@ -4,10 +4,12 @@
 #include <set>
 
 #include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_keyframe_place.hpp"
 #include "urban_nav_store/tables/stored_model.hpp"
 
 namespace urban_nav {
 
+using urban_nav_store::StoredKeyframePlace;
 using urban_nav_store::StoredModel;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
@@ -29,14 +31,19 @@ PlacesPass::PlacesPass(MapContext& context, const Stage::SessionStart& start,
     : store_(*context.store),
       id_(context.sessions[start.session].id),
       selector_(context.options.parameters.get(urban_nav_registration::table())),
-      writer_(model, context.options.parameters.get(fabmap_node::table()), id_, context.options.threads == 1),
+      writer_(model, context.options.parameters.get(fabmap_node::table()), id_, PlaceWriter::Kind::Place,
+              context.options.threads == 1),
+      keyframe_writer_(model, context.options.parameters.get(fabmap_node::table()), id_, PlaceWriter::Kind::Keyframe,
+                       context.options.threads == 1),
       ms_features_(ms_features) {
   for (const PanoramaCamera& camera : context.sessions[start.session].info.panorama) cameras_.push_back(camera.number);
   TableStore<StoredModel> models(store_);
   if (!models.get({id_, model->hash, {}, {}})) models.put({id_, model->hash, "fabmap_node", model->bytes});
-  if (!start.checkpoint || !cameras_.empty()) return;
+  if (!start.checkpoint) return;
   std::set<urban_nav_core::StampNs> stored;
-  TableStore<StoredPlace>(store_).forEach(id_, [&](const StoredPlace& row) { stored.insert(row.stamp); });
+  const auto keep = [&](const StoredPlace& row) { stored.insert(row.stamp); };
+  if (cameras_.empty()) TableStore<StoredPlace>(store_).forEach(id_, keep);
+  else TableStore<StoredKeyframePlace>(store_).forEach(id_, keep);
   for (const VoRow& row : context.sessions[start.session].vo->rows)
     if (stored.count(row.stamp) > 0) selector_.keep(row.T_odom_base);
 }
@@ -44,16 +51,22 @@ PlacesPass::PlacesPass(MapContext& context, const Stage::SessionStart& start,
 void PlacesPass::process(PassItem& item) {
   const VoRow& row = *item.odometry;
   const urban_nav_core::StereoPairWithMotion& frame = item.input.assembled;
-  if (!cameras_.empty() || !row.accepted || frame.pair.left.empty() || !selector_.select(row.T_odom_base)) return;
+  if (!row.accepted || frame.pair.left.empty() || !selector_.select(row.T_odom_base)) return;
   // The owner keeps the pixels alive.
-  add(row.stamp, [left = frame.pair.left, owner = frame.left_owner] {
+  const auto image = [left = frame.pair.left, owner = frame.left_owner] {
     return std::vector<cv::Mat>{cv::Mat(left.height, left.width, CV_8UC1, const_cast<std::uint8_t*>(left.data),
                                         static_cast<std::size_t>(left.stride))};
-  });
+  };
+  if (cameras_.empty()) {
+    if (const auto described = writer_.add(row.stamp, image)) put(*described);
+  } else if (const auto described = keyframe_writer_.add(row.stamp, image)) {
+    putKeyframe(*described);
+  }
 }
 
 void PlacesPass::process(const urban_nav_ros::Panorama& panorama) {
-  add(panorama.stamp, [panorama, cameras = cameras_] { return decodePanorama(panorama, cameras); });
+  const auto images = [panorama, cameras = cameras_] { return decodePanorama(panorama, cameras); };
+  if (const auto described = writer_.add(panorama.stamp, images)) put(*described);
 }
 
 std::string PlacesPass::checkpoint() {
@@ -63,17 +76,18 @@ std::string PlacesPass::checkpoint() {
 
 void PlacesPass::finish(const PassEnd&) { writeAll(); }
 
-void PlacesPass::add(urban_nav_core::StampNs stamp, PlaceWriter::Images images) {
-  if (const auto described = writer_.add(stamp, std::move(images))) put(*described);
-}
-
 void PlacesPass::put(const PlaceWriter::Described& described) {
   TableStore<StoredPlace>(store_).put(described.row);
   ms_features_.push_back(described.ms);
 }
 
+void PlacesPass::putKeyframe(const PlaceWriter::Described& described) {
+  TableStore<StoredKeyframePlace>(store_).put({described.row});
+}
+
 void PlacesPass::writeAll() {
   while (const auto described = writer_.next()) put(*described);
+  while (const auto described = keyframe_writer_.next()) putKeyframe(*described);
 }
 
 }  // namespace urban_nav

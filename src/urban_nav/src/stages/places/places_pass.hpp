@@ -11,6 +11,7 @@
 namespace urban_nav {
 
 /// Stores the places of a session while it is read: its panoramas, or the left images of its keyframes without them.
+/// Beside panoramas, left images are described too, for localization, which finds keyframes by them.
 class PlacesPass final : public SessionPass {
  public:
   /// `ms_features`: receives the time of each observation; must outlive the object.
@@ -23,15 +24,15 @@ class PlacesPass final : public SessionPass {
   void finish(const PassEnd& end) override;
 
  private:
-  void add(urban_nav_core::StampNs stamp, PlaceWriter::Images images);
   void put(const PlaceWriter::Described& described);
+  void putKeyframe(const PlaceWriter::Described& described);
   void writeAll();
 
   urban_nav_store::Store& store_;
   urban_nav_store::SessionId id_;
   std::vector<std::size_t> cameras_;  // numbers of the panorama's cameras; empty: left images
   urban_nav_registration::KeyframeSelector selector_;
-  PlaceWriter writer_;
+  PlaceWriter writer_, keyframe_writer_;  // the latter beside panoramas
   std::vector<double>& ms_features_;
 };
 

@@ -14,10 +14,10 @@ struct ImageSize {
   int width = 0, height = 0;  ///< px
 };
 
-/// What a JPEG says of its size, from its headers alone; empty where it is none.
+/// Returns the size that the headers of a JPEG state; nullopt if the bytes are none.
 std::optional<ImageSize> sizeOfJpeg(const std::vector<std::uint8_t>& bytes);
 
-/// The grey picture of a JPEG of this size; empty where the bytes are damaged, something else, or of another size:
+/// Returns the grey image of a JPEG of this size; empty if the bytes are damaged, something else, or of another size:
 /// these are not decoded, so that a header that lies takes no memory.
 cv::Mat decodeJpeg(const std::vector<std::uint8_t>& bytes, ImageSize size);
 
