@@ -15,6 +15,7 @@
 #include "live/live_map.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "map_messages.hpp"
+#include "urban_nav_registration/parameters.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
@@ -102,9 +103,11 @@ class LaserMapperStage {
 };
 
 LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
-  std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
+  urban_nav_registration::Parameters registration;
+  std::tie(nodelet_, parameters_, registration) = urban_nav_ros::readParameters(
+      node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
   node.setQueueSize(nodelet_.queue_size);
-  map_ = std::make_unique<LiveMap>(parameters_, temporaryStore(node.name()));
+  map_ = std::make_unique<LiveMap>(parameters_, temporaryStore(node.name()), registration.cloud_half_length);
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 1, true);
   tiles_ = node.nh().advertise<urban_nav_msgs::MapTile>(kTilesTopic, 100);
   quality_ = node.nh().advertise<urban_nav_msgs::MapQuality>(kQualityTopic, 1, true);
@@ -274,7 +277,7 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   report.add("time of the last cloud (s)", seconds_);
   if (nodelet_.live_constraints) {
     report.add("constraints from planes", counts.constraints);
-    report.add("constraints left out for ICP closures", counts.constraints_shared);
+    report.add("constraints discounted for ICP closures", counts.constraints_shared);
   }
   return report;
 }

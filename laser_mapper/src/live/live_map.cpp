@@ -8,7 +8,6 @@
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_registration/parameters.hpp"
 
 namespace laser_mapper {
 
@@ -48,8 +47,8 @@ std::size_t pointsDigest(const std::vector<MapPoint>& points) {
 
 }  // namespace
 
-LiveMap::LiveMap(const Parameters& parameters, std::string store_path)
-    : parameters_(parameters), path_(std::move(store_path)) {
+LiveMap::LiveMap(const Parameters& parameters, std::string store_path, double cloud_half_length)
+    : parameters_(parameters), path_(std::move(store_path)), cloud_half_length_(cloud_half_length) {
   open();
 }
 
@@ -112,15 +111,16 @@ void LiveMap::addGraph(const urban_nav_core::GraphUpdate& update) {
 void LiveMap::addClosure(const urban_nav_core::MetricClosure& closure) {
   if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted &&
       closure.method == urban_nav_core::ClosureMethod::Icp)
-    by_icp_.emplace_back(closure.a.stamp, closure.b.stamp);
+    by_icp_.push_back({0, 0, closure.a.stamp, closure.b.stamp, closure.measured});
 }
 
 /// Closures with other sessions, whose times lie outside of this one, share no beams.
 std::vector<CloudClosure> LiveMap::cloudClosures(const Trajectory& trajectory) const {
   std::vector<CloudClosure> closures;
-  for (const auto& [a, b] : by_icp_)
-    if (std::min(a, b) >= trajectory.front().stamp && std::max(a, b) <= trajectory.back().stamp)
-      closures.push_back({0, 0, a, b});
+  for (const CloudClosure& each : by_icp_)
+    if (std::min(each.stamp_a, each.stamp_b) >= trajectory.front().stamp &&
+        std::max(each.stamp_a, each.stamp_b) <= trajectory.back().stamp)
+      closures.push_back(each);
   return closures;
 }
 
@@ -194,18 +194,15 @@ std::vector<urban_nav_core::RelativeConstraint> LiveMap::takeConstraints() {
   if (nodes.empty() || store_->scans().lasers(kLiveSession).empty()) return {};
   LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
   update(map);
-  const double half_length = urban_nav_registration::Parameters().cloud_half_length;
-  const SharedBeams by_icp({&nodes}, cloudClosures(T_map_base), half_length);
-  const StampNs complete = std::min(lastStampBefore(nodes, 2.0 * half_length), nodes.back().stamp - kFewSeconds);
+  const SharedBeams by_icp({&nodes}, cloudClosures(T_map_base), cloud_half_length_);
+  const StampNs complete = std::min(lastStampBefore(nodes, 2.0 * cloud_half_length_), nodes.back().stamp - kFewSeconds);
   std::vector<urban_nav_core::RelativeConstraint> taken;
   for (const PlaneConstraint& found :
-       findPlaneConstraints(MapQuality(map).places(), {&nodes}, parameters_.range_bias)) {
+       by_icp.discount(findPlaneConstraints(MapQuality(map).places(), {&nodes}, parameters_.range_bias))) {
     const StampNs end = nodes.front().stamp + (std::max(found.stretch_a, found.stretch_b) + 1) * kPlaneGroupTime;
     if (end > complete || !decided_.insert({found.stretch_a, found.stretch_b}).second) continue;
-    if (by_icp.areUsedBy(found)) {
-      ++counts_.constraints_shared;
-      continue;
-    }
+    if (found.is_shared) ++counts_.constraints_shared;
+    if (found.measured.information.isZero(0.0)) continue;
     taken.push_back({{"", found.stamp_a}, {"", found.stamp_b}, found.measured, "plane", "laser_mapper"});
   }
   counts_.constraints += taken.size();

@@ -38,10 +38,11 @@ class LiveMap {
     std::size_t chunks = 0, chunks_rendered = 0;  ///< all; by the last render()
     std::size_t updates_missed = 0;               ///< revisions of the graph that did not arrive
     std::size_t constraints = 0;                  ///< from planes, taken
-    std::size_t constraints_shared = 0;           ///< left out: an ICP closure rests on the same beams
+    std::size_t constraints_shared = 0;           ///< discounted: an ICP closure rests on some of their beams
   };
 
-  LiveMap(const Parameters& parameters, std::string store_path);
+  /// `cloud_half_length`: of the clouds that ICP closures rest on, m of path to both sides of their stamps.
+  LiveMap(const Parameters& parameters, std::string store_path, double cloud_half_length);
   ~LiveMap();
   LiveMap(const LiveMap&) = delete;
   LiveMap& operator=(const LiveMap&) = delete;
@@ -103,11 +104,12 @@ class LiveMap {
 
   const Parameters parameters_;
   const std::string path_;
+  const double cloud_half_length_;
   std::unique_ptr<urban_nav_store::Store> store_;
   std::map<std::string, urban_nav_core::Pose> placed_;
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_, T_map_base_;
   std::set<urban_nav_core::StampNs> nodes_;
-  std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>> by_icp_;  ///< ends of accepted closures
+  std::vector<CloudClosure> by_icp_;                         ///< accepted
   std::set<std::pair<std::int64_t, std::int64_t>> decided_;  ///< pairs of stretches that constraints were taken of
   std::optional<std::int64_t> revision_;
   std::map<Tile, TileState> tiles_;

@@ -23,7 +23,7 @@ std::string liveMapPath() { return ::testing::TempDir() + "live_map_test.db"; }
 /// A map of the room; odometry begins at another place than the room's frame.
 class LiveMapTest : public ::testing::Test {
  protected:
-  LiveMapTest() : map_(Parameters(), liveMapPath()) { map_.placeLaser("laser_left", testing_room::roomLaser()); }
+  LiveMapTest() : map_(Parameters(), liveMapPath(), 10.0) { map_.placeLaser("laser_left", testing_room::roomLaser()); }
 
   void drive() {
     for (const auto& pose : trajectory_) map_.addOdometry({pose.stamp, T_odom_room_ * pose.pose});
@@ -90,7 +90,7 @@ class LiveConstraintsTest : public ::testing::Test {
  protected:
   static constexpr std::size_t kNodeStep = 5;
 
-  LiveConstraintsTest() : map_(Parameters(), ::testing::TempDir() + "live_constraints_test.db") {
+  LiveConstraintsTest() : map_(Parameters(), ::testing::TempDir() + "live_constraints_test.db", 10.0) {
     map_.placeLaser("laser_right", testing_room::outwardLaser());
     std::mt19937 random(5);
     for (urban_nav_core::StampNs stamp = truth_.front().stamp; stamp < truth_.back().stamp; stamp += 40'000'000)
@@ -108,6 +108,7 @@ class LiveConstraintsTest : public ::testing::Test {
     closure.b.stamp = truth_.front().stamp + std::llround(1e9 * b);
     closure.method = urban_nav_core::ClosureMethod::Icp;
     closure.verdict = verdict;
+    closure.measured.information = 1e12 * urban_nav_core::Matrix6d::Identity();  // more than planes tell
     map_.addClosure(closure);
   }
   double error(const Pose& T_a_b, const urban_nav_core::RelativeConstraint& of) const {
@@ -143,7 +144,7 @@ TEST_F(LiveConstraintsTest, PlanesOfTwoPassesConstrainPosesOfTheGraphOnce) {
     EXPECT_GT(std::max(constraint.a.stamp, constraint.b.stamp), first.back().b.stamp - kPlaneGroupTime);
 }
 
-TEST_F(LiveConstraintsTest, BeamsOfAnIcpClosureAreNotUsedAgain) {
+TEST_F(LiveConstraintsTest, WhatAnIcpClosureTellsIsNotToldAgain) {
   closeByIcp(20.0, 55.0, urban_nav_core::ClosureVerdict::Rejected);
   closeByIcp(-500.0, 55.0, urban_nav_core::ClosureVerdict::Accepted);  // with an earlier session
   closeByIcp(12.0, 47.0, urban_nav_core::ClosureVerdict::Accepted);
@@ -165,7 +166,7 @@ TEST_F(LiveConstraintsTest, WithoutPosesOfTheGraphThereAreNone) {
 }
 
 TEST(LiveMapFile, IsRemovedWithTheMap) {
-  { const LiveMap map(Parameters(), liveMapPath()); }
+  { const LiveMap map(Parameters(), liveMapPath(), 10.0); }
   EXPECT_FALSE(std::filesystem::exists(liveMapPath()));
 }
 

@@ -25,6 +25,7 @@ struct PlaneConstraint {
   /// Numbers of the stretches of kPlaneGroupTime that the planes were seen in.
   std::int64_t stretch_a = 0, stretch_b = 0;
   std::size_t planes = 0;  ///< that it rests on, at least 3
+  bool is_shared = false;  ///< closures by ICP rest on some of its beams, and have taken their part of its information
 };
 
 /// Returns the constraints between the passes of a map that was rendered along `T_map_base`, one trajectory per session

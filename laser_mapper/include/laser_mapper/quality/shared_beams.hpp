@@ -13,18 +13,23 @@ namespace laser_mapper {
 struct CloudClosure {
   std::size_t session_a = 0, session_b = 0;
   urban_nav_core::StampNs stamp_a = 0, stamp_b = 0;
+  urban_nav_core::Constraint measured;  ///< T_a_b of base_link
 };
 
-/// Parts of the path whose beams closures by ICP have used. Immutable, so thread-safe.
+/// Closures by ICP, and the parts of the path whose beams they rest on. Immutable, so thread-safe.
 class SharedBeams {
  public:
-  /// `cloud_half_length`: of the clouds that the closures rest on, m along the path to both sides of their stamps.
-  SharedBeams(const std::vector<const urban_nav_core::Trajectory*>& T_map_base,
-              const std::vector<CloudClosure>& closures, double cloud_half_length);
+  /// `T_map_base`: must outlive it. `cloud_half_length`: of the clouds that the closures rest on, m along the path to
+  /// both sides of their stamps.
+  SharedBeams(const std::vector<const urban_nav_core::Trajectory*>& T_map_base, std::vector<CloudClosure> closures,
+              double cloud_half_length);
 
-  /// Returns whether a closure rests on beams of both stretches of a constraint, one in each of its clouds. Their
-  /// errors are then not independent.
-  bool areUsedBy(const PlaneConstraint& constraint) const;
+  /// Returns the constraints without what closures tell from the same beams, so that shared information counts once. A
+  /// closure has rested on beams of a constraint if its two clouds contain parts of both stretches. Its information is
+  /// spread evenly along the clouds; what lies on a constraint's stretches is carried to its poses along the trajectory
+  /// and subtracted from its information, in the directions where something is left. A constraint of which nothing is
+  /// left has zero information. `constraints`: all that there are, since those in one closure's clouds share its part.
+  std::vector<PlaneConstraint> discount(std::vector<PlaneConstraint> constraints) const;
 
  private:
   /// Distances along the path of a session at its poses.
@@ -36,12 +41,23 @@ class SharedBeams {
   struct Interval {
     std::size_t session = 0;
     double from = 0.0, to = 0.0;  ///< m
-    bool overlaps(const Interval& other) const;
+    /// Returns the length that two intervals have in common, m.
+    double common(const Interval& other) const;
+  };
+  /// What a closure and a constraint have in common.
+  struct Common {
+    double length = 0.0;       ///< m along the clouds
+    bool is_reversed = false;  ///< the constraint's a lies in the closure's b
   };
   Interval stretch(std::size_t session, std::int64_t number) const;
+  Common common(const std::pair<Interval, Interval>& clouds, const PlaneConstraint& constraint) const;
+  urban_nav_core::Matrix6d carry(const CloudClosure& closure, bool is_reversed, const PlaneConstraint& to) const;
 
-  std::vector<PathLengths> paths_;  ///< by session
-  std::vector<std::pair<Interval, Interval>> clouds_;
+  const std::vector<const urban_nav_core::Trajectory*> T_map_base_;  ///< by session
+  const std::vector<CloudClosure> closures_;
+  const double cloud_length_;                          ///< m
+  std::vector<PathLengths> paths_;                     ///< by session
+  std::vector<std::pair<Interval, Interval>> clouds_;  ///< of the closures
 };
 
 }  // namespace laser_mapper

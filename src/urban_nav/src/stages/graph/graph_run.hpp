@@ -25,7 +25,7 @@ struct VerdictCounts {
 struct PlaneUse {
   bool searched = false;
   std::size_t rounds = 0;  ///< relaxations with planes
-  std::size_t shared = 0;  ///< constraints left out: an accepted ICP closure rests on the same beams
+  std::size_t shared = 0;  ///< constraints that count for less: an accepted ICP closure rests on the same beams
   double moved = 0.0;      ///< m, the largest distance by which they moved a pose within its map
   double ms = 0.0;         ///< duration of the search and of the relaxations with what it found
 };
@@ -69,7 +69,7 @@ using SessionFixes = std::vector<std::vector<pose_graph::PositionFix>>;
 /// Constraints from planes of the lasers between poses of a relaxed graph.
 struct PlaneClosures {
   std::vector<pose_graph::Closure> closures;  ///< of kind Plane; sessions as GraphRun::sessions names them
-  std::size_t shared = 0;                     ///< left out: an accepted ICP closure rests on the same beams
+  std::size_t shared = 0;  ///< found with less information: an accepted ICP closure rests on some of their beams
 };
 using PlaneFinder = std::function<PlaneClosures(const GraphRun&)>;
 

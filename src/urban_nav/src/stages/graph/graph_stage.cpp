@@ -155,9 +155,9 @@ class GraphStage final : public Stage {
     if (planes.all() + run_->planes.shared > 0)
       lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
                       std::to_string(planes.accepted) + " accepted" +
-                      (run_->planes.shared > 0
-                           ? ", " + std::to_string(run_->planes.shared) + " left out for ICP closures by the same beams"
-                           : "") +
+                      (run_->planes.shared > 0 ? ", " + std::to_string(run_->planes.shared) +
+                                                     " discounted for ICP closures by the same beams"
+                                               : "") +
                       "; poses moved by up to " + forPerson(run_->planes.moved, 3) + " m in " +
                       forPerson(1e-3 * run_->planes.ms, 3) + " s");
     if (fixes.used > 0)

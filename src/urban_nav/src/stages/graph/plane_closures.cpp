@@ -30,7 +30,8 @@ std::vector<CloudClosure> acceptedByIcp(const GraphRun& run, const std::vector<s
     if (closure.kind != pose_graph::EdgeKind::Icp || closure.verdict != urban_nav_core::ClosureVerdict::Accepted)
       continue;
     const std::size_t a = place(closure.a.session), b = place(closure.b.session);
-    if (std::max(a, b) < sessions.size()) accepted.push_back({a, b, closure.a.stamp, closure.b.stamp});
+    if (std::max(a, b) < sessions.size())
+      accepted.push_back({a, b, closure.a.stamp, closure.b.stamp, closure.measured});
   }
   return accepted;
 }
@@ -67,11 +68,11 @@ PlaneClosures findPlaneClosures(const laser_mapper::Parameters& parameters, urba
     }
     const laser_mapper::SharedBeams by_icp(T_map_base, acceptedByIcp(run, sessions), cloud_half_length);
     for (const PlaneConstraint& constraint :
-         laser_mapper::searchPlaneConstraints(parameters, store, mapped, store.path() + ".planes")) {
-      if (by_icp.areUsedBy(constraint)) ++found.shared;
-      else
-        found.closures.push_back(toClosure(constraint, run.sessions[sessions[constraint.session_a]],
-                                           run.sessions[sessions[constraint.session_b]]));
+         by_icp.discount(laser_mapper::searchPlaneConstraints(parameters, store, mapped, store.path() + ".planes"))) {
+      if (constraint.is_shared) ++found.shared;
+      if (constraint.measured.information.isZero(0.0)) continue;
+      found.closures.push_back(toClosure(constraint, run.sessions[sessions[constraint.session_a]],
+                                         run.sessions[sessions[constraint.session_b]]));
     }
   }
   return found;
