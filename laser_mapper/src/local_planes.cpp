@@ -46,7 +46,9 @@ LocalPlanes::LocalPlanes(double voxel, const Tile& tile, const std::vector<Merge
     Level& at = levels_[static_cast<std::size_t>(level)];
     at.edge = voxel_ * static_cast<float>(1 << level);
     at.table = urban_nav_registration::CellTable((cells.size() + margin.size()) >> level);
+    at.cubes.reserve((cells.size() + margin.size()) >> level);
   }
+  counts_.reserve(cells.size() + margin.size());
   for (const std::vector<MergedCell>* part : {&cells, &margin})
     for (const MergedCell& cell : *part) addToLevels(cell);
 }
