@@ -26,7 +26,7 @@ void calibrateStore(const std::string& store_path, const std::string& trajectory
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const char* names[] = {"delay", "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"};
   const char* units[] = {"ms", "mm", "mm", "mm", "deg", "deg", "deg"};
-  for (const LaserCalibration& laser : found.lasers)
+  for (const DeviceCalibration& laser : found.lasers)
     for (std::size_t i = 0; i < laser.terms.size(); ++i) {
       const CalibrationEstimate& term = laser.terms[i];
       const double scale = i < 4 ? 1e3 : 180.0 / M_PI;

@@ -2,16 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "calibration/calibration_stretch.hpp"
-#include "calibration/term_selection.hpp"
+#include "calibration/term_equations.hpp"
 #include "laser_mapper/calibration/laser_calibration.hpp"
-#include "urban_nav_core/geometry/dense.hpp"
 
 namespace laser_mapper {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using urban_nav_core::StampNs;
 
@@ -22,7 +22,6 @@ constexpr StampNs kLongestStretch = 300'000'000'000;
 constexpr double kReaches[] = {0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.1, 0.1, 0.1, 0.1};
 constexpr int kRefinements = 4;
 constexpr double kLastReach = 0.1;     // m
-constexpr double kConverged = 0.05;    // of a standard deviation
 constexpr double kBeyondChance = 3.0;  // standard errors
 
 /// The terms of all lasers of a session while they are estimated.
@@ -55,8 +54,10 @@ class Calibrator {
     TermEstimate estimate;
     for (int i = 0; i < iterations; ++i) {
       const double reach = all ? kReaches[i] : kLastReach;
-      const VectorXd change = step(wanted, reach, estimate);
-      if (reach <= kLastReach && isSmall(change, estimate)) break;
+      const std::optional<TermStep> moved = step(wanted, reach);
+      if (!moved) break;
+      estimate = moved->estimate;
+      if (reach <= kLastReach && isConverged(*moved)) break;
     }
     return estimate;
   }
@@ -78,45 +79,17 @@ class Calibrator {
     return all;
   }
 
-  /// One Gauss-Newton step of terms and trajectory; `estimate` is that after it.
-  VectorXd step(const std::vector<bool>& wanted, double reach, TermEstimate& estimate) {
+  /// One Gauss-Newton step of terms and trajectory.
+  std::optional<TermStep> step(const std::vector<bool>& wanted, double reach) {
     TermEquations equations = zeroEquations(lasers_.size());
     for (const auto& stretch : stretches_) equations += stretch->linearise(terms_, reach);
     places_ = equations.patches;
-    const VectorXd before = stacked();
-    for (Index i = 0; i < before.size(); ++i) {
-      const double prior = 1.0 / std::pow(priorSigmas()(i % kCalibrationTerms), 2);
-      equations.information(i, i) += prior;
-      equations.scatter(i, i) += prior;
-      equations.gradient(i) -= prior * before(i);
-      if (wanted[static_cast<std::size_t>(i)]) continue;
-      for (MatrixXd* matrix : {&equations.information, &equations.scatter}) {
-        matrix->row(i).setZero();
-        matrix->col(i).setZero();
-        (*matrix)(i, i) = prior;
-      }
-      equations.gradient(i) = 0.0;
-    }
-    const auto covariance = urban_nav_core::invertPositiveDefinite(equations.information);
-    if (!covariance) return VectorXd::Zero(before.size());
-    const VectorXd change = *covariance * equations.gradient;
+    std::optional<TermStep> step = solveTerms(std::move(equations), stacked(), wanted);
+    if (!step) return std::nullopt;
     for (std::size_t i = 0; i < terms_.size(); ++i)
-      terms_[i] = changedTerms(terms_[i], change.segment<kCalibrationTerms>(static_cast<Index>(kCalibrationTerms * i)));
-    for (const auto& stretch : stretches_) stretch->moveTrajectory(change);
-    // Errors within a place are correlated: each term's variance is that by the scatter of the places, if it is larger.
-    const MatrixXd by_scatter = *covariance * equations.scatter * *covariance;
-    const VectorXd inflation =
-        (by_scatter.diagonal().array() / covariance->diagonal().array()).max(1.0).sqrt().matrix();
-    estimate.mean = stacked();
-    estimate.covariance = inflation.asDiagonal() * *covariance * inflation.asDiagonal();
-    estimate.conditional_sigma = equations.information.diagonal().cwiseSqrt().cwiseInverse();
-    return change;
-  }
-
-  static bool isSmall(const VectorXd& change, const TermEstimate& estimate) {
-    for (Index i = 0; i < change.size(); ++i)
-      if (std::abs(change(i)) > kConverged * estimate.sigma(i)) return false;
-    return true;
+      terms_[i] = step->estimate.mean.segment<kCalibrationTerms>(static_cast<Index>(kCalibrationTerms * i));
+    for (const auto& stretch : stretches_) stretch->moveTrajectory(step->change);
+    return step;
   }
 
   const std::vector<MountedLaser> lasers_;
@@ -124,10 +97,6 @@ class Calibrator {
   std::vector<std::unique_ptr<CalibrationStretch>> stretches_;
   std::size_t places_ = 0;
 };
-
-bool holdsTrue(const std::vector<bool>& values) {
-  return std::find(values.begin(), values.end(), true) != values.end();
-}
 
 void judgeByHeldOut(const std::vector<CalibrationStretch::Spread>& spreads, CalibrationResult& result) {
   result.held_out = spreads.size();
@@ -155,34 +124,15 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
   Calibrator calibrator(parameters, store, session, T_map_base, odometry);
   const std::size_t terms = kCalibrationTerms * calibrator.lasers().size();
   if (terms == 0 || T_map_base.size() < 2) return result;
-  const TermEstimate all = calibrator.estimate(std::vector<bool>(terms, true));
-  if (all.mean.size() == 0) return result;
+  const TermSelection selected =
+      selectTerms(terms, [&](const std::vector<bool>& wanted) { return calibrator.estimate(wanted); });
+  if (selected.all.mean.size() == 0) return result;
   result.places = calibrator.places();
-  result.unconstrained = describeUnconstrained(all, calibrator.lasers());
-  std::vector<bool> significant = significantTerms(all);
-  TermEstimate chosen = all;
-  for (bool is_settled = !holdsTrue(significant); !is_settled;) {
-    chosen = calibrator.estimate(significant);
-    is_settled = true;
-    for (std::size_t term = 0; term < terms;
-         ++term)  // what is not observable beside the others is not adopted with them
-      if (significant[term] && !chosen.isConstrained(static_cast<Index>(term))) significant[term] = is_settled = false;
-    is_settled = is_settled || !holdsTrue(significant);
-  }
-  result.is_significant = holdsTrue(significant);
+  result.unconstrained = describeUnconstrained(selected.all, calibrator.lasers());
+  result.is_significant = selected.holdsAny();
   judgeByHeldOut(calibrator.compareHeldOut(), result);
-  for (std::size_t i = 0; i < calibrator.lasers().size(); ++i) {
-    LaserCalibration laser;
-    laser.frame = calibrator.lasers()[i].frame;
-    for (std::size_t t = 0; t < laser.terms.size(); ++t) {
-      const std::size_t term = kCalibrationTerms * i + t;
-      const auto at = static_cast<Index>(term);
-      const TermEstimate& from = significant[term] ? chosen : all;
-      laser.terms[t] = {from.mean(at), from.sigma(at), from.isConstrained(at),
-                        significant[term] && result.isAdopted() ? chosen.mean(at) : 0.0};
-    }
-    result.lasers.push_back(laser);
-  }
+  for (std::size_t i = 0; i < calibrator.lasers().size(); ++i)
+    result.lasers.push_back(selected.device(i, calibrator.lasers()[i].frame, result.isAdopted()));
   return result;
 }
 

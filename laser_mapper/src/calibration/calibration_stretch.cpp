@@ -91,19 +91,6 @@ double surfelWeight(const Parameters& parameters, const CalibrationSurfel& surfe
 
 }  // namespace
 
-TermEquations zeroEquations(std::size_t lasers) {
-  const auto n = static_cast<Eigen::Index>(kCalibrationTerms * lasers);
-  return {MatrixXd::Zero(n, n), VectorXd::Zero(n), MatrixXd::Zero(n, n), 0};
-}
-
-TermEquations& TermEquations::operator+=(const TermEquations& other) {
-  information += other.information;
-  gradient += other.gradient;
-  scatter += other.scatter;
-  patches += other.patches;
-  return *this;
-}
-
 /// Equations of one place without its plane: all terms, then the corrections at `seconds`, 6 each.
 struct CalibrationStretch::PatchEquations {
   std::vector<std::uint32_t> seconds;

@@ -5,22 +5,11 @@
 #include <vector>
 
 #include "calibration/calibration_patches.hpp"
+#include "calibration/term_equations.hpp"
 #include "calibration/trajectory_prior.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 
 namespace laser_mapper {
-
-/// Normal equations of the terms of all lasers, 7 each, from which planes and errors of the trajectory are eliminated.
-struct TermEquations {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd gradient;  ///< information * change = gradient
-  Eigen::MatrixXd scatter;   ///< of the gradients of the places: larger than `information` where errors of a place are
-                             ///< correlated
-  std::size_t patches = 0;
-
-  TermEquations& operator+=(const TermEquations& other);
-};
-TermEquations zeroEquations(std::size_t lasers);
 
 /// A stretch of a session whose beams calibrate its lasers. Unknown besides their terms are the plane of every place,
 /// and a correction of the trajectory at every second, a random walk with the covariance of odometry. Not thread-safe.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "laser_mapper/calibration/laser_calibration.hpp"
+#include "laser_mapper/calibration/view_calibration.hpp"
 #include "urban_nav_registration/session/adopted_calibration.hpp"
 
 namespace laser_mapper {
@@ -14,7 +15,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-Vector3d adoptedVector(const LaserCalibration& laser, CalibrationTerm first) {
+Vector3d adoptedVector(const DeviceCalibration& laser, CalibrationTerm first) {
   const auto begin = static_cast<std::size_t>(first);
   return {laser.terms[begin].adopted, laser.terms[begin + 1].adopted, laser.terms[begin + 2].adopted};
 }
@@ -32,13 +33,13 @@ std::vector<AdoptedCalibration> readDevices(Store& store, const SessionId& sessi
 
 }  // namespace
 
-bool LaserCalibration::isAdopted() const {
+bool DeviceCalibration::isAdopted() const {
   return std::any_of(terms.begin(), terms.end(), [](const CalibrationEstimate& term) { return term.adopted != 0.0; });
 }
 
 void storeCalibration(Store& store, const SessionId& session, const CalibrationResult& calibration) {
   std::vector<AdoptedCalibration> devices;
-  for (const LaserCalibration& laser : calibration.lasers)
+  for (const DeviceCalibration& laser : calibration.lasers)
     if (laser.isAdopted())
       devices.push_back({laser.frame, std::llround(1e9 * laser.at(CalibrationTerm::Delay).adopted),
                          urban_nav_core::Pose(urban_nav_core::expSo3(adoptedVector(laser, CalibrationTerm::TurnX)),
@@ -47,9 +48,12 @@ void storeCalibration(Store& store, const SessionId& session, const CalibrationR
   urban_nav_registration::writeCalibration(store, session, std::move(devices));
 }
 
-void storePanoramaDelay(Store& store, const SessionId& session, double delay) {
+void storeViewCalibration(Store& store, const SessionId& session, const ViewCalibration& calibration) {
   std::vector<AdoptedCalibration> devices = readDevices(store, session, false);
-  if (delay != 0.0) devices.push_back({urban_nav_registration::kPanoramaDevice, std::llround(1e9 * delay), {}});
+  if (calibration.head.isAdopted())
+    devices.push_back({urban_nav_registration::kPanoramaDevice,
+                       std::llround(1e9 * calibration.head.at(CalibrationTerm::Delay).adopted),
+                       calibration.headCorrection()});
   urban_nav_registration::writeCalibration(store, session, std::move(devices));
 }
 

@@ -120,6 +120,42 @@ std::vector<bool> significantTerms(const TermEstimate& estimate) {
   return significant;
 }
 
+bool TermSelection::holdsAny() const {
+  return std::find(significant.begin(), significant.end(), true) != significant.end();
+}
+
+DeviceCalibration TermSelection::device(std::size_t number, const std::string& frame, bool is_adopted) const {
+  DeviceCalibration made;
+  made.frame = frame;
+  for (std::size_t t = 0; t < made.terms.size(); ++t) {
+    const std::size_t term = kCalibrationTerms * number + t;
+    const auto at = static_cast<Index>(term);
+    const TermEstimate& from = significant[term] ? chosen : all;
+    made.terms[t] = {from.mean(at), from.sigma(at), from.isConstrained(at),
+                     significant[term] && is_adopted ? chosen.mean(at) : 0.0};
+  }
+  return made;
+}
+
+TermSelection selectTerms(std::size_t terms,
+                          const std::function<TermEstimate(const std::vector<bool>& wanted)>& estimate) {
+  TermSelection selection;
+  selection.significant.assign(terms, false);
+  selection.all = selection.chosen = estimate(std::vector<bool>(terms, true));
+  if (selection.all.mean.size() == 0) return selection;
+  selection.significant = significantTerms(selection.all);
+  for (bool is_settled = !selection.holdsAny(); !is_settled;) {
+    selection.chosen = estimate(selection.significant);
+    if (selection.chosen.mean.size() == 0) selection.significant.assign(terms, false);
+    is_settled = true;
+    for (std::size_t term = 0; term < terms; ++term)  // what is not observable beside the others goes
+      if (selection.significant[term] && !selection.chosen.isConstrained(static_cast<Index>(term)))
+        selection.significant[term] = is_settled = false;
+    is_settled = is_settled || !selection.holdsAny();
+  }
+  return selection;
+}
+
 std::vector<std::string> describeUnconstrained(const TermEstimate& estimate, const std::vector<MountedLaser>& lasers) {
   std::vector<std::string> sentences;
   for (Index term = 0; term < estimate.mean.size(); ++term) {

@@ -128,7 +128,7 @@ TEST_F(LaserCalibrationTest, ALateAndTurnedLaserIsFoundAndTheMapIsSharp) {
   ASSERT_EQ(found.lasers.size(), 2U);
   EXPECT_TRUE(found.isAdopted());
   EXPECT_LT(found.calibrated_spread, 0.3 * found.stated_spread);
-  const LaserCalibration &left = found.lasers[0], &right = found.lasers[1];
+  const DeviceCalibration &left = found.lasers[0], &right = found.lasers[1];
   EXPECT_NEAR(left.at(CalibrationTerm::Delay).adopted, 0.030, 0.001);
   EXPECT_NEAR(right.at(CalibrationTerm::Delay).value, 0.0, 0.001);
   for (int axis = 0; axis < 3; ++axis) {
@@ -149,7 +149,7 @@ TEST_F(LaserCalibrationTest, WhereNothingIsWrongNothingChanges) {
   const std::string before = mapBytes(trajectory);
   const CalibrationResult found = calibrate(trajectory);
   EXPECT_FALSE(found.isAdopted());
-  for (const LaserCalibration& laser : found.lasers)
+  for (const DeviceCalibration& laser : found.lasers)
     for (const CalibrationEstimate& term : laser.terms) {
       EXPECT_LE(std::abs(term.value), 3.0 * term.sigma);
       EXPECT_EQ(term.adopted, 0.0);
@@ -176,7 +176,7 @@ TEST_F(LaserCalibrationTest, OnAStraightNothingIsFoundAndTheDelayIsNamed) {
   scanWith("laser_right", rightLaser(), trajectory, 0, Vector3d(0.0, kDegree, 0.0));
   const CalibrationResult found = calibrate(trajectory);
   EXPECT_FALSE(found.isAdopted());
-  for (const LaserCalibration& laser : found.lasers) EXPECT_FALSE(laser.at(CalibrationTerm::Delay).constrained);
+  for (const DeviceCalibration& laser : found.lasers) EXPECT_FALSE(laser.at(CalibrationTerm::Delay).constrained);
   EXPECT_TRUE(std::any_of(found.unconstrained.begin(), found.unconstrained.end(),
                           [](const std::string& text) { return text.rfind("delay of laser_left", 0) == 0; }));
 }

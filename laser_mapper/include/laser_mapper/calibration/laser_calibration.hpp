@@ -26,7 +26,8 @@ struct CalibrationEstimate {
   double adopted = 0.0;      ///< that the map uses; 0: as stated
 };
 
-struct LaserCalibration {
+/// The terms of a laser or of the head of the panoramic cameras.
+struct DeviceCalibration {
   std::string frame;
   std::array<CalibrationEstimate, kCalibrationTerms> terms;
 
@@ -36,7 +37,7 @@ struct LaserCalibration {
 
 /// Delay and mounting of the lasers of one session against its trajectory.
 struct CalibrationResult {
-  std::vector<LaserCalibration> lasers;               ///< by frame
+  std::vector<DeviceCalibration> lasers;              ///< by frame
   std::vector<std::string> unconstrained;             ///< directions in words: "laser_left: shift along its z axis"
   std::size_t places = 0;                             ///< planar places measured more than once that it rests on
   std::size_t held_out = 0;                           ///< places left out, by which it is judged
@@ -64,9 +65,6 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
 /// LaserMap::render().
 void storeCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                       const CalibrationResult& calibration);
-/// Makes all stages use a session's panoramas as late by `delay` (s); 0: as stamped. What is adopted of the lasers
-/// stays.
-void storePanoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session, double delay);
 /// Makes all stages use the extrinsics and stamps of a session alone.
 void forgetCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 

@@ -147,7 +147,7 @@ Command simulateCommand() {
        {}},
       {"--misplace",
        "FRAME:ROLL,PITCH,YAW",
-       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0",
+       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0; FRAME ladybug: of the whole head",
        false,
        true,
        {}},

@@ -9,6 +9,7 @@
 
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -19,6 +20,8 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr double kMostLag = 10.0;  // s
+constexpr const char* kHead = "ladybug";
+constexpr int kHeadCameras = 5;
 constexpr const char* kDevices = "laser_left, laser_right, panorama";
 constexpr const char* kLagForm = "DEVICE:S, DEVICE one of laser_left, laser_right, panorama, S from -10 to 10 (s)";
 
@@ -49,6 +52,40 @@ std::optional<Eigen::Vector3d> parseAngles(const std::string& text) {
   return angles;
 }
 
+Eigen::Quaterniond rotationOf(const geometry_msgs::TransformStamped& transform) {
+  const auto& q = transform.transform.rotation;
+  return {q.w, q.x, q.y, q.z};
+}
+
+void setRotation(const Eigen::Quaterniond& rotation, geometry_msgs::TransformStamped& transform) {
+  const Eigen::Quaterniond q = rotation.normalized();
+  transform.transform.rotation.w = q.w();
+  transform.transform.rotation.x = q.x();
+  transform.transform.rotation.y = q.y();
+  transform.transform.rotation.z = q.z();
+}
+
+/// Turns the cameras of the Ladybug about their middle.
+void turnHead(const Eigen::Quaterniond& turn, std::vector<geometry_msgs::TransformStamped>& transforms) {
+  std::vector<geometry_msgs::TransformStamped*> cameras;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (geometry_msgs::TransformStamped& transform : transforms)
+    for (int i = 0; i < kHeadCameras; ++i)
+      if (transform.child_frame_id == urban_nav_core::frames::ladybugCamera(i)) {
+        const auto& t = transform.transform.translation;
+        middle += Eigen::Vector3d(t.x, t.y, t.z) / kHeadCameras;
+        cameras.push_back(&transform);
+      }
+  for (geometry_msgs::TransformStamped* camera : cameras) {
+    auto& t = camera->transform.translation;
+    const Eigen::Vector3d moved = middle + turn * (Eigen::Vector3d(t.x, t.y, t.z) - middle);
+    t.x = moved.x();
+    t.y = moved.y();
+    t.z = moved.z();
+    setRotation(turn * rotationOf(*camera), *camera);
+  }
+}
+
 }  // namespace
 
 void CalibrationErrors::apply(urban_nav_sim::TopicMessage& message) const {
@@ -62,16 +99,11 @@ void CalibrationErrors::apply(urban_nav_sim::TopicMessage& message) const {
 }
 
 void CalibrationErrors::apply(std::vector<geometry_msgs::TransformStamped>& transforms) const {
+  if (const auto head = turns.find(kHead); head != turns.end()) turnHead(Eigen::Quaterniond(head->second), transforms);
   for (geometry_msgs::TransformStamped& transform : transforms) {
     const auto turn = turns.find(transform.child_frame_id);
     if (turn == turns.end()) continue;
-    const auto& stated = transform.transform.rotation;
-    const Eigen::Quaterniond q =
-        (Eigen::Quaterniond(stated.w, stated.x, stated.y, stated.z) * Eigen::Quaterniond(turn->second)).normalized();
-    transform.transform.rotation.w = q.w();
-    transform.transform.rotation.x = q.x();
-    transform.transform.rotation.y = q.y();
-    transform.transform.rotation.z = q.z();
+    setRotation(rotationOf(transform) * Eigen::Quaterniond(turn->second), transform);
   }
 }
 
@@ -87,13 +119,14 @@ CalibrationErrors parseCalibrationErrors(const std::vector<std::string>& lags,
     if (!is_known || !seconds || !(std::abs(*seconds) <= kMostLag)) throw UserError("--lag", text, kLagForm);
     errors.lags[words->first] = std::llround(1e9 * *seconds);
   }
-  std::string known;
+  std::string known = kHead;
   for (const std::string& frame : frames) known += (known.empty() ? "" : ", ") + frame;
   for (const std::string& text : misplaced) {
     const auto words = atColon(text);
     const auto angles = words ? parseAngles(words->second) : std::nullopt;
-    if (!angles || std::find(frames.begin(), frames.end(), words->first) == frames.end())
-      throw UserError("--misplace", text, "FRAME:ROLL,PITCH,YAW (deg), FRAME one of " + known);
+    const bool is_known =
+        words && (words->first == kHead || std::find(frames.begin(), frames.end(), words->first) != frames.end());
+    if (!angles || !is_known) throw UserError("--misplace", text, "FRAME:ROLL,PITCH,YAW (deg), FRAME one of " + known);
     errors.turns[words->first] = (Eigen::AngleAxisd(angles->z(), Eigen::Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(angles->y(), Eigen::Vector3d::UnitY()) *
                                   Eigen::AngleAxisd(angles->x(), Eigen::Vector3d::UnitX()))

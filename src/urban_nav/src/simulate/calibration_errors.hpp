@@ -14,8 +14,10 @@ namespace urban_nav {
 /// Constant errors of a robot's calibration that a bag has: stamps of a device that are late, and frames whose rotation
 /// /tf_static states wrongly. Measurements and truth are those of the robot without them.
 struct CalibrationErrors {
-  std::map<std::string, urban_nav_core::StampNs> lags;    ///< by device: laser_left, laser_right, panorama
-  std::map<std::string, urban_nav_core::Matrix3d> turns;  ///< R_true_stated by frame
+  std::map<std::string, urban_nav_core::StampNs> lags;  ///< by device: laser_left, laser_right, panorama
+  /// R_true_stated by frame; of "ladybug", the head with all its cameras, about the middle of these in the axes of the
+  /// frame they hang on.
+  std::map<std::string, urban_nav_core::Matrix3d> turns;
 
   bool any() const { return !lags.empty() || !turns.empty(); }
   /// Shifts the stamp of a message of a device with a lag.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "laser_mapper/calibration/laser_calibration.hpp"
-#include "laser_mapper/calibration/view_delay.hpp"
+#include "laser_mapper/calibration/view_calibration.hpp"
 
 namespace urban_nav {
 
@@ -15,7 +15,7 @@ struct SessionCalibration {
   std::size_t number = 0;  ///< over all sessions
   std::string session;     ///< name
   laser_mapper::CalibrationResult found;
-  std::optional<laser_mapper::ViewDelay> panorama = {};  ///< nullopt: there are no panoramas
+  std::optional<laser_mapper::ViewCalibration> panorama = {};  ///< nullopt: there are no panoramas
 };
 
 }  // namespace urban_nav

@@ -26,6 +26,7 @@
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/pose.hpp"
 
 namespace urban_nav {
 namespace {
@@ -58,11 +59,12 @@ std::vector<Message> messagesOfTopic(const std::string& path, const std::string&
   return messages;
 }
 
-std::map<std::string, geometry_msgs::Quaternion> statedRotations(const std::string& path) {
-  std::map<std::string, geometry_msgs::Quaternion> rotations;
+std::map<std::string, urban_nav_core::Pose> statedPoses(const std::string& path) {
+  std::map<std::string, urban_nav_core::Pose> poses;
   for (const auto& message : messagesOfTopic<tf2_msgs::TFMessage>(path, "/tf_static"))
-    for (const auto& transform : message.transforms) rotations[transform.child_frame_id] = transform.transform.rotation;
-  return rotations;
+    for (const auto& transform : message.transforms)
+      poses[transform.child_frame_id] = *urban_nav_ros::toPose(transform.transform);
+  return poses;
 }
 
 TEST(Simulate, LagsShiftStampsAndMisplacedFramesTurnInTfAlone) {
@@ -86,12 +88,29 @@ TEST(Simulate, LagsShiftStampsAndMisplacedFramesTurnInTfAlone) {
     }
   }
   EXPECT_EQ(readFile(right.file("session.truth/trajectory.tum")), readFile(wrong.file("session.truth/trajectory.tum")));
-  const auto before = statedRotations(right.file("session.bag")), after = statedRotations(job.bag);
+  const auto before = statedPoses(right.file("session.bag")), after = statedPoses(job.bag);
   ASSERT_EQ(before.size(), after.size());
-  for (const auto& [frame, q] : before) {
-    const geometry_msgs::Quaternion& p = after.at(frame);
-    const double cosine = std::min(1.0, std::abs(q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z));
-    EXPECT_NEAR(2.0 * std::acos(cosine) * 180.0 / M_PI, frame == "laser_left" ? 1.0 : 0.0, 1e-5) << frame;
+  for (const auto& [frame, T_base_frame] : before)
+    EXPECT_NEAR(angleBetween(T_base_frame, after.at(frame)) * 180.0 / M_PI, frame == "laser_left" ? 1.0 : 0.0, 1e-5)
+        << frame;
+}
+
+TEST(Simulate, AMisplacedHeadTurnsWithAllItsCameras) {
+  const TemporaryFolder right, wrong;
+  Console console;
+  SimulateJob job = shortJob(right);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu};
+  simulate(job, console);
+  job.bag = wrong.file("session.bag");
+  job.misplaced = {"ladybug:0,0,3"};
+  simulate(job, console);
+  const auto before = statedPoses(right.file("session.bag")), after = statedPoses(job.bag);
+  ASSERT_EQ(before.size(), after.size());
+  const urban_nav_core::Pose turn(urban_nav_core::expSo3({0.0, 0.0, 3.0 * M_PI / 180.0}), {0.0, 0.0, 0.0});
+  for (const auto& [frame, T_base_frame] : before) {
+    const bool is_camera = frame.find("ladybug") == 0;
+    EXPECT_TRUE(isApprox(after.at(frame), is_camera ? turn * T_base_frame : T_base_frame, 1e-9))
+        << frame << ": the head is above the origin of base_link";
   }
 }
 

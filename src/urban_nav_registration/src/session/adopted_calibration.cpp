@@ -45,10 +45,10 @@ void writeCalibration(Store& store, const SessionId& session, std::vector<Adopte
   else store.states().put(session, kCalibrationState, packCalibration(std::move(devices)));
 }
 
-urban_nav_core::StampNs panoramaDelay(Store& store, const SessionId& session) {
+PanoramaCorrection panoramaCorrection(Store& store, const SessionId& session) {
   for (const AdoptedCalibration& device : readCalibration(store, session))
-    if (device.frame == kPanoramaDevice) return device.delay;
-  return 0;
+    if (device.frame == kPanoramaDevice) return {device.delay, device.T_stated_adopted};
+  return {};
 }
 
 }  // namespace urban_nav_registration

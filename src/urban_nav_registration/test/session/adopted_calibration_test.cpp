@@ -85,17 +85,20 @@ TEST_F(CalibratedSession, WithoutACalibrationLasersAreAsStated) {
   ASSERT_EQ(storedLasers(*store_, kCalibratedSession).size(), 2U);
   EXPECT_TRUE(isApprox(storedLasers(*store_, kCalibratedSession)[0].T_base_laser, mounting(), 0.0));
   EXPECT_EQ(scansOfLaser(0, kFirstScan, kFirstScan + 500'000'000).size(), 6U);
-  EXPECT_EQ(panoramaDelay(*store_, kCalibratedSession), 0);
+  EXPECT_EQ(panoramaCorrection(*store_, kCalibratedSession).delay, 0);
+  EXPECT_TRUE(isApprox(panoramaCorrection(*store_, kCalibratedSession).T_correction, Pose(), 0.0));
 }
 
 TEST_F(CalibratedSession, AdoptedMountingAndDelayAreThoseOfStoredLasersAndScans) {
-  writeCalibration(*store_, kCalibratedSession, {{"laser_right", kLate, smallMotion()}, {kPanoramaDevice, 20, {}}});
+  writeCalibration(*store_, kCalibratedSession,
+                   {{"laser_right", kLate, smallMotion()}, {kPanoramaDevice, 20, smallMotion()}});
   const auto lasers = storedLasers(*store_, kCalibratedSession), stated = statedLasers(*store_, kCalibratedSession);
   ASSERT_EQ(lasers.size(), 2U);
   EXPECT_TRUE(isApprox(lasers[0].T_base_laser, mounting(), 0.0));
   EXPECT_TRUE(isApprox(lasers[1].T_base_laser, mounting() * smallMotion(), 1e-12));
   EXPECT_TRUE(isApprox(stated[1].T_base_laser, mounting(), 0.0));
-  EXPECT_EQ(panoramaDelay(*store_, kCalibratedSession), 20);
+  EXPECT_EQ(panoramaCorrection(*store_, kCalibratedSession).delay, 20);
+  EXPECT_TRUE(isApprox(panoramaCorrection(*store_, kCalibratedSession).T_correction, smallMotion(), 1e-12));
   // Scans whose true times lie in the interval, at their true times.
   const auto scans = scansOfLaser(1, kFirstScan, kFirstScan + 500'000'000);
   ASSERT_EQ(scans.size(), 5U);

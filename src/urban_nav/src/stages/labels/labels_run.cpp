@@ -79,15 +79,17 @@ void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession
                 const StoredPanoramaCamera& camera, double spacing, PlannedViews& planned) {
   const std::size_t device = planned.devices++;
   const scene_labeler::TravelledPath path(*session.T_map_base);
-  const urban_nav_core::StampNs delay = urban_nav_registration::panoramaDelay(store, session.id);
+  const urban_nav_registration::PanoramaCorrection correction =
+      urban_nav_registration::panoramaCorrection(store, session.id);
+  const urban_nav_core::Pose T_base_camera = correction.T_correction * camera.T_base_camera;
   double next = 0.0;
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
     if (row.camera != camera.camera) return;
-    const auto travelled = path.at(row.stamp - delay);
-    const auto T_map_base = session.T_map_base->at(row.stamp - delay, longest_view_gap);
+    const auto travelled = path.at(row.stamp - correction.delay);
+    const auto T_map_base = session.T_map_base->at(row.stamp - correction.delay, longest_view_gap);
     if (!travelled || !T_map_base || *travelled < next) return;
     next = *travelled + spacing;
-    planned.views.push_back({rawCamera(camera), *T_map_base * camera.T_base_camera, planned.images.size(), device});
+    planned.views.push_back({rawCamera(camera), *T_map_base * T_base_camera, planned.images.size(), device});
     planned.images.push_back({session.id, row.camera, row.stamp});
     planned.frames.push_back(camera.frame);
   });

@@ -11,7 +11,8 @@ namespace urban_nav {
 
 using laser_mapper::CalibrationEstimate;
 using laser_mapper::CalibrationResult;
-using laser_mapper::LaserCalibration;
+using laser_mapper::DeviceCalibration;
+using laser_mapper::ViewCalibration;
 
 namespace {
 
@@ -38,14 +39,27 @@ std::string withSigma(const TermText& term, const CalibrationEstimate& estimate)
          term.unit;
 }
 
+/// Returns what became of a calibration. `nothing`: why nothing was found, where it rests on no place. `spread`: the
+/// figures by which it was judged.
+std::string verdictOf(std::size_t places, bool is_significant, bool improves, const std::string& nothing,
+                      const std::string& spread) {
+  if (places == 0) return "nothing is found: " + nothing;
+  if (!is_significant) return "the stated calibration is kept: nothing differs from it beyond chance";
+  return (improves ? "adopted: " : "the stated calibration is kept: ") + spread;
+}
+
 std::string verdictOf(const CalibrationResult& found) {
-  const std::string spread = "the passes lie " + forPerson(1e3 * found.stated_spread, 2) + " mm apart as stated and " +
-                             forPerson(1e3 * found.calibrated_spread, 2) + " mm with the estimate, in " +
-                             std::to_string(found.held_out) + " places left out of it";
-  if (found.places == 0) return "nothing is found: no plane was measured twice";
-  if (!found.is_significant) return "the stated calibration is kept: nothing differs from it beyond chance";
-  if (!found.improves) return "the stated calibration is kept: " + spread;
-  return "adopted: " + spread;
+  return verdictOf(found.places, found.is_significant, found.improves, "no plane was measured twice",
+                   "the passes lie " + forPerson(1e3 * found.stated_spread, 2) + " mm apart as stated and " +
+                       forPerson(1e3 * found.calibrated_spread, 2) + " mm with the estimate, in " +
+                       std::to_string(found.held_out) + " places left out of it");
+}
+
+std::string verdictOf(const ViewCalibration& found) {
+  return verdictOf(found.places, found.is_significant, found.improves, "no point of the map is seen by several views",
+                   "the views of a point differ by " + forPerson(100.0 * found.stated_spread, 3) + " % as stated and " +
+                       forPerson(100.0 * found.calibrated_spread, 3) + " % with the estimate, in " +
+                       std::to_string(found.held_out) + " places left out of it");
 }
 
 std::string listOf(const std::vector<std::string>& sentences) {
@@ -54,10 +68,31 @@ std::string listOf(const std::vector<std::string>& sentences) {
   return all;
 }
 
-std::string panoramaSentence(const laser_mapper::ViewDelay& found) {
-  if (!found.delay.constrained) return "the session does not say whether its stamps are late";
-  return "delay of its stamps " + withSigma(kTerms[0], found.delay) +
-         (found.delay.adopted != 0.0 ? ", adopted" : ", the stamps are kept");
+/// Returns the adopted terms of a device; empty without.
+std::string adoptedTerms(const DeviceCalibration& device) {
+  std::string adopted;
+  for (std::size_t i = 0; i < device.terms.size(); ++i)
+    if (device.terms[i].adopted != 0.0)
+      adopted +=
+          (adopted.empty() ? "" : ", ") + std::string(kTerms[i].name) + " " + withSigma(kTerms[i], device.terms[i]);
+  return adopted;
+}
+
+void addDevice(const DeviceCalibration& device, PageTable& table) {
+  for (std::size_t i = 0; i < device.terms.size(); ++i) {
+    const CalibrationEstimate& term = device.terms[i];
+    table.rows.push_back({device.frame + ", " + kTerms[i].name,
+                          term.constrained ? withSigma(kTerms[i], term) : "not observable",
+                          term.adopted == 0.0 ? "as stated" : toText(kTerms[i], term.adopted)});
+  }
+}
+
+/// Returns the directions that the lasers and the panoramas of a session do not tell.
+std::vector<std::string> unconstrainedOf(const SessionCalibration& session) {
+  std::vector<std::string> all = session.found.unconstrained;
+  if (session.panorama)
+    all.insert(all.end(), session.panorama->unconstrained.begin(), session.panorama->unconstrained.end());
+  return all;
 }
 
 /// Mean over the sessions that constrain the delay of a device, by their information.
@@ -85,6 +120,12 @@ Json termJson(const TermText& text, const CalibrationEstimate& term) {
   return row;
 }
 
+Json deviceJson(const DeviceCalibration& device) {
+  Json terms = Json::object();
+  for (std::size_t i = 0; i < device.terms.size(); ++i) terms[kTerms[i].key] = termJson(kTerms[i], device.terms[i]);
+  return terms;
+}
+
 }  // namespace
 
 std::vector<std::string> calibrationSentences(const LasersRun& run) {
@@ -92,16 +133,16 @@ std::vector<std::string> calibrationSentences(const LasersRun& run) {
   for (const SessionCalibration& session : run.calibrations) {
     const CalibrationResult& found = session.found;
     sentences.push_back("calibration of " + session.session + ": " + verdictOf(found));
-    for (const LaserCalibration& laser : found.lasers) {
-      std::string adopted;
-      for (std::size_t i = 0; i < laser.terms.size(); ++i)
-        if (laser.terms[i].adopted != 0.0)
-          adopted +=
-              (adopted.empty() ? "" : ", ") + std::string(kTerms[i].name) + " " + withSigma(kTerms[i], laser.terms[i]);
+    for (const DeviceCalibration& laser : found.lasers) {
+      const std::string adopted = adoptedTerms(laser);
       if (!adopted.empty()) sentences.push_back("  " + laser.frame + ": " + adopted);
     }
-    if (session.panorama) sentences.push_back("  panorama: " + panoramaSentence(*session.panorama));
-    if (!found.unconstrained.empty()) sentences.push_back("  the session does not say: " + listOf(found.unconstrained));
+    if (session.panorama) {
+      const std::string adopted = adoptedTerms(session.panorama->head);
+      sentences.push_back("  panorama: " + (adopted.empty() ? "" : adopted + "; ") + verdictOf(*session.panorama));
+    }
+    const std::vector<std::string> unconstrained = unconstrainedOf(session);
+    if (!unconstrained.empty()) sentences.push_back("  the session does not say: " + listOf(unconstrained));
   }
   return sentences;
 }
@@ -111,25 +152,20 @@ std::vector<PageTable> calibrationTables(const LasersRun& run) {
   for (const SessionCalibration& session : run.calibrations) {
     const CalibrationResult& found = session.found;
     PageTable table;
-    table.title = "Calibration of the lasers, " + session.session;
+    table.title = "Calibration of lasers and panoramas, " + session.session;
     table.head = {"", "found", "in the map"};
-    for (const LaserCalibration& laser : found.lasers)
-      for (std::size_t i = 0; i < laser.terms.size(); ++i) {
-        const CalibrationEstimate& term = laser.terms[i];
-        table.rows.push_back({laser.frame + ", " + kTerms[i].name,
-                              term.constrained ? withSigma(kTerms[i], term) : "not observable",
-                              term.adopted == 0.0 ? "as stated" : toText(kTerms[i], term.adopted)});
-      }
-    if (session.panorama)
-      table.rows.push_back(
-          {"panorama, delay of its stamps",
-           session.panorama->delay.constrained ? withSigma(kTerms[0], session.panorama->delay) : "not observable",
-           session.panorama->delay.adopted == 0.0 ? "as stated" : toText(kTerms[0], session.panorama->delay.adopted)});
+    for (const DeviceCalibration& laser : found.lasers) addDevice(laser, table);
+    if (session.panorama) addDevice(session.panorama->head, table);
+    const std::vector<std::string> unconstrained = unconstrainedOf(session);
     table.caption =
-        "Difference from the extrinsics and stamps of the recording, in the axes of each laser's frame, by "
-        "the sharpness of " +
-        std::to_string(found.places) + " places that were measured more than once. Verdict: " + verdictOf(found) + "." +
-        (found.unconstrained.empty() ? "" : " The session does not say: " + listOf(found.unconstrained) + ".");
+        "Difference from the extrinsics and stamps of the recording: of each laser in the axes of its frame, by the "
+        "sharpness of " +
+        std::to_string(found.places) + " places that were measured more than once (" + verdictOf(found) + ")" +
+        (session.panorama ? "; of the panoramic head in the axes of the robot, by the colours of " +
+                                std::to_string(session.panorama->places) + " places in several views (" +
+                                verdictOf(*session.panorama) + ")"
+                          : "") +
+        "." + (unconstrained.empty() ? "" : " The session does not say: " + listOf(unconstrained) + ".");
     tables.push_back(table);
   }
   return tables;
@@ -150,13 +186,14 @@ Json calibrationJson(const LasersRun& run) {
     json["improvement_m"] = found.improvement;
     json["improvement_sigma_m"] = found.improvement_sigma;
     Json& lasers = json["devices"] = Json::object();
-    for (const LaserCalibration& laser : found.lasers) {
-      Json& terms = lasers[laser.frame] = Json::object();
-      for (std::size_t i = 0; i < laser.terms.size(); ++i) terms[kTerms[i].key] = termJson(kTerms[i], laser.terms[i]);
+    for (const DeviceCalibration& laser : found.lasers) lasers[laser.frame] = deviceJson(laser);
+    if (session.panorama) {
+      lasers[session.panorama->head.frame] = deviceJson(session.panorama->head);
+      json["panorama_adopted"] = session.panorama->isAdopted();
+      json["panorama_verdict"] = verdictOf(*session.panorama);
     }
-    if (session.panorama) lasers["panorama"][kTerms[0].key] = termJson(kTerms[0], session.panorama->delay);
     Json& unobservable = json["not_observable"] = Json::array();
-    for (const std::string& sentence : found.unconstrained) unobservable.append(sentence);
+    for (const std::string& sentence : unconstrainedOf(session)) unobservable.append(sentence);
     sessions.append(json);
   }
   return sessions;
@@ -165,9 +202,10 @@ Json calibrationJson(const LasersRun& run) {
 Json delaysJson(const LasersRun& run) {
   std::map<std::string, DelayMean> delays;
   for (const SessionCalibration& session : run.calibrations) {
-    for (const LaserCalibration& laser : session.found.lasers)
+    for (const DeviceCalibration& laser : session.found.lasers)
       delays[laser.frame].add(laser.at(laser_mapper::CalibrationTerm::Delay));
-    if (session.panorama) delays["panorama"].add(session.panorama->delay);
+    if (session.panorama)
+      delays[session.panorama->head.frame].add(session.panorama->head.at(laser_mapper::CalibrationTerm::Delay));
   }
   Json json = Json::object();
   for (const auto& [device, delay] : delays) json[device] = delay.toJson();

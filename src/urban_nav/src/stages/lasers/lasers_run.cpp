@@ -142,15 +142,14 @@ void calibrateForMap(const laser_mapper::Parameters& parameters, std::size_t ses
 }
 
 /// Calibrates the panoramas of sessions whose lasers have been calibrated, by the map that these have made.
-void calibratePanoramas(const std::vector<std::size_t>& sessions, const LaserMap& map,
-                        const std::vector<laser_mapper::MappedSession>& mapped, MapContext& context, LasersRun& run) {
+void calibrateViews(const std::vector<std::size_t>& sessions, const LaserMap& map,
+                    const std::vector<laser_mapper::MappedSession>& mapped, MapContext& context, LasersRun& run) {
   for (SessionCalibration& calibration : run.calibrations) {
     if (std::find(sessions.begin(), sessions.end(), calibration.number) == sessions.end()) continue;
     for (const laser_mapper::MappedSession& session : mapped) {
       if (session.id != context.ids()[calibration.number]) continue;
-      calibration.panorama = estimatePanoramaDelay(*context.store, session, map);
-      if (calibration.panorama)
-        laser_mapper::storePanoramaDelay(*context.store, session.id, calibration.panorama->delay.adopted);
+      calibration.panorama = calibratePanoramas(*context.store, session, map);
+      if (calibration.panorama) laser_mapper::storeViewCalibration(*context.store, session.id, *calibration.panorama);
     }
   }
 }
@@ -239,7 +238,7 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
     LaserMap laser_map(parameters, *context.store, mapped);
     const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;
     const auto make_colouriser = [&, &sessions_of_this_map = sessions] {
-      calibratePanoramas(sessions_of_this_map, laser_map, mapped, context, run);
+      calibrateViews(sessions_of_this_map, laser_map, mapped, context, run);
       return makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
     };
     run.maps.push_back(renderMap(laser_map, make_colouriser, map, trajectories, context));

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "laser_mapper/calibration/view_delay.hpp"
+#include "laser_mapper/calibration/view_calibration.hpp"
 #include "laser_mapper/colour/colouriser.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "urban_nav_store/store.hpp"
@@ -19,10 +19,10 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
                                                          const std::vector<laser_mapper::MappedSession>& sessions,
                                                          double voxel, double memory_mb);
 
-/// Estimates by how much the panoramas of a session are late, from the colours of its map as they are stamped; nullopt
-/// if there are none.
-std::optional<laser_mapper::ViewDelay> estimatePanoramaDelay(urban_nav_store::Store& store,
-                                                             const laser_mapper::MappedSession& session,
-                                                             const laser_mapper::LaserMap& map);
+/// Calibrates the panoramic head of a session by the colours of its map; nullopt if there are no panoramas at times
+/// that the trajectory covers.
+std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store::Store& store,
+                                                                const laser_mapper::MappedSession& session,
+                                                                const laser_mapper::LaserMap& map);
 
 }  // namespace urban_nav

@@ -9,11 +9,11 @@ namespace urban_nav {
 namespace {
 
 using laser_mapper::CalibrationTerm;
-using laser_mapper::LaserCalibration;
+using laser_mapper::DeviceCalibration;
 
 /// A session whose left laser is 30 ms late, and that does not tell the delay of the right one.
 LasersRun runWithCalibration(bool improves) {
-  LaserCalibration left, right;
+  DeviceCalibration left, right;
   left.frame = "laser_left";
   right.frame = "laser_right";
   left.terms[0] = {0.03, 0.0004, true, improves ? 0.03 : 0.0};
@@ -22,7 +22,12 @@ LasersRun runWithCalibration(bool improves) {
   session.found.lasers = {left, right};
   session.found.unconstrained = {"delay of laser_right"};
   session.panorama.emplace();
-  session.panorama->delay = {0.02, 0.001, true, improves ? 0.02 : 0.0};
+  session.panorama->head.frame = "panorama";
+  session.panorama->head.terms[0] = {0.02, 0.001, true, improves ? 0.02 : 0.0};
+  session.panorama->unconstrained = {"shift of panorama along its x axis (forward)"};
+  session.panorama->places = 500;
+  session.panorama->is_significant = true;
+  session.panorama->improves = improves;
   session.found.places = 1000;
   session.found.held_out = 200;
   session.found.is_significant = true;
@@ -42,11 +47,11 @@ TEST(CalibrationReport, SaysWhatWasFoundAndWhatTheSessionCannotTell) {
   const std::vector<std::string> sentences = calibrationSentences(run);
   EXPECT_TRUE(holds(sentences, "calibration of quad: adopted"));
   EXPECT_TRUE(holds(sentences, "laser_left: delay of its stamps 30 +- 0.4 ms"));
-  EXPECT_TRUE(holds(sentences, "the session does not say: delay of laser_right"));
+  EXPECT_TRUE(holds(sentences, "does not say: delay of laser_right; shift of panorama along its x axis (forward)"));
   const std::vector<PageTable> tables = calibrationTables(run);
   ASSERT_EQ(tables.size(), 1U);
-  EXPECT_EQ(tables[0].rows.size(), 15U);
-  EXPECT_TRUE(holds(sentences, "panorama: delay of its stamps 20 +- 1 ms, adopted"));
+  EXPECT_EQ(tables[0].rows.size(), 21U);
+  EXPECT_TRUE(holds(sentences, "panorama: delay of its stamps 20 +- 1 ms; adopted: the views of a point differ by"));
   EXPECT_EQ(tables[0].rows[7],
             (std::vector<std::string>{"laser_right, delay of its stamps", "not observable", "as stated"}));
   const std::string delays = delaysJson(run).print();
@@ -60,7 +65,7 @@ TEST(CalibrationReport, DelaysAreThoseOfAllSessionsByTheirInformation) {
   SessionCalibration& second = run.calibrations.back();
   second.found.lasers[0].terms[0] = {0.034, 0.0004, true, 0.034};   // as sure as the first one
   second.found.lasers[1].terms[0] = {-0.012, 0.002, true, -0.012};  // the first one does not tell
-  second.panorama->delay = {0.026, 0.0005, true, 0.026};            // four times the information
+  second.panorama->head.terms[0] = {0.026, 0.0005, true, 0.026};    // four times the information
   const std::string delays = delaysJson(run).print();
   EXPECT_NE(delays.find("\"laser_left\": 32"), std::string::npos) << delays;
   EXPECT_NE(delays.find("\"laser_right\": -12"), std::string::npos) << delays;

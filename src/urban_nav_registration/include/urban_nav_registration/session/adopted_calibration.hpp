@@ -13,12 +13,14 @@ namespace urban_nav_registration {
 
 /// Correction of one device that all stages use in place of what the recording of a session states.
 struct AdoptedCalibration {
-  std::string frame;                      ///< of a laser; kPanoramaDevice
-  urban_nav_core::StampNs delay = 0;      ///< its stamps are late by this
-  urban_nav_core::Pose T_stated_adopted;  ///< T_base_device = T_base_stated * this; identity for the panorama
+  std::string frame;                  ///< of a laser; kPanoramaDevice
+  urban_nav_core::StampNs delay = 0;  ///< its stamps are late by this
+  /// Of a laser: T_base_laser = T_base_stated * this. Of the panoramic head: T_base_camera = this * T_base_stated of
+  /// each of its cameras.
+  urban_nav_core::Pose T_stated_adopted;
 };
 
-/// Stands for the panoramic head, whose stamps alone are corrected.
+/// Stands for the panoramic head, whose cameras are fixed to each other.
 constexpr const char* kPanoramaDevice = "panorama";
 
 /// Key of the state in StageStates.
@@ -35,7 +37,13 @@ std::vector<AdoptedCalibration> readCalibration(urban_nav_store::Store& store,
 void writeCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                       std::vector<AdoptedCalibration> devices);
 
-/// Returns by how much the panoramas of a session are late. Throws DataError if the stored calibration is damaged.
-urban_nav_core::StampNs panoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
+/// Correction of the panoramas of a session.
+struct PanoramaCorrection {
+  urban_nav_core::StampNs delay = 0;  ///< their stamps are late by this
+  urban_nav_core::Pose T_correction;  ///< T_base_camera = this * T_base_camera as stated
+};
+/// Returns what a session has adopted; nothing is corrected without it. Throws DataError if the stored calibration is
+/// damaged.
+PanoramaCorrection panoramaCorrection(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 }  // namespace urban_nav_registration

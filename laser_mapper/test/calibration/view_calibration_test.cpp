@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/calibration/view_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace laser_mapper {
+namespace {
+
+using Eigen::Vector3d;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_registration::Picture;
+
+constexpr int kViewWidth = 240, kViewHeight = 180, kViewCount = 45;
+constexpr double kWallDistance = 4.0, kFocal = 150.0;
+constexpr StampNs kViewStart = 1'000'000'000, kBetweenViews = 300'000'000;
+
+/// Brightness of the wall y = 4 m, and of the ground.
+double paint(double x, double y) {
+  return 120.0 + 35.0 * std::sin(9.0 * x + 2.0 * y) + 30.0 * std::sin(7.0 * y - 4.0 * x) + 20.0 * std::sin(17.0 * x);
+}
+
+/// A camera that looks to the left, 1.2 m up and 0.3 m in front of the robot's middle.
+Pose leftCamera() {
+  Eigen::Matrix3d R;
+  R.col(0) = Vector3d::UnitX();
+  R.col(1) = -Vector3d::UnitZ();
+  R.col(2) = Vector3d::UnitY();
+  return Pose(R, Vector3d(0.3, 0.0, 1.2));
+}
+
+/// The robot passes along the wall at 1.2 m/s, swings its head and sways.
+urban_nav_core::Trajectory drivenPath() {
+  urban_nav_core::Trajectory path;
+  for (int i = 0; i < 320; ++i) {
+    const double t = 0.05 * i - 1.0;
+    path.append(std::llround(1e9 * t) + kViewStart,
+                Pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.25 * std::sin(1.1 * t), Vector3d::UnitZ()) *
+                                        Eigen::AngleAxisd(0.08 * std::sin(1.7 * t), Vector3d::UnitX())),
+                     Vector3d(1.2 * t - 8.0, 0.2 * std::sin(0.7 * t), 0.0)));
+  }
+  return path;
+}
+
+/// What the camera shows from a pose; each image has its own exposure.
+Picture photograph(const Pose& T_map_camera, std::size_t image) {
+  Picture picture{kViewWidth, kViewHeight, {}};
+  const double exposure = 0.8 + 0.1 * static_cast<double>(image % 5);
+  for (int v = 0; v < kViewHeight; ++v)
+    for (int u = 0; u < kViewWidth; ++u) {
+      const Vector3d ray = T_map_camera.q() * Vector3d((u - 120.0) / kFocal, (v - 90.0) / kFocal, 1.0);
+      const double to_wall = (kWallDistance - T_map_camera.t().y()) / ray.y(),
+                   to_ground = ray.z() < 0.0 ? -T_map_camera.t().z() / ray.z() : 1e9;
+      const Vector3d p = T_map_camera.t() + std::min(to_wall, to_ground) * ray;
+      const double painted = to_wall < to_ground ? paint(p.x(), p.z()) : paint(p.x(), 3.0 * p.y());
+      const auto grey = static_cast<std::uint8_t>(std::clamp(exposure * painted, 0.0, 255.0));
+      picture.bgr.insert(picture.bgr.end(), {grey, grey, grey});
+    }
+  return picture;
+}
+
+std::vector<MapPoint> surfacePoints() {
+  std::vector<MapPoint> points;
+  const auto add = [&](float x, float y, float z, const Eigen::Vector3f& normal) {
+    MapPoint point;
+    point.p = {x, y, z};
+    point.normal = normal;
+    point.stamp = kViewStart;
+    points.push_back(point);
+  };
+  for (float x = -12.0F; x < 12.0F; x += 0.05F) {
+    for (float z = 0.0F; z < 3.5F; z += 0.05F) add(x, static_cast<float>(kWallDistance), z, -Eigen::Vector3f::UnitY());
+    for (float y = 1.0F; y < 4.0F; y += 0.05F) add(x, y, 0.0F, Eigen::Vector3f::UnitZ());
+  }
+  return points;
+}
+
+/// Calibrates images that were taken `late` seconds before their stamps, by a camera that `turn` (rad, axes of the
+/// robot) takes from where it is stated to be to where it is.
+ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_core::Trajectory& path) {
+  const Pose stated = leftCamera(),
+             actual(Eigen::Matrix3d(urban_nav_core::expSo3(turn) * stated.q()), Vector3d(stated.t()));
+  std::vector<MountedView> views;
+  for (std::size_t i = 0; i < kViewCount; ++i) {
+    MountedView view;
+    view.camera.pinhole = {kFocal, kFocal, 120.0, 90.0, kViewWidth, kViewHeight};
+    view.T_base_camera = stated;
+    view.stamp = kViewStart + static_cast<StampNs>(i) * kBetweenViews;
+    view.image = i;
+    views.push_back(view);
+  }
+  ViewCalibrator calibrator(views, path, 0.05);
+  calibrator.addSurface(surfacePoints());
+  return calibrator.estimate("panorama", [&](std::size_t image) {
+    return photograph(*path.at(views[image].stamp - std::llround(1e9 * late), 1'000'000'000) * actual, image);
+  });
+}
+
+constexpr double kHeadDegree = M_PI / 180.0;
+
+double adoptedTurn(const ViewCalibration& found, int axis) {
+  return found.head.terms[static_cast<std::size_t>(4 + axis)].adopted;
+}
+
+TEST(ViewCalibration, LateImagesAreFound) {
+  const ViewCalibration found = calibrate(0.02, Vector3d::Zero(), drivenPath());
+  const CalibrationEstimate& delay = found.head.at(CalibrationTerm::Delay);
+  EXPECT_TRUE(delay.constrained && found.isAdopted());
+  EXPECT_NEAR(delay.adopted, 0.02, 0.002);
+  EXPECT_LT(std::abs(delay.value - 0.02), 4.0 * delay.sigma);
+  EXPECT_LT(found.calibrated_spread, 0.7 * found.stated_spread);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(adoptedTurn(found, axis), 0.0, 0.1 * kHeadDegree);
+}
+
+TEST(ViewCalibration, ATurnedHeadIsFoundAboutEachAxis) {
+  const Vector3d turn = kHeadDegree * Vector3d(1.0, -0.7, 1.5);
+  const ViewCalibration found = calibrate(0.0, turn, drivenPath());
+  ASSERT_TRUE(found.isAdopted());
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(adoptedTurn(found, axis), turn(axis), 0.1 * kHeadDegree) << axis;
+    const CalibrationEstimate& term = found.head.terms[static_cast<std::size_t>(4 + axis)];
+    EXPECT_LT(std::abs(term.value - turn(axis)), 4.0 * term.sigma) << axis;
+  }
+  EXPECT_LT(found.calibrated_spread, 0.5 * found.stated_spread);
+  const Pose corrected = found.headCorrection() * leftCamera();
+  EXPECT_NEAR(angleBetween(corrected, Pose(urban_nav_core::expSo3(turn), Vector3d::Zero()) * leftCamera()), 0.0,
+              0.1 * kHeadDegree);
+  EXPECT_LT(distanceBetween(corrected, leftCamera()), 0.02) << "it turns where it is";
+}
+
+TEST(ViewCalibration, DelayAndTurnAreToldFromEachOther) {
+  const ViewCalibration found = calibrate(-0.03, kHeadDegree * Vector3d(0.0, 0.0, 2.0), drivenPath());
+  ASSERT_TRUE(found.isAdopted());
+  EXPECT_NEAR(found.head.at(CalibrationTerm::Delay).adopted, -0.03, 0.003);
+  EXPECT_NEAR(adoptedTurn(found, 2), 2.0 * kHeadDegree, 0.1 * kHeadDegree);
+}
+
+TEST(ViewCalibration, WhereNothingIsWrongNothingIsAdopted) {
+  const ViewCalibration found = calibrate(0.0, Vector3d::Zero(), drivenPath());
+  EXPECT_FALSE(found.head.isAdopted());
+  EXPECT_GT(found.places, 10U);
+  for (const CalibrationEstimate& term : found.head.terms)
+    EXPECT_LT(std::abs(term.value), std::max(3.0 * term.sigma, 5e-4));
+}
+
+TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
+  urban_nav_core::Trajectory standing;
+  for (const urban_nav_core::StampedPose& pose : drivenPath()) standing.append(pose.stamp, drivenPath()[60].pose);
+  const ViewCalibration found = calibrate(0.02, kHeadDegree * Vector3d(0.0, 0.0, 1.0), standing);
+  EXPECT_FALSE(found.head.at(CalibrationTerm::Delay).constrained);
+  EXPECT_FALSE(found.head.isAdopted());
+  EXPECT_NE(std::find(found.unconstrained.begin(), found.unconstrained.end(), "delay of panorama"),
+            found.unconstrained.end());
+}
+
+TEST(ViewCalibration, WithoutViewsThereIsNothing) {
+  const urban_nav_core::Trajectory path = drivenPath();
+  const ViewCalibrator calibrator({}, path, 0.05);
+  const ViewCalibration found = calibrator.estimate("panorama", [](std::size_t) { return Picture(); });
+  EXPECT_EQ(found.places, 0U);
+  EXPECT_FALSE(found.isAdopted());
+}
+
+}  // namespace
+}  // namespace laser_mapper
