@@ -16,8 +16,8 @@
 
 namespace urban_nav_sim {
 
-/// One simulated device at its port, fed by a bag: the reading of the bag and the device run in a thread of their own,
-/// on the steady clock.
+/// One simulated device at its port, fed by a bag: the device runs in a thread of its own, on the steady clock. The bag
+/// is read before, in the manager's thread: rosbag loads plugins, which is not safe while the manager loads nodelets.
 class DeviceNodelet : public nodelet::Nodelet {
  public:
   ~DeviceNodelet() override {
@@ -29,8 +29,8 @@ class DeviceNodelet : public nodelet::Nodelet {
   void onInit() override;
   void work();
 
-  DeviceParameters parameters_;
   SimulatedDeviceJob job_;
+  DeviceReadings readings_;
   std::atomic<bool> stop_{false};
   std::thread worker_;
 };
@@ -38,9 +38,10 @@ class DeviceNodelet : public nodelet::Nodelet {
 void DeviceNodelet::onInit() {
   const ros::NodeHandle& handle = getPrivateNodeHandle();
   try {
-    parameters_ = urban_nav_ros::readParameters(handle, deviceTable());
-    job_ = simulatedDeviceJob(parameters_, handle.getNamespace() + "/");
-  } catch (const urban_nav_core::UserError& error) {
+    const DeviceParameters parameters = urban_nav_ros::readParameters(handle, deviceTable());
+    job_ = simulatedDeviceJob(parameters, handle.getNamespace() + "/");
+    readings_ = readBagReadings(parameters.bag, parameters.kind, parameters.side);
+  } catch (const urban_nav_core::Error& error) {
     NODELET_FATAL("%s", error.what());
     throw;
   }
@@ -48,9 +49,8 @@ void DeviceNodelet::onInit() {
 }
 
 void DeviceNodelet::work() try {
-  DeviceReadings readings = readBagReadings(parameters_.bag, parameters_.kind, parameters_.side);
-  const std::int64_t measurements = runSimulatedDevice(job_, std::move(readings), [this] { return stop_.load(); });
-  NODELET_INFO("%s: the session is over, %ld measurements", parameters_.kind.c_str(), static_cast<long>(measurements));
+  const std::int64_t measurements = runSimulatedDevice(job_, std::move(readings_), [this] { return stop_.load(); });
+  NODELET_INFO("%s: the session is over, %ld measurements", job_.kind.c_str(), static_cast<long>(measurements));
 } catch (const urban_nav_core::Error& error) {
   NODELET_FATAL("%s", error.what());
 }

@@ -116,6 +116,9 @@ TEST_F(DeviceNodelet, WrongParametersAreRefused) {
   ros::param::set("/receiver/kind", "gps");
   ros::param::set("/receiver/fault", "melt:1:1");
   EXPECT_FALSE(load());
+  ros::param::del("/receiver/fault");
+  ros::param::set("/receiver/bag", bag_ + ".absent");
+  EXPECT_FALSE(load());
 }
 
 }  // namespace
