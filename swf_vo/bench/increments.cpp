@@ -20,6 +20,7 @@ namespace {
 using namespace swf_vo::bench;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
@@ -69,7 +70,8 @@ class PerOffset {
   std::vector<Pose> at_zero_, beside_;
 };
 
-void add(Pool& pool, const Sequence& sequence, const Run& run, const PerOffset* per_offset) {
+/// `rig_scale`: relative standard deviation of all lengths; with `per_offset` alone.
+void add(Pool& pool, const Sequence& sequence, const Run& run, const PerOffset* per_offset, double rig_scale = 0.0) {
   const urban_nav_core::OdometryChain chain = makeChain(sequence, run);
   ++pool.sequences;
   for (std::size_t l = 0; l < lags.size(); ++l)
@@ -80,6 +82,8 @@ void add(Pool& pool, const Sequence& sequence, const Run& run, const PerOffset* 
       if (per_offset != nullptr) {
         const Vector6d off = run.statistics[i + lags[l]].disparity_offset_sigma_px * (*per_offset)(i, i + lags[l]);
         covariance += off * off.transpose();
+        const Vector3d path = rig_scale * way->pose.t();
+        covariance.topLeftCorner<3, 3>() += path * path.transpose();
       }
       const Vector6d e = boxMinus(sequence.truth[i].inverse() * sequence.truth[i + lags[l]], way->pose);
       Sums& sums = pool.at[l];
@@ -125,7 +129,7 @@ int main(int argc, char** argv) try {
     else folders.push_back(word);
   }
   swf_vo::Parameters parameters = parametersFrom(sets);
-  const std::array<const char*, 3> covariances = {"model", "robust", "robust, with the offset"};
+  const std::array<const char*, 3> covariances = {"model", "robust", "robust, with offset and scale"};
   std::map<std::string, std::array<Pool, covariances.size()>> pools;
   for (const std::string& folder : orRealSequences(folders)) {
     const Sequence sequence = kittiFolder(folder);
@@ -136,7 +140,7 @@ int main(int argc, char** argv) try {
     const Run robust = run(sequence, parameters);
     const PerOffset per_offset(sequence, parameters);
     add(pool[1], sequence, robust, nullptr);
-    add(pool[2], sequence, robust, &per_offset);
+    add(pool[2], sequence, robust, &per_offset, 0.01 * parameters.rig_scale);
   }
   std::vector<std::string> columns = {"sequences", "number", "of", "covariance"};
   for (const std::size_t lag : lags) columns.push_back(std::to_string(lag) + " frames");
@@ -145,7 +149,7 @@ int main(int argc, char** argv) try {
     for (const std::size_t part : {0U, 1U})
       for (std::size_t c = 0; c < covariances.size(); ++c) table.add(row(name, pool[c], covariances[c], part));
   table.note(
-      "Squared errors over the variances stated; 1 is right. In brackets the errors, rms. Model: robust_covariance=false. What is not known of the disparity offset is the same error in all steps and not in their drifts; with it: as in the covariance of a pose.");
+      "Squared errors over the variances stated; 1 is right. In brackets the errors, rms. Model: robust_covariance=false. What is not known of the disparity offset and of the scale of the rig is the same error in all steps and not in their drifts; with both: as in the covariance of a pose.");
   return show(table, output);
 } catch (const std::exception& error) {
   return complain(error);

@@ -13,6 +13,10 @@ void archive(Archive& archive, Feature& feature) {
 
 void archive(Archive& archive, Landmark& landmark) { archive(landmark.id, landmark.p_odom, landmark.sigma); }
 
+void archive(Archive& archive, RigConstants& rig) {
+  archive(rig.roll_rad, rig.roll_sigma_rad, rig.delay_s, rig.delay_sigma_s, rig.scale_sigma);
+}
+
 void archive(Archive& archive, Statistics& statistics) {
   archive(statistics.corners, statistics.features, statistics.tracked, statistics.track_length_mean);
   archive(statistics.reprojection_px, statistics.iterations, statistics.landmarks, statistics.landmarks_in_prior);
@@ -26,7 +30,7 @@ void archive(Archive& archive, Settled& settled) {
 
 void archive(Archive& archive, Frame& frame) {
   archive(frame.frame, frame.stamp, frame.accepted, frame.T_odom_base, frame.velocity.twist, frame.velocity.covariance);
-  archive(frame.status, frame.statistics, frame.settled, frame.features, frame.landmarks);
+  archive(frame.status, frame.statistics, frame.rig, frame.settled, frame.features, frame.landmarks);
 }
 
 }  // namespace swf_vo

@@ -135,6 +135,8 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   frame_.statistics.disparity_offset_sigma_px = window.disparityOffsetSigma();
   frame_.statistics.row_offset_px = row_offset;
   frame_.statistics.noise_scale = noise_scale;
+  if (seen != nullptr) frame_.rig = seen->rig;
+  frame_.rig.scale_sigma = window.scaleSigma();
   Waiting waiting;
   waiting.frame = frame;
   waiting.stamp = stamp;

@@ -36,7 +36,7 @@ constexpr double astray_periods = 3.5;
 constexpr int landmarks_per_feature = 4;
 
 constexpr const char* state_name = "swf_vo";
-constexpr std::uint32_t state_version = 3;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t state_version = 4;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
@@ -50,6 +50,7 @@ WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& ca
   // to k steps again.
   options.exact_undo = false;
   options.tolerance = 1e-3;
+  options.rig_scale = 0.01 * parameters.rig_scale;
   options.robust_drift = parameters.robust_covariance;
   options.landmarks = landmarks_per_feature * featuresIn(camera, parameters.features);
   return options;
@@ -147,7 +148,7 @@ class SwfVo::Implementation {
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
       seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
-                                 {periods > astray_periods, translationSigma(u)}, evidence.image.edges);
+                                 {periods > astray_periods, translationSigma(u), seconds_}, evidence.image.edges);
       evidence.localised = seen->localised;
       evidence.tracked = static_cast<int>(seen->tracked.size());
       evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());

@@ -51,6 +51,16 @@ struct Landmark {
   float sigma = 0.0F;                                ///< standard deviation along the line of sight, m; 0: not computed
 };
 
+/// Constants of the rig that images show beside the two offsets below: estimates and standard deviations, those of the
+/// priors before anything was seen. A sigma of 0: not estimated.
+struct RigConstants {
+  double roll_rad = 0.0, roll_sigma_rad = 0.0;  ///< of the right camera about its optical axis, against the left one
+  double delay_s = 0.0, delay_sigma_s = 0.0;    ///< by which the right shutter opens later
+  /// Of a relative error that all lengths of the path have in common: what the calibration (`rig_scale`) and the
+  /// disparity offset leave open. It is in T_odom_base's covariance, not in those of steps.
+  double scale_sigma = 0.0;
+};
+
 /// Figures of one frame. Times are measured by the caller: a core reads no clock.
 struct Statistics {
   int corners = 0;                 ///< FAST corners found in the left image, all levels
@@ -94,6 +104,7 @@ struct Frame {
   Velocity velocity;  ///< since the frame before; zero with a covariance of unknown motion in the first
   urban_nav_core::Status status;
   Statistics statistics;
+  RigConstants rig;              ///< as known by now
   std::vector<Settled> settled;  ///< those that left the window with this frame: none or one, more after flush
   std::vector<Feature> features;
   std::vector<Landmark> landmarks;
@@ -102,6 +113,7 @@ struct Frame {
 /// For states (urban_nav_core/io/archive.hpp).
 void archive(urban_nav_core::Archive& archive, Feature& feature);
 void archive(urban_nav_core::Archive& archive, Landmark& landmark);
+void archive(urban_nav_core::Archive& archive, RigConstants& rig);
 void archive(urban_nav_core::Archive& archive, Statistics& statistics);
 void archive(urban_nav_core::Archive& archive, Settled& settled);
 void archive(urban_nav_core::Archive& archive, Frame& frame);

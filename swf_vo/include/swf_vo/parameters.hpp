@@ -17,6 +17,9 @@ struct Parameters {
   double pixel_noise_floor;  // px
   bool subpixel;
   double disparity_offset;  // px, standard deviation of a state; 0: none
+  double rig_scale;         // %, standard deviation
+  double right_roll;        // deg, standard deviation of the prior
+  double shutter_delay;     // ms, standard deviation of the prior
   bool robust_covariance;
   double huber;                 // standard deviations
   int iterations;               // Gauss-Newton steps a frame, at most

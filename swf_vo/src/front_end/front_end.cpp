@@ -14,6 +14,7 @@
 #include "front_end/pose_estimation.hpp"
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
+#include "front_end/rig_rows.hpp"
 #include "front_end/rotation.hpp"
 #include "front_end/row_offset.hpp"
 #include "front_end/search_radius.hpp"
@@ -31,8 +32,7 @@ namespace {
 
 constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
 constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
-constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
-constexpr double noticed_row_offset = 0.1;  // px
+constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1, noticed_row_offset_px = 0.1;
 // A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
 constexpr double astray_slack_px = 0.5;
 // By chance 8 % of the landmarks in view agreed, once in ten simulated minutes with gaps (the soak of
@@ -83,6 +83,7 @@ class FrontEnd::Implementation {
         tracks_(capacity_),
         noise_(capacity_),
         rows_(4 * capacity_),
+        rig_({parameters.right_roll * M_PI / 180.0, 1e-3 * parameters.shutter_delay}, camera_),
         replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor,
                      parameters.subpixel) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
@@ -121,11 +122,14 @@ class FrontEnd::Implementation {
     locate(T_turned_odom, predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
+    if (next && result_.localised)
+      rig_.learn(last.inverse() * result_.T_odom_camera, quality.seconds, result_.fresh, tracks_);
     for (Observation& observation : result_.fresh) {
       observation.inflation = noise_.typical();
       observation.information /= observation.inflation;
     }
     result_.row_offset_px = rows_.px();
+    result_.rig = rig_.evaluate();
     result_.noise_scale = std::sqrt(noise_.typical());
     astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
@@ -137,7 +141,7 @@ class FrontEnd::Implementation {
   void archive(urban_nav_core::Archive& archive) {
     archive(corners_, rotation_);
     tracks_.archive(archive, parameters_.pyramid_levels);
-    archive(noise_, rows_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
+    archive(noise_, rows_, rig_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
     archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
     archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels),
                     "levels are missing");
@@ -159,19 +163,17 @@ class FrontEnd::Implementation {
   /// want to be right too.
   void replenish(FrameId frame) {
     const bool first = !rows_.isKnown();
-    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
-    noteEdges();
-    rows_.learn();
-    if (!first || std::abs(rows_.px()) < noticed_row_offset) return;
+    startTracks(frame);
+    if (!first || std::abs(rows_.px()) < noticed_row_offset_px) return;
     for (const Observation& observation : result_.fresh) tracks_.end(observation.landmark);
     result_.fresh.clear();
-    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
-    noteEdges();
-    rows_.learn();
+    startTracks(frame);
   }
 
-  void noteEdges() {
+  void startTracks(FrameId frame) {
+    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
     for (const Observation& observation : result_.fresh) tracks_.find(observation.landmark)->born_edges = edges_.left;
+    rows_.learn();
   }
 
   bool isPair(const StereoPair& pair) const {
@@ -381,11 +383,8 @@ class FrontEnd::Implementation {
   /// around, some patches of any other place look like some of before, and a few of them agree; and so does what was
   /// carried along.
   bool isByChance(const PoseEstimate& found) const {
-    const auto in_view = std::count_if(matches_.begin(), matches_.end(), [&](const Match& match) {
-      const auto pixel = projectInto(Side::Left, camera_, found.T_camera_odom, match.p_odom);
-      return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < camera_.left.width &&
-             pixel->y() < camera_.left.height;
-    });
+    const auto in_view = std::count_if(matches_.begin(), matches_.end(),
+                                       [&](const Match& match) { return isInView(match, found.T_camera_odom); });
     return found.inliers < least_share_in_view * static_cast<double>(in_view);
   }
 
@@ -431,15 +430,15 @@ class FrontEnd::Implementation {
     const bool unlike = track.sharper || !track.blur.isZero();
     if (unlike && ++track.aside <= longest_aside) return;
     if (result_.localised && (match.measured || match.contradicted)) {
-      ++track.disagreed;
-      if (track.disagreed < (track.seen < young ? disagreements_refute_young : disagreements_refute)) return;
+      if (++track.disagreed < (track.seen < young ? disagreements_refute_young : disagreements_refute)) return;
       result_.refuted.push_back(track.id);
       tracks_.end(track.id);
       return;
     }
     // Lost for a moment, as in a flash of light: what was known well may still be found when the images are good again.
     if (!result_.localised && track.seen >= young) return;
-    if (++track.missed < (track.seen < young ? most_missed_young : most_missed) && isInView(match)) return;
+    const int most = track.seen < young ? most_missed_young : most_missed;
+    if (++track.missed < most && isInView(match, result_.T_odom_camera.inverse())) return;
     result_.ended.push_back(track.id);
     tracks_.end(track.id);
   }
@@ -453,9 +452,9 @@ class FrontEnd::Implementation {
     if (!match.right.found && right) match.z.z() = right->x();
   }
 
-  bool isInView(const Match& match) const {
-    const auto pixel = projectInto(Side::Left, camera_, result_.T_odom_camera.inverse(), match.p_odom);
-    return pixel && pixel->x() > 0.0 && pixel->y() > 0.0 && pixel->x() < camera_.left.width &&
+  bool isInView(const Match& match, const Pose& T_camera_odom) const {
+    const auto pixel = projectInto(Side::Left, camera_, T_camera_odom, match.p_odom);
+    return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < camera_.left.width &&
            pixel->y() < camera_.left.height;
   }
 
@@ -469,6 +468,7 @@ class FrontEnd::Implementation {
   Tracks tracks_;
   NoiseScale noise_;
   RowOffset rows_;
+  RigRows rig_;
   Replenisher replenisher_;
   std::vector<PatchResidualTest> residual_test_;  // of landmarks that are followed, by level
   FrontEndResult result_;

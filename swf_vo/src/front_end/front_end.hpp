@@ -31,12 +31,14 @@ struct FrontEndResult {
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
   double row_offset_px = 0.0;    ///< RowOffset, as known by now
   double noise_scale = 1.0;      ///< NoiseScale::typical(), in standard deviations
+  RigConstants rig;              ///< RigRows, as known by now
 };
 
 /// What is known of a predicted pose.
 struct PredictionQuality {
   bool astray = false;   ///< so much time has passed since the frame before that the prediction may be far off
   double sigma_m = 0.0;  ///< standard deviation of the predicted translation
+  double seconds = 0.0;  ///< since the frame before
 };
 
 /// How many landmarks are followed at a time in images of this size, of the parameter `features`.

@@ -102,6 +102,7 @@ void describeTrack(const StereoCamera& camera, double floor_px, const Match& mat
   track.sigma_disparity =
       std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px * floor_px);
   track.z = match.z;
+  track.row_difference_px = match.right.pixel.y() - match.left.pixel.y();
   track.source = source;
   track.left_ready = true;
   track.right_ready = true;

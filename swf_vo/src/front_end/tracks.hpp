@@ -50,6 +50,7 @@ struct Track {
   /// templates were made with.
   Eigen::Vector2d blur = Eigen::Vector2d::Zero();
   Eigen::Vector2d made_blur_left = Eigen::Vector2d::Zero(), made_blur_right = Eigen::Vector2d::Zero();
+  double row_difference_px = 0.0;  ///< of its first observation: row in the right image minus row in the left one
   bool sharper = false;  ///< the images of now are much sharper than that one: there is nothing to find in them
 };
 

@@ -34,9 +34,9 @@ Eigen::Matrix<double, N, 1> perOffset(const Solver& solver, std::size_t row) {
 
 }  // namespace
 
-Matrix6d marginal(const Solver& solver, std::size_t j) {
+Matrix6d marginal(const Solver& solver, std::size_t j, double offset_variance) {
   const Vector6d s = perOffset<6>(solver, solver.toRow(j));
-  return givenOffset(solver, j) + solver.offsetVariance() * s * s.transpose();
+  return givenOffset(solver, j) + offset_variance * s * s.transpose();
 }
 
 Matrix6d givenOffset(const Solver& solver, std::size_t j) {
@@ -46,17 +46,17 @@ Matrix6d givenOffset(const Solver& solver, std::size_t j) {
   return symmetric(P);
 }
 
-Matrix12d joint(const Solver& solver, std::size_t j) {
+Matrix12d joint(const Solver& solver, std::size_t j, double offset_variance) {
   Matrix12d P;
   for (int c = 0; c < 12; ++c) {
     const auto& column = solver.inverseColumn(j + static_cast<std::size_t>(c / 6), c % 6, true);
     P.col(c) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(column.data() + solver.toRow(j));
   }
   const Eigen::Matrix<double, 12, 1> s = perOffset<12>(solver, solver.toRow(j));
-  return symmetric(Matrix12d(P + solver.offsetVariance() * s * s.transpose()));
+  return symmetric(Matrix12d(P + offset_variance * s * s.transpose()));
 }
 
-Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const Departed& departed) {
+Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const Departed& departed, double offset_variance) {
   const Eigen::Index size = static_cast<Eigen::Index>(departed.gain.size() / 6);
   const Eigen::Map<const Eigen::MatrixXd> G(departed.gain.data(), size, 6);
   Matrix12d P;
@@ -72,7 +72,7 @@ Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const Depart
   s.head<6>() = departed.offset_gain;
   for (Eigen::Index i = 0; i < size; ++i)
     s.head<6>() += G.row(i).transpose() * solver.perOffset(static_cast<std::size_t>(i));
-  P += solver.offsetVariance() * s * s.transpose();
+  P += offset_variance * s * s.transpose();
   return symmetric(P);
 }
 

@@ -30,11 +30,13 @@ Matrix6d symmetric(const Matrix6d& A) { return 0.5 * (A + A.transpose()); }
 }  // namespace
 
 void Datum::start(const Prior& prior) {
-  origin_ = prior.pose_centre.t();
+  origin_ = first_ = prior.pose_centre.t();
   for (int j = 0; j < 6; ++j)
     for (int i = j; i < 6; ++i) information_(i, j) = information_(j, i) = prior.information(i, j);
   carried_.setZero();
-  along_offset_.setZero();
+  along_px_.setZero();
+  along_used_.setZero();
+  shifted_per_px_ = squared_steps_ = 0.0;
   growth_.setZero();
   strength_m_ = strength_rad_ = 0.0;
   Matrix6d covariance;
@@ -49,7 +51,9 @@ void Datum::start(const Prior& prior, const Matrix6d& carried) {
 void Datum::moveTo(const Vector3d& origin) {
   const Matrix6d there = gauge::transport(origin_, origin), back = gauge::transport(origin, origin_);
   carried_ = symmetric(there * carried_ * there.transpose());
-  along_offset_ = there * along_offset_;
+  along_px_ = there * along_px_;
+  along_used_ = there * along_used_;
+  step_ = origin - origin_;
   information_ = symmetric(back.transpose() * information_ * back);
   origin_ = origin;
 }
@@ -89,7 +93,7 @@ void Datum::look(const State& state, const Prior& prior) {
     }
 }
 
-Vector6d Datum::releaseOffset(double sigma, const State& state, Prior& prior) {
+Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
   Vector6d per_px = Vector6d::Zero();
   if (!prior.has_offset || !active_) return per_px;
   look(state, prior);
@@ -112,8 +116,16 @@ Vector6d Datum::releaseOffset(double sigma, const State& state, Prior& prior) {
   Eigen::Map<Eigen::VectorXd>(prior.eta.data(), n) -= released * state.disparity_offset;
   prior.offset_eta = offset_gradient + border.dot(Eigen::Map<const Eigen::VectorXd>(deviation_.data(), n)) +
                      prior.offset_information * state.disparity_offset;
-  along_offset_ += sigma * per_px;
+  along_px_ += per_px;
+  along_used_ += per_px * state.disparity_offset;
+  shifted_per_px_ += per_px.head<3>().dot(step_);
+  squared_steps_ += step_.squaredNorm();
   return per_px;
+}
+
+double Datum::scaleSigma() const {
+  const double per_px = squared_steps_ > 0.0 ? shifted_per_px_ / squared_steps_ : 0.0;
+  return std::sqrt(rig_scale_ * rig_scale_ + per_px * per_px * offset_.error());
 }
 
 bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
@@ -158,12 +170,18 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
 
 Matrix6d Datum::carried(const urban_nav_core::Pose& T_odom_camera) const {
   const Matrix6d G = gauge::ofPose(T_odom_camera, origin_);
-  const Vector6d along = G * along_offset_;
-  return symmetric(G * carried_ * G.transpose() + along * along.transpose());
+  const Vector6d along = G * along_px_, displaced = G * (along_used_ - offset_.mean * along_px_);
+  Matrix6d result =
+      G * carried_ * G.transpose() + offset_.variance * along * along.transpose() + displaced * displaced.transpose();
+  const Vector3d path = T_odom_camera.t() - first_;
+  result.topLeftCorner<3, 3>() += rig_scale_ * rig_scale_ * path * path.transpose();
+  return symmetric(result);
 }
 
 void Datum::archive(urban_nav_core::Archive& archive) {
-  archive(active_, origin_, information_, carried_, growth_, shift_, along_offset_, strength_m_, strength_rad_);
+  archive(active_, origin_, information_, carried_, growth_, shift_, along_px_, along_used_, strength_m_,
+          strength_rad_);
+  archive(offset_.used, offset_.mean, offset_.variance, first_, step_, rig_scale_, shifted_per_px_, squared_steps_);
 }
 
 }  // namespace swf_vo

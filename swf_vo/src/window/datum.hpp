@@ -8,6 +8,14 @@
 
 namespace swf_vo {
 
+/// What is known of the disparity offset, px.
+struct OffsetBelief {
+  double used = 0.0;                  ///< the estimate that poses rest on
+  double mean = 0.0, variance = 0.0;  ///< of the true one
+  /// Mean square of the error of the estimate.
+  double error() const { return variance + (mean - used) * (mean - used); }
+};
+
 /// Where the window stands in `odom`, and how well that is known.
 ///
 /// All measurements are relative, and with first estimates none of them says anything in the six directions G of the
@@ -51,9 +59,15 @@ class Datum {
 
   /// An error of the disparity offset is one of scale, and goes with the way travelled. What the prior ties between the
   /// offset and the place of the window is taken out of it and carried here, as the same error in every step: so what
-  /// is learnt of the offset corrects the way to come, and `odom` never jumps. `sigma`: of the offset, px. Returns
-  /// d(gamma)/d(offset) of the last step.
-  urban_nav_core::Vector6d releaseOffset(double sigma, const State& state, Prior& prior);
+  /// is learnt of the offset corrects the way to come, and `odom` never jumps. Returns d(gamma)/d(offset) of the last
+  /// step, 1/px.
+  urban_nav_core::Vector6d releaseOffset(const State& state, Prior& prior);
+  /// What is known of it by now, also of the offset that earlier steps were made with.
+  void setOffset(const OffsetBelief& offset) { offset_ = offset; }
+  /// By how much all lengths of the path are wrong for the error of the offset that is stated now (standard deviation).
+  double scaleSigma() const;
+  /// `sigma`: of a relative error of all lengths, beside that of the offset.
+  void setRigScale(double sigma) { rig_scale_ = sigma; }
 
   /// `local`: information of one frame on its own pose. Holds the window at least so well once M^-1 exceeds `ratio`
   /// times its inverse; true if it did: what was covariance in the window before has then shrunk by G_b shift() G_b^T.
@@ -74,9 +88,16 @@ class Datum {
   urban_nav_core::Matrix6d growth_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Matrix6d shift_ = urban_nav_core::Matrix6d::Zero();
   std::vector<double> directions_, held_, deviation_, gradient_, product_;  // n x 6, column-major: G, u = Pi G; n
-  urban_nav_core::Vector6d along_offset_ =
-      urban_nav_core::Vector6d::Zero();           // error of gamma for an offset that is off by its sigma
-  double strength_m_ = 0.0, strength_rad_ = 0.0;  // largest `local` so far
+  // What steps so far added to gamma: for an offset that is off by a pixel, and with the offsets that they were made
+  // with.
+  urban_nav_core::Vector6d along_px_ = urban_nav_core::Vector6d::Zero();
+  urban_nav_core::Vector6d along_used_ = urban_nav_core::Vector6d::Zero();
+  OffsetBelief offset_;
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();  // where the path began
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();   // the last one of the origin, m
+  double rig_scale_ = 0.0;
+  double shifted_per_px_ = 0.0, squared_steps_ = 0.0;  // sums over steps: shift for a pixel along the step; m^2
+  double strength_m_ = 0.0, strength_rad_ = 0.0;       // largest `local` so far
 };
 
 }  // namespace swf_vo

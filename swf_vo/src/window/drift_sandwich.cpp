@@ -16,13 +16,6 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// A landmark lives for a view change of half a radian or so: a score of generations.
-constexpr double memory_rad = 10.0;
-// A few generations: what a surface or a place in the image makes of all that pass there.
-constexpr double correlation_rad = 3.0;
-// Width and height of a region, by direction: a quarter of the depth of what is seen in it.
-constexpr double region_width = 0.25;
-constexpr double widest = 4.0;
 // Effective clusters that the model counts for: the usual degrees of freedom of a variance that is hardly known.
 constexpr double model_clusters = 4.0;
 // What of a score the estimate leaves at least: with less, leverage is not known well enough to correct for it.
@@ -48,10 +41,7 @@ std::array<double, 2> traces(const Matrix6d& A) {
 }  // namespace
 
 DriftSandwich::Region& DriftSandwich::find(const Eigen::Vector2d& direction) {
-  const auto place = [](double tangent) {
-    return static_cast<int>(std::floor(std::clamp(tangent, -widest, widest) / region_width));
-  };
-  const std::array<int, 2> here = {place(direction.x()), place(direction.y())};
+  const ImageRegion here = imageRegion(direction);
   const auto found =
       std::find_if(regions_.begin(), regions_.end(), [&](const Region& region) { return region.place == here; });
   if (found != regions_.end()) return *found;
@@ -61,7 +51,8 @@ DriftSandwich::Region& DriftSandwich::find(const Eigen::Vector2d& direction) {
 }
 
 void DriftSandwich::advance(double view_change) {
-  const double kept = std::exp(-view_change / memory_rad), correlated = std::exp(-view_change / correlation_rad),
+  const double kept = std::exp(-view_change / score_memory_rad),
+               correlated = std::exp(-view_change / score_correlation_rad),
                overlapping = life_ > 0.0 ? std::exp(-view_change / life_) : 1.0;
   view_change_ = kept * view_change_ + view_change;
   information_ *= kept;

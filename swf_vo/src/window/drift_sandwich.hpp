@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "urban_nav_core/io/archive.hpp"
+#include "window/image_region.hpp"
 #include "window/landmark_score.hpp"
 
 namespace swf_vo {
@@ -40,7 +41,7 @@ class DriftSandwich {
  private:
   /// What has died in one region of the image.
   struct Region {
-    std::array<int, 2> place = {0, 0};                                        // by 1/4 of direction
+    ImageRegion place = {0, 0};
     urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();        // sum w g
     urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();  // sum of I, of lives that overlap
     std::array<double, 2> share = {0.0, 0.0};                                 // of all information

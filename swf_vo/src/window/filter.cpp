@@ -57,7 +57,9 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   state_.poses.push_back(pose);
   prior_.start(T_odom_camera, information);
   prior_.startOffset(state_.disparity_offset, options_.disparity_offset);
-  offset_sigma_ = options_.disparity_offset;
+  offset_ = {state_.disparity_offset, state_.disparity_offset, options_.disparity_offset * options_.disparity_offset};
+  datum_.setOffset(offset_);
+  datum_.setRigScale(options_.rig_scale);
   Matrix6d root = information;
   gauge_free_ = !has_known_ && !urban_nav_core::choleskyInPlace(root);
   datum_.start(prior_);
@@ -137,7 +139,7 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   scores_.end(marginaliser_.dying(), leaving);
   scores_.advance(state_, leaving.inverse() * next);
   if (options_.robust_drift) datum_.scaleGrowth(scores_.sandwich().ratio());
-  const Vector6d per_px = datum_.releaseOffset(offset_sigma_, state_, prior_);
+  const Vector6d per_px = datum_.releaseOffset(state_, prior_);
   departed.offset_gain += (departed.gauge_gain - left) * per_px;
   const std::optional<Matrix6d> own = std::exchange(oldest_information_, std::nullopt);
   if (!own || !datum_.hold(*own, options_.datum_ratio, state_, prior_)) return;
@@ -190,13 +192,14 @@ SettledPose Filter::settle() {
 Matrix6d Filter::relativeCovariance(const PoseBlock& oldest) const {
   std::size_t place = 0;
   if (gain_valid_ && gauss_newton_.inFactor(state_.first_step, place) && place == 0) {
-    covariance::Matrix12d joint =
-        covariance::leftAndOldest(gauss_newton_.solver(), settled_in_window_, marginaliser_.departed());
+    covariance::Matrix12d joint = covariance::leftAndOldest(gauss_newton_.solver(), settled_in_window_,
+                                                            marginaliser_.departed(), offset_.error());
     joint.topLeftCorner<6, 6>() += settled_apart_;
     return covariance::relative(settled_.pose, oldest.estimate, joint);
   }
   if (gauss_newton_.inFactor(state_.first_step - 1, place) && place + 1 < gauss_newton_.solver().poses())
-    return covariance::relative(settled_.pose, oldest.estimate, covariance::joint(gauss_newton_.solver(), place));
+    return covariance::relative(settled_.pose, oldest.estimate,
+                                covariance::joint(gauss_newton_.solver(), place, offset_.error()));
   return covariance::propagate(Pose(), Matrix6d::Zero(), oldest.u);
 }
 
@@ -247,7 +250,7 @@ void Filter::save(Checkpoint& checkpoint) const {
   checkpoint.newest_covariance = newest_covariance_;
   checkpoint.datum = datum_;
   checkpoint.scores = scores_;
-  checkpoint.offset_sigma = offset_sigma_;
+  checkpoint.offset = offset_;
   checkpoint.oldest_information = oldest_information_;
 }
 
@@ -257,7 +260,7 @@ void Filter::restore(const Checkpoint& checkpoint) {
   newest_covariance_ = checkpoint.newest_covariance;
   datum_ = checkpoint.datum;
   scores_ = checkpoint.scores;
-  offset_sigma_ = checkpoint.offset_sigma;
+  offset_ = checkpoint.offset;
   oldest_information_ = checkpoint.oldest_information;
   gauss_newton_.forget();
 }
@@ -276,13 +279,32 @@ void Filter::endLandmark(LandmarkId id) {
 UpdateReport Filter::update() {
   if (options_.iterations > 1 && state_.poses.size() > 1) optimiseNewestPose(state_, cost_.sensor(), options_.huber);
   const GaussNewton::Progress progress = gauss_newton_.run(state_, prior_, cost_, gauge_free_);
+  offset_ = judgeOffset();
+  datum_.setOffset(offset_);
   newest_covariance_ = computeCovariance(state_.newestStep());
-  offset_sigma_ = std::sqrt(gauss_newton_.solver().offsetVariance());
   oldest_information_ = gauss_newton_.ownInformation(0);
   UpdateReport result = report(state_, cost_.sensor());
   result.iterations = progress.iterations;
   result.converged = progress.converged;
   return result;
+}
+
+// The estimate trusts measurements by a caution of its own; what is stated of it is what their residuals say. With I
+// their information, c that of the calibration and rho the ratio, the true offset has the precision c + I / rho, and
+// lies where its gradient vanishes: at the estimate that of the measurements is caution c (o - calibrated).
+OffsetBelief Filter::judgeOffset() const {
+  const Solver& solver = gauss_newton_.solver();
+  OffsetBelief belief;
+  belief.used = belief.mean = state_.disparity_offset;
+  belief.variance = solver.offsetVariance();
+  if (!options_.robust_drift || !prior_.has_offset || !datum_.isActive() || !(belief.variance > 0.0)) return belief;
+  const double ratio = scores_.ofOffset().ratio(solver.offsetCaution()),
+               calibration = prior_.calibrationInformation(belief.used),
+               precision = calibration + solver.offsetInformation() / ratio,
+               pull = (solver.offsetCaution() / ratio - 1.0) * calibration * (belief.used - prior_.calibrated_offset);
+  belief.variance = 1.0 / precision;
+  belief.mean += pull / precision;
+  return belief;
 }
 
 Matrix6d Filter::computeWindowCovariance(std::int64_t step) const {
@@ -294,7 +316,7 @@ Matrix6d Filter::computeWindowCovariance(std::int64_t step) const {
 Matrix6d Filter::computeCovariance(std::int64_t step) const {
   std::size_t place = 0;
   if (!gauss_newton_.inFactor(step, place)) return newest_covariance_;
-  return covariance::marginal(gauss_newton_.solver(), place) +
+  return covariance::marginal(gauss_newton_.solver(), place, offset_.error()) +
          datum_.carried(state_.poses[static_cast<std::size_t>(step - state_.first_step)].linearised);
 }
 
@@ -311,7 +333,8 @@ void Filter::flush(std::vector<SettledPose>& settled) {
 
 void Filter::archive(urban_nav_core::Archive& archive) {
   archive(state_, prior_, gauss_newton_, marginaliser_.departed(), datum_, scores_);
-  archive(offset_sigma_, newest_covariance_, settled_, settled_step_, settled_in_window_, gain_valid_, settled_apart_);
+  archive(offset_.used, offset_.mean, offset_.variance, newest_covariance_, settled_, settled_step_, settled_in_window_,
+          gain_valid_, settled_apart_);
   archive(oldest_information_, has_known_, gauge_free_);
   if (archive.isReading()) check(archive);
 }

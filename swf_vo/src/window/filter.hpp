@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -40,7 +41,8 @@ class Filter {
   void flush(std::vector<SettledPose>& settled);
 
   urban_nav_core::PoseWithCovariance newest() const;
-  double disparityOffsetSigma() const { return offset_sigma_; }
+  double disparityOffsetSigma() const { return std::sqrt(offset_.error()); }
+  double scaleSigma() const { return datum_.scaleSigma(); }
   const State& state() const { return state_; }
   const Prior& prior() const { return prior_; }
   const Cost& cost() const { return cost_; }
@@ -54,7 +56,7 @@ class Filter {
     urban_nav_core::Matrix6d newest_covariance;
     Datum datum;
     LandmarkScores scores;
-    double offset_sigma = 0.0;
+    OffsetBelief offset;
     std::optional<urban_nav_core::Matrix6d> oldest_information;
   };
   void save(Checkpoint& checkpoint) const;
@@ -80,6 +82,7 @@ class Filter {
   void deleteOldest();
   urban_nav_core::Matrix6d relativeCovariance(const PoseBlock& oldest) const;
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
+  OffsetBelief judgeOffset() const;
   void applyProcessNoise(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d computeWindowCovariance(std::int64_t step) const;
   urban_nav_core::Matrix6d computeCovariance(std::int64_t step) const;
@@ -93,7 +96,7 @@ class Filter {
   LandmarkProcessNoise process_noise_;
   std::vector<LandmarkProcessNoise::Step> wandered_;
   std::vector<double> directions_;  // of the gauge, of the prior
-  double offset_sigma_ = 0.0;
+  OffsetBelief offset_;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::PoseWithCovariance settled_;  // the last that left
   std::int64_t settled_step_ = -1;

@@ -32,11 +32,17 @@ void LandmarkScore::add(const LandmarkBlock& landmark, const PoseBlock& pose, do
   const Vector3d moved = landmark.estimate - reference_;
   const Matrix63d cross = G.transpose() * term.cross;
   information_.topLeftCorner<3, 3>() += term.landmark;
-  information_.bottomLeftCorner<6, 3>() += cross;
-  information_.topRightCorner<3, 6>() += cross.transpose();
-  information_.bottomRightCorner<6, 6>() += G.transpose() * term.pose * G;
+  information_.block<6, 3>(3, 0) += cross;
+  information_.block<3, 6>(0, 3) += cross.transpose();
+  information_.block<6, 6>(3, 3) += G.transpose() * term.pose * G;
+  Eigen::Matrix<double, 9, 1> border;
+  border << term.landmark_border, G.transpose() * term.pose_border;
+  information_.topRightCorner<9, 1>() += border;
+  information_.bottomLeftCorner<1, 9>() += border.transpose();
+  information_(9, 9) += term.border_information;
   score_.head<3>() += term.landmark_gradient + term.landmark * moved;
-  score_.tail<6>() += G.transpose() * term.pose_gradient + cross * moved;
+  score_.segment<6>(3) += G.transpose() * term.pose_gradient + cross * moved;
+  score_[9] += term.border_gradient + term.landmark_border.dot(moved);
 }
 
 // Pi - Pi E (I + Q E^T Pi E)^-1 Q E^T Pi, which also holds where Q has no inverse.
@@ -47,20 +53,20 @@ void LandmarkScore::age(const Eigen::Matrix2d& covariance) {
   Eigen::Matrix2d adjugate;
   adjugate << A(1, 1), -A(0, 1), -A(1, 0), A(0, 0);
   const Eigen::Matrix2d lost = adjugate * covariance / (A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0));
-  const Eigen::Matrix<double, 9, 2> columns = information_.leftCols<2>();
+  const Eigen::Matrix<double, 10, 2> columns = information_.leftCols<2>();
   score_ -= columns * (lost * score_.head<2>().eval());
   information_ -= columns * lost * columns.transpose();
 }
 
 DriftScore LandmarkScore::evaluate(const Pose& T_odom_camera) const {
-  Matrix9d A = information_;
-  Vector9d b = score_;
+  Matrix10d A = information_;
+  Vector10d b = score_;
   for (int j = 0; j < 3; ++j) {
     if (!(A(j, j) > least_theta_pivot * information_(j, j))) continue;
-    for (int i = j + 1; i < 9; ++i) {
+    for (int i = j + 1; i < 10; ++i) {
       const double factor = A(i, j) / A(j, j);
       b[i] -= factor * b[j];
-      for (int k = j + 1; k < 9; ++k) A(i, k) -= factor * A(j, k);
+      for (int k = j + 1; k < 10; ++k) A(i, k) -= factor * A(j, k);
     }
   }
   const Matrix6d moved = gauge::transport(T_odom_camera.t(), anchor_.t_odom_anchor);
@@ -69,9 +75,12 @@ DriftScore LandmarkScore::evaluate(const Pose& T_odom_camera) const {
   T.leftCols<3>() = moved.leftCols<3>() * R;
   T.rightCols<3>() = moved.rightCols<3>() * R;
   DriftScore result;
-  result.score = T.transpose() * b.tail<6>();
-  const Matrix6d information = T.transpose() * A.bottomRightCorner<6, 6>() * T;
+  result.score = T.transpose() * b.segment<6>(3);
+  const Matrix6d information = T.transpose() * A.block<6, 6>(3, 3) * T;
   result.information = 0.5 * (information + information.transpose());
+  result.offset_score = b[9];
+  result.offset_information = A(9, 9);
+  result.offset_cross = T.transpose() * A.block<6, 1>(3, 9);
   result.life = last_ - born_;
   const Eigen::Vector4d point = anchor_.homogeneous(reference_);
   const Vector3d ray = R.transpose() * (point.head<3>() - point.w() * T_odom_camera.t());

@@ -11,16 +11,19 @@ namespace swf_vo {
 struct DriftScore {
   urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();
+  /// Of the disparity offset (px), beside the drift; `offset_cross`: information between both.
+  double offset_score = 0.0, offset_information = 0.0;
+  urban_nav_core::Vector6d offset_cross = urban_nav_core::Vector6d::Zero();
   double life = 0.0;                                    ///< view change (rad) from the first to the last measurement
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< of the landmark in that camera: (x, y) / z
 };
 
 /// What the measurements of one landmark, over its whole life, say of a drift of the camera that is steady for as long.
 ///
-/// An information filter over theta and the rate xi at which the camera moves away from where the estimate has it; that
-/// apart, the poses are taken as given. With theta eliminated it is the landmark's share in the score and in the
-/// information of the trajectory at low frequencies: changes slower than its life. Ages as the prior does
-/// (landmark_process_noise.hpp). Derivation: docs/derivations/cluster_robust_drift.md.
+/// An information filter over theta, the rate xi at which the camera moves away from where the estimate has it, and the
+/// disparity offset; that apart, the poses are taken as given. With theta eliminated it is the landmark's share in the
+/// score and in the information of the trajectory at low frequencies: changes slower than its life. Ages as the prior
+/// does (landmark_process_noise.hpp). Derivation: docs/derivations/cluster_robust_drift.md.
 class LandmarkScore {
  public:
   bool isUsed() const { return used_; }
@@ -36,15 +39,15 @@ class LandmarkScore {
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  using Matrix9d = Eigen::Matrix<double, 9, 9>;
-  using Vector9d = Eigen::Matrix<double, 9, 1>;
+  using Matrix10d = Eigen::Matrix<double, 10, 10>;
+  using Vector10d = Eigen::Matrix<double, 10, 1>;
 
   bool used_ = false;
   double born_ = 0.0, last_ = 0.0;                       // view change, rad
   Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();  // theta at which score_ is taken
   Anchor anchor_;                                        // xi is about its origin
-  Matrix9d information_ = Matrix9d::Zero();              // of theta, xi
-  Vector9d score_ = Vector9d::Zero();
+  Matrix10d information_ = Matrix10d::Zero();            // of theta, xi, offset
+  Vector10d score_ = Vector10d::Zero();
 };
 
 }  // namespace swf_vo

@@ -14,6 +14,7 @@ void LandmarkScores::clear() {
   view_change_ = 0.0;
   scores_.clear();
   sandwich_ = DriftSandwich();
+  of_offset_ = OffsetSandwich();
 }
 
 void LandmarkScores::add(std::size_t slot, const LandmarkBlock& landmark, const PoseBlock& pose,
@@ -30,7 +31,9 @@ void LandmarkScores::end(const std::vector<int>& slots, const Pose& T_odom_camer
   for (const int slot : slots) {
     const auto at = static_cast<std::size_t>(slot);
     if (at >= scores_.size() || !scores_[at].isUsed()) continue;
-    sandwich_.add(scores_[at].evaluate(T_odom_camera));
+    const DriftScore score = scores_[at].evaluate(T_odom_camera);
+    sandwich_.add(score);
+    of_offset_.add(score);
     scores_[at].clear();
   }
 }
@@ -49,8 +52,11 @@ void LandmarkScores::advance(const State& state, const Pose& T_from_to) {
   const double change = usual * T_from_to.t().norm() + angleBetween(Pose(), T_from_to);
   view_change_ += change;
   sandwich_.advance(change);
+  of_offset_.advance(change);
 }
 
-void LandmarkScores::archive(urban_nav_core::Archive& archive) { archive(view_change_, scores_, sandwich_); }
+void LandmarkScores::archive(urban_nav_core::Archive& archive) {
+  archive(view_change_, scores_, sandwich_, of_offset_);
+}
 
 }  // namespace swf_vo

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "window/drift_sandwich.hpp"
+#include "window/offset_sandwich.hpp"
 
 namespace swf_vo {
 
@@ -26,12 +27,14 @@ class LandmarkScores {
   void advance(const State& state, const urban_nav_core::Pose& T_from_to);
 
   const DriftSandwich& sandwich() const { return sandwich_; }
+  const OffsetSandwich& ofOffset() const { return of_offset_; }
   void archive(urban_nav_core::Archive& archive);
 
  private:
   double view_change_ = 0.0;  // rad, since the start
   std::vector<LandmarkScore> scores_;
   DriftSandwich sandwich_;
+  OffsetSandwich of_offset_;
   std::vector<double> inverse_depths_;
 };
 

@@ -54,6 +54,8 @@ class Solver {
   /// Prior's terms of it.
   double offsetInformation() const;
   double offsetPull(const Prior& prior, double offset) const;
+  /// By how much less that information is believed than it says (in variance).
+  double offsetCaution() const { return border_.caution; }
   double perOffset(std::size_t row) const { return border_.used ? -border_.rows[row] : 0.0; }
   std::size_t poses() const { return poses_; }
   /// Of such a column.

@@ -131,6 +131,8 @@ Pose Window::pose(FrameId frame) const {
 double Window::disparityOffset() const { return implementation_->filter.state().disparity_offset; }
 double Window::disparityOffsetSigma() const { return implementation_->filter.disparityOffsetSigma(); }
 
+double Window::scaleSigma() const { return implementation_->filter.scaleSigma(); }
+
 const std::vector<MapPoint>& Window::map() const {
   std::vector<MapPoint>& map = implementation_->map;
   map.clear();

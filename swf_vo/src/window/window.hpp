@@ -33,6 +33,7 @@ struct WindowOptions {
                                ///< beside (datum.hpp): changes no result but for rounding
   double disparity_offset =
       0.0;  ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
+  double rig_scale = 0.0;     ///< standard deviation of focal length times baseline, relative: of all lengths at once
   bool robust_drift = false;  ///< scales the drift by what the residuals of whole landmarks say of it
                               ///< (drift_sandwich.hpp); false: it is the model's
   int landmarks = 64;         ///< so many at once are expected; memory for them is taken at the start
@@ -121,6 +122,8 @@ class Window {
   /// The camera's disparity offset as known now, px, and its standard deviation (0 if it is a constant).
   double disparityOffset() const;
   double disparityOffsetSigma() const;
+  /// Standard deviation of a relative error of all lengths of the path: what the offset and the rig make of it.
+  double scaleSigma() const;
   /// Landmarks that are still looked for, in order of id; lives until the next change.
   const std::vector<MapPoint>& map() const;
   /// How well the last update trusts the newest observation of it (0...1); 1 if it has none.

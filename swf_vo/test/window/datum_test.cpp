@@ -114,5 +114,26 @@ TEST(Datum, driftAddsUpOverAnyNumberOfSteps) {
   }
 }
 
+TEST(Datum, theRigsScaleIsOneErrorOfTheWholePath) {
+  const auto tracks = turning(60, 0.5);
+  WindowOptions exact, off;
+  off.rig_scale = 0.02;
+  TrackRunner a(tracks, exact), b(tracks, off);
+  while (!a.done()) {
+    a.step();
+    b.step();
+    ASSERT_EQ(a.window.newest().pose.t(), b.window.newest().pose.t()) << a.at();
+  }
+  ASSERT_EQ(a.settled.size(), b.settled.size());
+  const Eigen::Vector3d path = a.settled.back().T_odom_camera.pose.t() - a.settled.front().T_odom_camera.pose.t();
+  const Matrix6d added = b.settled.back().T_odom_camera.covariance - a.settled.back().T_odom_camera.covariance;
+  Matrix6d expected = Matrix6d::Zero();
+  expected.topLeftCorner<3, 3>() = off.rig_scale * off.rig_scale * path * path.transpose();
+  EXPECT_LT((added - expected).norm(), 0.05 * expected.norm()) << "but for where the first pose was taken to be";
+  // What adds up over steps as if independent does not have it.
+  EXPECT_EQ(a.settled.back().drift_covariance, b.settled.back().drift_covariance);
+  EXPECT_NEAR(b.window.scaleSigma(), off.rig_scale, 1e-12);
+}
+
 }  // namespace
 }  // namespace swf_vo

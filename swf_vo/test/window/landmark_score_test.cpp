@@ -94,6 +94,28 @@ TEST(LandmarkScore, landmarksTogetherFindTheDrift) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
 }
 
+TEST(LandmarkScore, landmarksTogetherFindDriftAndOffset) {
+  Vector6d drift;
+  drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;
+  constexpr double offset_px = 0.02;
+  Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
+  Eigen::Matrix<double, 7, 1> score = Eigen::Matrix<double, 7, 1>::Zero();
+  for (const Vector3d& point : somePoints()) {
+    SeenLandmark seen(point, 10, drift);
+    for (Measurement& measurement : seen.landmark.seen) measurement.z += offset_px * Vector3d::UnitZ();
+    const DriftScore one = seen.score().evaluate(Pose());
+    information.topLeftCorner<6, 6>() += one.information;
+    information.topRightCorner<6, 1>() += one.offset_cross;
+    information.bottomLeftCorner<1, 6>() += one.offset_cross.transpose();
+    information(6, 6) += one.offset_information;
+    score.head<6>() += one.score;
+    score[6] += one.offset_score;
+  }
+  const Eigen::Matrix<double, 7, 1> found = information.ldlt().solve(score);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
+  EXPECT_NEAR(found[6], -offset_px, 0.05 * offset_px) << "a larger offset moves what the right image shows to the left";
+}
+
 TEST(LandmarkScore, isSaidAboutTheCamera) {
   Vector6d drift;
   drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;

@@ -47,6 +47,7 @@ struct VoRun {
   std::vector<VoRow> rows;               ///< one per stereo frame
   std::vector<swf_vo::Settled> settled;  ///< smoothed poses, one per accepted frame that has left the window
   std::map<swf_vo::LandmarkId, VoLandmark> landmarks;
+  swf_vo::RigConstants rig;         ///< as known at the end
   std::vector<VoPicture> pictures;  ///< evenly spread over the session
   std::vector<urban_nav_core::SpecificForce>
       forces;                       ///< specific forces around smoothed frames; empty without an accelerometer

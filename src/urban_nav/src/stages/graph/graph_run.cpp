@@ -149,6 +149,25 @@ std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
   return made;
 }
 
+/// Errors that all lengths have in common, those of the rig's scale and of the disparity offset, are in no edge, and
+/// closures do not find them: measured by the same cameras, they are as much too long or too short. The map is known
+/// but for its scale (Schmidt's consider state). GPS fixes would show it.
+void addScale(GraphRun& run, const std::vector<const VoRun*>& runs) {
+  double sigma = 0.0;
+  for (const VoRun* each : runs) sigma = std::max(sigma, each->rig.scale_sigma);
+  if (run.graph.fixUse().used > 0) return;
+  for (std::size_t s = 0; s < run.covariances.size(); ++s) {
+    const Track* track = run.graph.track(run.sessions[s]);
+    const Track* map = run.graph.track(run.sessions[run.findMap(s)]);
+    if (track == nullptr || map == nullptr || track->map.size() != run.covariances[s].size()) continue;
+    const Pose T_first_map = map->map.front().inverse();
+    for (std::size_t i = 0; i < track->map.size(); ++i) {
+      const Eigen::Vector3d path = sigma * (T_first_map * track->map[i]).t();
+      run.covariances[s][i].topLeftCorner<3, 3>() += path * path.transpose();
+    }
+  }
+}
+
 /// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a
 /// scale, is in odometry's own covariance alone.
 void leaveToOdometry(GraphRun& run, const std::vector<const VoRun*>& runs) {
@@ -275,6 +294,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   addFixWarnings(parameters, made);
   const auto relaxed = Clock::now();
   made.covariances = computeCovariances(made.graph, sessions);
+  addScale(made, runs);
   leaveToOdometry(made, runs);
   made.ms_covariances = millisecondsSince(relaxed);
   made.levels = estimateLevels(made, runs, grounds);

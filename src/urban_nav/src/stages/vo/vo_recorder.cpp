@@ -115,6 +115,7 @@ const VoRow& VoRecorder::process(const SourceItem& input) {
   row.statistics = frame.statistics;
   row.T_odom_base = frame.T_odom_base.pose;
   row.process_ms = ms;
+  if (frame.accepted) run_.rig = frame.rig;
   run_.faults_total += static_cast<std::int64_t>(input.faults.size());
   for (const std::string& fault : input.faults) {
     if (run_.faults.size() < kMaxFaults) run_.faults.push_back(fault);

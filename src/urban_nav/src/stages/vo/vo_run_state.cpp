@@ -16,7 +16,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr const char* kVoRunName = "visual odometry of a session";
-constexpr std::uint32_t kVoRunVersion = 3;
+constexpr std::uint32_t kVoRunVersion = 4;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
@@ -70,8 +70,9 @@ class VoRunReader2 {
   Archive& archive_;
 };
 
-void members(Archive& archive, VoRun& run, std::vector<VoLandmark>& landmarks) {
+void members(Archive& archive, std::uint32_t version, VoRun& run, std::vector<VoLandmark>& landmarks) {
   archive(run.rows, run.settled, run.pictures, run.faults, run.faults_total, run.forces, landmarks);
+  if (version > 3) archive(run.rig);
 }
 
 VoRun readVoRun(std::string_view bytes) {
@@ -82,8 +83,9 @@ VoRun readVoRun(std::string_view bytes) {
     VoRunReader2(reader).read(run, landmarks);
     reader.finish();
   } else {
-    Archive reader(urban_nav_core::unseal(kVoRunName, kVoRunVersion, bytes), kVoRunName);
-    members(reader, run, landmarks);
+    const urban_nav_core::UnsealedState state = urban_nav_core::unseal(kVoRunName, 3, kVoRunVersion, bytes);
+    Archive reader(state.content, kVoRunName);
+    members(reader, state.version, run, landmarks);
     reader.finish();
   }
   for (const VoLandmark& each : landmarks) run.landmarks.emplace(each.landmark.id, each);
@@ -108,7 +110,7 @@ std::string packVoRun(VoRun run) {
   std::vector<VoLandmark> landmarks;
   for (const auto& [id, landmark] : run.landmarks) landmarks.push_back(landmark);
   Archive writer;
-  members(writer, run, landmarks);
+  members(writer, kVoRunVersion, run, landmarks);
   return urban_nav_core::seal(kVoRunName, kVoRunVersion, writer.take());
 }
 

@@ -130,7 +130,7 @@ class VoStage final : public Stage {
   StageResult result(const MapContext& context) const override {
     StageResult made;
     const std::vector<const VoRun*> runs = ownRuns(context);
-    const VoSummary summary = summarise(runs, context.options.parameters.get(swf_vo::table()).disparity_offset);
+    const VoSummary summary = summarise(runs, context.options.parameters.get(swf_vo::table()));
     made.method = "Visual odometry";
     made.tiles = {{forPerson(summary.ms_median, 3), "ms", "median time in the filter", Grade::Plain}};
     made.verdicts = voVerdicts(summary);

@@ -15,6 +15,12 @@ namespace {
 constexpr std::size_t kWarningsShown = 20;
 constexpr double kFarOutside = 3.0;    // standard deviations of a prior
 constexpr double kRowsDisagree = 1.0;  // px, beyond which a pair is not rectified, although its offset is followed
+constexpr double kRigDegrees = 180.0 / M_PI;
+
+/// Returns whether an estimate contradicts what its prior allows for; never where it is not estimated.
+bool isFarOutside(double estimate, double sigma, double prior) {
+  return sigma > 0.0 && prior > 0.0 && std::abs(estimate) > kFarOutside * (prior + sigma);
+}
 
 /// Appends how many frames were LOST, by reason, in the words of the first that had it.
 void addLosses(const VoRun& run, std::vector<std::string>& warnings) {
@@ -35,19 +41,31 @@ void addLosses(const VoRun& run, std::vector<std::string>& warnings) {
 }
 
 /// Appends the constants of the rig that the images contradict.
-void addRig(const VoRun& run, double offset_prior_px, std::vector<std::string>& warnings) {
+void addRig(const VoRun& run, const swf_vo::Parameters& parameters, std::vector<std::string>& warnings) {
   const auto last = std::find_if(run.rows.rbegin(), run.rows.rend(), [](const VoRow& row) { return row.accepted; });
   if (last == run.rows.rend()) return;
   const double offset = last->statistics.disparity_offset_px, sigma = last->statistics.disparity_offset_sigma_px;
-  if (sigma > 0.0 && offset_prior_px > 0.0 && std::abs(offset) > kFarOutside * (offset_prior_px + sigma))
+  if (isFarOutside(offset, sigma, parameters.disparity_offset))
     warnings.push_back(run.input + ": calibration: disparities are off by " + forPerson(offset, 2) + " +- " +
-                       forPerson(sigma, 1) + " px, where swf_vo.disparity_offset = " + forPerson(offset_prior_px, 3) +
+                       forPerson(sigma, 1) +
+                       " px, where swf_vo.disparity_offset = " + forPerson(parameters.disparity_offset, 3) +
                        " px is allowed for: calibrate the pair anew, or check the synchronisation of its shutters");
   const double rows = last->statistics.row_offset_px;
   if (std::abs(rows) > kRowsDisagree)
     warnings.push_back(run.input + ": not_rectified: the right image shows everything " + forPerson(std::abs(rows), 2) +
                        " px " + (rows > 0.0 ? "lower" : "higher") +
                        " than the left one, which is followed: calibrate the pair anew");
+  const double roll = run.rig.roll_rad * kRigDegrees, roll_sigma = run.rig.roll_sigma_rad * kRigDegrees;
+  if (isFarOutside(roll, roll_sigma, parameters.right_roll))
+    warnings.push_back(run.input + ": calibration: the right camera is rolled by " + forPerson(roll, 2) + " +- " +
+                       forPerson(roll_sigma, 1) + " deg against the left one, where swf_vo.right_roll = " +
+                       forPerson(parameters.right_roll, 3) + " deg is allowed for: calibrate the pair anew");
+  const double delay = 1e3 * run.rig.delay_s, delay_sigma = 1e3 * run.rig.delay_sigma_s;
+  if (isFarOutside(delay, delay_sigma, parameters.shutter_delay))
+    warnings.push_back(run.input + ": calibration: the right shutter opens " + forPerson(std::abs(delay), 2) + " +- " +
+                       forPerson(delay_sigma, 1) + " ms " + (delay > 0.0 ? "after" : "before") +
+                       " the left one, where swf_vo.shutter_delay = " + forPerson(parameters.shutter_delay, 3) +
+                       " ms is allowed for: trigger both cameras by one signal");
 }
 
 void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string>& warnings) {
@@ -62,11 +80,11 @@ void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string
 
 }  // namespace
 
-VoSummary summarise(const VoRun& run, double offset_prior_px) {
-  return summarise(std::vector<const VoRun*>{&run}, offset_prior_px);
+VoSummary summarise(const VoRun& run, const swf_vo::Parameters& parameters) {
+  return summarise(std::vector<const VoRun*>{&run}, parameters);
 }
 
-VoSummary summarise(const std::vector<const VoRun*>& runs, double offset_prior_px) {
+VoSummary summarise(const std::vector<const VoRun*>& runs, const swf_vo::Parameters& parameters) {
   VoSummary summary;
   summary.frames = totals(runs).frames;
   summary.status_counts = {{"OK", 0}, {"DEGRADED", 0}, {"LOST", 0}, {"RECOVERED", 0}};
@@ -86,6 +104,7 @@ VoSummary summarise(const std::vector<const VoRun*>& runs, double offset_prior_p
       ++accepted;
       summary.disparity_offset_px = row.statistics.disparity_offset_px;
       summary.disparity_offset_sigma_px = row.statistics.disparity_offset_sigma_px;
+      summary.row_offset_px = row.statistics.row_offset_px;
       ms.push_back(row.process_ms);
       features += row.statistics.features;
       lengths += row.statistics.track_length_mean;
@@ -95,9 +114,10 @@ VoSummary summarise(const std::vector<const VoRun*>& runs, double offset_prior_p
       }
     }
     summary.dropped += dropped;
+    summary.rig = run->rig;
     addWarnings(*run, dropped, summary.warnings);
     addLosses(*run, summary.warnings);
-    addRig(*run, offset_prior_px, summary.warnings);
+    addRig(*run, parameters, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
   summary.features_mean = mean(features, accepted);
@@ -119,6 +139,12 @@ Json toJson(const VoSummary& summary) {
   json["reprojection_px_mean"] = summary.reprojection_px_mean;
   json["disparity_offset_px"] = summary.disparity_offset_px;
   json["disparity_offset_sigma_px"] = summary.disparity_offset_sigma_px;
+  json["row_offset_px"] = summary.row_offset_px;
+  json["scale_sigma"] = summary.rig.scale_sigma;
+  json["right_roll_deg"] = summary.rig.roll_rad * kRigDegrees;
+  json["right_roll_sigma_deg"] = summary.rig.roll_sigma_rad * kRigDegrees;
+  json["shutter_delay_ms"] = 1e3 * summary.rig.delay_s;
+  json["shutter_delay_sigma_ms"] = 1e3 * summary.rig.delay_sigma_s;
   Json& statuses = json["status_counts"] = Json::object();
   for (const char* name : {"OK", "DEGRADED", "LOST", "RECOVERED"}) statuses[name] = summary.status_counts.at(name);
   Json& reasons = json["reason_counts"] = Json::object();

@@ -17,6 +17,8 @@ struct VoSummary {
   double ms_median = 0.0, ms_p99 = 0.0;
   double features_mean = 0.0, track_length_mean = 0.0, reprojection_px_mean = 0.0;
   double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
+  double row_offset_px = 0.0;                                         ///< likewise
+  swf_vo::RigConstants rig;                                           ///< likewise
   std::map<std::string, std::int64_t> status_counts;                  ///< OK, DEGRADED, LOST, RECOVERED: all four
   std::map<std::string, std::int64_t> reason_counts;                  ///< of frames that have one
   /// Faults of the data; frames that were LOST, by reason; constants of the rig that the images contradict. Each begins
@@ -24,12 +26,11 @@ struct VoSummary {
   std::vector<std::string> warnings;
 };
 
-/// `offset_prior_px`: parameter swf_vo.disparity_offset of the run.
-VoSummary summarise(const VoRun& run, double offset_prior_px = swf_vo::Parameters().disparity_offset);
+/// `parameters`: of the run; its priors say what is outside.
+VoSummary summarise(const VoRun& run, const swf_vo::Parameters& parameters = swf_vo::Parameters());
 
 /// Over several sessions: counts and distances add up, medians are of all frames together.
-VoSummary summarise(const std::vector<const VoRun*>& runs,
-                    double offset_prior_px = swf_vo::Parameters().disparity_offset);
+VoSummary summarise(const std::vector<const VoRun*>& runs, const swf_vo::Parameters& parameters = swf_vo::Parameters());
 
 /// The object "swf_vo" of summary.json.
 Json toJson(const VoSummary& summary);

@@ -10,6 +10,7 @@
 #include "stages/vo/vo_files.hpp"
 #include "stages/vo/vo_recorder.hpp"
 #include "support/folders.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/digest.hpp"
@@ -167,6 +168,21 @@ TEST(VoState, version2IsRead) {
   const std::optional<VoRun> again = unpackVoRun(packVoRun(*run));
   ASSERT_TRUE(again);
   EXPECT_EQ(again->settled[0].T_odom_base.covariance, countedFrom(100));
+}
+
+TEST(VoState, version3IsReadWithoutConstantsOfTheRig) {
+  VoRun run = *unpackVoRun(runOfVersion2());
+  run.rig.delay_s = 1e-3;
+  const std::string now = packVoRun(run);
+  const std::string name = "visual odometry of a session";
+  ASSERT_EQ(unpackVoRun(now)->rig.delay_s, 1e-3);
+  const std::string_view content = urban_nav_core::unseal(name, 4, now);
+  // What version 3 did not have stands last: five numbers.
+  const std::optional<VoRun> then =
+      unpackVoRun(urban_nav_core::seal(name, 3, std::string(content.substr(0, content.size() - 5 * sizeof(double)))));
+  ASSERT_TRUE(then);
+  EXPECT_EQ(then->rig.delay_s, 0.0);
+  EXPECT_EQ(then->settled[0].T_odom_base.covariance, countedFrom(100));
 }
 
 TEST(VoState, damagedBytesOfVersion2AreRefused) {

@@ -48,7 +48,9 @@ TEST(VoSummary, namesAnOffsetOutsideItsPrior) {
   const std::vector<std::string> warnings = summarise(run).warnings;
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("calibration: disparities are off by -0.84"), std::string::npos) << warnings[0];
-  EXPECT_TRUE(summarise(run, 1.0).warnings.empty());
+  swf_vo::Parameters wide;
+  wide.disparity_offset = 1.0;
+  EXPECT_TRUE(summarise(run, wide).warnings.empty());
   run.rows.back().statistics.disparity_offset_sigma_px = 0.0;  // taken as exact
   EXPECT_TRUE(summarise(run).warnings.empty());
 }
@@ -61,6 +63,22 @@ TEST(VoSummary, namesRowsThatAreFollowedButApart) {
   const std::vector<std::string> warnings = summarise(run).warnings;
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("2.5 px higher"), std::string::npos) << warnings[0];
+}
+
+TEST(VoSummary, namesARollAndADelayOutsideTheirPriors) {
+  VoRun run = steadyRun();
+  run.rig = {0.1 * M_PI / 180.0, 0.02 * M_PI / 180.0, 0.2e-3, 0.05e-3};
+  EXPECT_TRUE(summarise(run).warnings.empty());
+  run.rig.roll_rad = -0.6 * M_PI / 180.0;
+  run.rig.delay_s = -2.8e-3;
+  const std::vector<std::string> warnings = summarise(run).warnings;
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("rolled by -0.6"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("opens 2.8 +- 0.05 ms before"), std::string::npos) << warnings[1];
+  swf_vo::Parameters wide;
+  wide.right_roll = 1.0;
+  wide.shutter_delay = 5.0;
+  EXPECT_TRUE(summarise(run, wide).warnings.empty());
 }
 
 }  // namespace
