@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A right camera that is rolled, as a whole odometry finds it, and one that is mounted and triggered as it should be.
+// A right camera that is rolled, and one whose shutter opens later, as a whole odometry finds them.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -55,6 +55,15 @@ TEST(Rig, aRolledCameraIsFound) {
   const RigConstants found = findRig(roll, 0.0);
   EXPECT_NEAR(found.roll_rad, roll, 0.1 * roll);
   EXPECT_LT(std::abs(found.roll_rad - roll), 5.0 * found.roll_sigma_rad);
+}
+
+// Of one camera and one room: what else errs is the same in both.
+TEST(Rig, aLateShutterIsToldFromAnEarlyOne) {
+  constexpr double delay = 4e-3;
+  const RigConstants late = findRig(0.0, delay), early = findRig(0.0, -delay);
+  EXPECT_NEAR(late.delay_s - early.delay_s, 2.0 * delay, 0.6 * delay);
+  EXPECT_LT(std::abs(late.delay_s - delay), 4.0 * late.delay_sigma_s);
+  EXPECT_LT(std::abs(early.delay_s + delay), 4.0 * early.delay_sigma_s);
 }
 
 }  // namespace
