@@ -4,15 +4,14 @@
 // with word frequencies as in text (Zipf).
 //
 //   fabmap_node-bench-speed [-o FILE.json]
+#include <malloc.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -136,11 +135,10 @@ urban_nav_core::ImageView toView(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])};
 }
 
-double residentKb() {
-  std::ifstream file("/proc/self/statm");
-  double pages = 0.0, resident = 0.0;
-  file >> pages >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1024.0;
+/// Memory in use on the heap, kB.
+double heapKb() {
+  const struct mallinfo2 heap = ::mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd) / 1024.0;
 }
 
 /// Writes a map of `count` keyframes that show `images` in turns, as `map` stores them, and returns them.
@@ -183,12 +181,12 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
   {
     urban_nav_store::Store store(folder + "/map.db", urban_nav_store::Access::Read);
     KeyframePlaces places;
-    const double before = residentKb(), begin = processorMs();
+    const double before = heapKb(), begin = processorMs();
     places.open(store, keyframes);
     while (places.readNext()) {
     }
     table.add({"keyframes of a map ready for localization", std::to_string(count), cell(processorMs() - begin, 0)});
-    memory = (residentKb() - before) / static_cast<double>(count);
+    memory = (heapKb() - before) / static_cast<double>(count);
     table.add({"search for a keyframe among them", std::to_string(count) + ", image decoded and described",
                cell(medianMs(15, [&] { places.find(query, 3); }), 1)});
   }
