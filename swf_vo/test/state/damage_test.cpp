@@ -58,11 +58,12 @@ TEST(State, FuzzedBeyondItsChecksum) {
   const std::string name = "swf_vo";
   const std::vector<Step> some = collectSteps("loop", 20, "black:1000:1");
   const std::string whole = someState(12);
-  const std::string content(urban_nav_core::unseal(name, 3, whole));
+  const urban_nav_core::UnsealedState state = urban_nav_core::unseal(name, 0, 1'000'000, whole);
+  const std::string content(state.content);
   int accepted = 0;
   const urban_nav_core::testing::FuzzResult result =
       urban_nav_core::testing::fuzzText({content, content.substr(0, 4096)}, [&](const std::string& damaged) {
-        SwfVo filter(Parameters(), stereoCamera(), kPlace, urban_nav_core::seal(name, 3, damaged));
+        SwfVo filter(Parameters(), stereoCamera(), kPlace, urban_nav_core::seal(name, state.version, damaged));
         if (++accepted > 20) return;
         for (std::size_t i = 12; i < 16; ++i) filter.process(some[i].frame.pair());
         filter.flush();
