@@ -159,7 +159,8 @@ void addScale(GraphRun& run, const std::vector<const VoRun*>& runs) {
   for (std::size_t s = 0; s < run.covariances.size(); ++s) {
     const Track* track = run.graph.track(run.sessions[s]);
     const Track* map = run.graph.track(run.sessions[run.findMap(s)]);
-    if (track == nullptr || map == nullptr || track->map.size() != run.covariances[s].size()) continue;
+    if (track == nullptr || map == nullptr || map->map.empty()) continue;
+    if (track->map.size() != run.covariances[s].size()) continue;
     const Pose T_first_map = map->map.front().inverse();
     for (std::size_t i = 0; i < track->map.size(); ++i) {
       const Eigen::Vector3d path = sigma * (T_first_map * track->map[i]).t();
