@@ -24,7 +24,7 @@ StoredKeyframePlace makeRow() {
 
 class StoredKeyframePlaces : public ::testing::Test {
  protected:
-  void write(const std::string& path) const {
+  void write() const {
     Store store(path, Access::Write);
     store.sessions().put(Session{"s", "quad", "", "", 1, true});
     TableStore<StoredKeyframePlace>(store).put(makeRow());
@@ -35,7 +35,7 @@ class StoredKeyframePlaces : public ::testing::Test {
 };
 
 TEST_F(StoredKeyframePlaces, areApartFromPlacesAtTheSameTimeAndStayWhenResultsAreCleared) {
-  write(path);
+  write();
   Store store(path, Access::Write);
   store.sessions().clear("s");
   const auto found = TableStore<StoredKeyframePlace>(store).get(makeRow());
@@ -46,7 +46,7 @@ TEST_F(StoredKeyframePlaces, areApartFromPlacesAtTheSameTimeAndStayWhenResultsAr
 }
 
 TEST_F(StoredKeyframePlaces, areMergedWithTheirSession) {
-  write(path);
+  write();
   merge({path}, folder.file("merged.db"));
   Store merged(folder.file("merged.db"), Access::Read);
   EXPECT_TRUE(TableStore<StoredKeyframePlace>(merged).get(makeRow()));
