@@ -117,6 +117,11 @@ def services():
     return {name for name, _ in rosgraph.Master("/launch_test").getSystemState()[2]}
 
 
+def subscriptions(node):
+    """The topics that `node` asks for, published or not."""
+    return {topic for topic, nodes in rosgraph.Master("/launch_test").getSystemState()[1] if node in nodes}
+
+
 def connections(node):
     """The topics that `node` hears: not only asked for, but connected to somebody who publishes them."""
     try:

@@ -12,7 +12,7 @@ from sensor_msgs.msg import CompressedImage, Image, Imu, LaserScan, NavSatFix
 from urban_nav_msgs.msg import RawFrame, VoFrame
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import Launched, command, connections  # noqa: E402
+from graph import Launched, command, connections, subscriptions  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 
 TOPICS = {"/laser_left/scan": LaserScan, "/laser_right/scan": LaserScan, "/imu/data": Imu, "/wheel_odom": Odometry, "/gps/fix": NavSatFix,
@@ -66,17 +66,19 @@ class RobotLaunch(LaunchCase):
             self.assertEqual(stamps, sorted(stamps))
 
     def record_cameras(self):
-        """record.launch on what the odometry reads; gives the beginning of the names of its bags."""
+        """record.launch for what the odometry reads, which nobody publishes yet; gives the beginning of the names of its bags."""
         prefix = Path(self.folder) / "recorded"
         recorder = Launched("record.launch", output=prefix, topics=" ".join(STEREO_TOPICS), least_speed=1)
         self.addCleanup(lambda: recorder.process.poll() is None and recorder.stop())
-        self.expect(lambda: STEREO_TOPICS <= connections("/record"), lambda: f"the recorder hears {connections('/record')}\n{recorder.output()}")
+        self.expect(lambda: STEREO_TOPICS <= subscriptions("/record"), lambda: f"the recorder waits for {subscriptions('/record')}\n{recorder.output()}")
         return recorder, prefix
 
     def test_what_is_recorded_gives_the_bits_of_the_live_run_again(self):
+        # The recorder is there before the devices begin, whose session is short.
+        recorder, prefix = self.record_cameras()
         self.launch("robot.launch", simulated=self.bag, ports=Path(self.folder) / "recorded_devices", loops="false")
         self.expect(lambda: self.listener.odometry, "odometry")
-        recorder, prefix = self.record_cameras()
+        self.expect(lambda: STEREO_TOPICS <= connections("/record"), lambda: f"the recorder hears {connections('/record')}\n{recorder.output()}")
         # Now that the recorder hears all, the odometry begins again: from here on both have the same images.
         subprocess.run(["rosservice", "call", "/swf_vo/reset"], check=True, stdout=subprocess.DEVNULL)
         self.expect(lambda: self.session_frames(), "a frame after the reset")

@@ -2,14 +2,18 @@
 // Is the covariance of odometry from one frame to a later one right? Squared errors of T_{i,i+n} (settled poses) over
 // the variances stated for them (urban_nav_core/trajectory/odometry_chain.hpp), translation and rotation apart, with
 // and without what residuals say of the drift, pooled over sequences of one name but for up to three last digits.
-//   swf_vo-bench-increments [FOLDER...] [--set swf_vo.NAME=VALUE]... [-o results/increments.json]
-// FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones.
+//   swf_vo-bench-increments [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]...
+//     [-o results/increments.json]
+// FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones. FILE: what another system made of
+// the folder named SEQUENCE (as for accuracy); its poses stand for the truth there.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
+#include "support/peer.hpp"
 #include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
@@ -120,11 +124,12 @@ std::vector<std::string> row(const std::string& name, const Pool& pool, const st
 }  // namespace
 
 int main(int argc, char** argv) try {
-  std::vector<std::string> sets, folders;
+  std::vector<std::string> sets, peers, folders;
   std::string output;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--set" && i + 1 < argc) sets.emplace_back(argv[++i]);
+    else if (word == "--peer" && i + 1 < argc) peers.emplace_back(argv[++i]);
     else if (word == "-o" && i + 1 < argc) output = argv[++i];
     else folders.push_back(word);
   }
@@ -132,8 +137,13 @@ int main(int argc, char** argv) try {
   const std::array<const char*, 3> covariances = {"model", "robust", "robust, with offset and scale"};
   std::map<std::string, std::array<Pool, covariances.size()>> pools;
   for (const std::string& folder : orRealSequences(folders)) {
-    const Sequence sequence = kittiFolder(folder);
-    auto& pool = pools[poolName(sequence.name)];
+    Sequence sequence = kittiFolder(folder);
+    std::string name = poolName(sequence.name);
+    for (Peer& peer : peersOf(sequence, peers)) {
+      sequence.truth = std::move(peer.poses);
+      name += ", " + peer.name + " for truth";
+    }
+    auto& pool = pools[name];
     parameters.robust_covariance = false;
     add(pool[0], sequence, run(sequence, parameters), nullptr);
     parameters.robust_covariance = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An hour of each serial device and its driver on a stepped clock: time that it takes, and memory.
+// An hour of each serial device and its driver, and a minute of each camera, on a stepped clock: time that it takes,
+// and memory.
 //
 //   urban_nav-bench-device_hour [-o FILE.json] [--seconds 3600]
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "../test/device/stepped_device.hpp"
+#include "support/camera_sessions.hpp"
 #include "support/device_sessions.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -54,7 +56,18 @@ int main(int argc, char** argv) {
     table.add({session.name, cell(pair.seconds(), 0), cell(taken, 1), std::to_string(*session.messages),
                std::to_string(counters.gaps), std::to_string(counters.epochs), cell(residentMb() - early, 1)});
   });
-  table.add({"all", cell(seconds, 0), cell(total, 1), "", "", "", ""});
+  table.add({"all serial devices", cell(seconds, 0), cell(total, 1), "", "", "", ""});
+  urban_nav::bench::forEachCamera([&](const urban_nav::bench::CameraSession& session) {
+    constexpr double minute = 60.0;  // s
+    const auto begin = std::chrono::steady_clock::now();
+    const int frames = static_cast<int>(minute / session.period);
+    int taken = session.run_until(frames / 6);
+    const double early = residentMb();
+    taken += session.run_until(frames);
+    const double time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    table.add({session.name, cell(minute, 0), cell(time, 1), std::to_string(taken), std::to_string(frames - taken), "",
+               cell(residentMb() - early, 1)});
+  });
   table.note("One core. Delays of 1 ms and an exponential of 1 ms, skew 50 ppm.");
   std::fputs(table.text().c_str(), stdout);
   if (!output.empty()) table.write(output);

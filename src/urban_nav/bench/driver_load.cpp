@@ -5,20 +5,15 @@
 //   urban_nav-bench-driver_load [-o FILE.json] [--seconds 20]
 #include <ctime>
 
-#include <array>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <thread>
 
-#include "segway_drivers/bumblebee2/camera.hpp"
-#include "segway_drivers/camera/pack_frames.hpp"
-#include "segway_drivers/camera/sim_source.hpp"
 #include "segway_drivers/driver/run_device.hpp"
-#include "segway_drivers/ladybug2/camera.hpp"
+#include "support/camera_sessions.hpp"
 #include "support/device_sessions.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_sim/device/device_server.hpp"
@@ -61,32 +56,11 @@ Load runSerial(urban_nav::bench::DeviceSession& session, double seconds, const s
   return load;
 }
 
-cv::Mat makeScene(int seed, cv::Size size, int type) {
-  cv::Mat noise(size.height / 16, size.width / 16, type), scene;
-  cv::RNG random(static_cast<std::uint64_t>(seed));
-  random.fill(noise, cv::RNG::UNIFORM, 30, 220);
-  cv::resize(noise, scene, size, 0.0, 0.0, cv::INTER_CUBIC);
-  return scene;
-}
-
-/// A camera whose frames lie in memory: what it takes to hand one out is the copy that a ring of buffers costs too.
-template <typename Camera>
-Load runCamera(const segway_drivers::Bytes& frame, segway_drivers::SimCameraOptions options, double period, int frames,
-               const typename Camera::Options& camera_options) {
-  TimeNs now = 5'000'000'000;
-  int sent = 0;
-  segway_drivers::SimSource source(
-      [&]() -> std::optional<segway_drivers::SimFrame> {
-        return segway_drivers::SimFrame{period * sent++, frame};
-      },
-      std::move(options), {[&] { return now; }, [&](TimeNs until) { now = std::max(now, until); }});
-  Camera camera(source, camera_options);
-  std::string error;
-  if (!camera.start(error)) return {};
+/// Of frames of 20 s.
+Load runCamera(const urban_nav::bench::CameraSession& session) {
+  constexpr double duration = 20.0;
   const double before = threadSeconds();
-  int taken = 0;
-  while (sent < frames) taken += camera.next(100'000'000) ? 1 : 0;
-  const double duration = period * frames;
+  const int taken = session.run_until(static_cast<int>(duration / session.period));
   return {(threadSeconds() - before) / duration, taken / duration};
 }
 
@@ -109,16 +83,8 @@ int main(int argc, char** argv) {
   urban_nav::bench::forEachSerialDevice(seconds + 10.0, [&](urban_nav::bench::DeviceSession& session) {
     add(session.name, runSerial(session, seconds, folder));
   });
-  const cv::Size size(segway_drivers::bb2_width, segway_drivers::bb2_height);
-  add("bumblebee2",
-      runCamera<segway_drivers::Bb2Camera>(
-          segway_drivers::packBb2Frame(makeScene(1, size, CV_8U), makeScene(2, size, CV_8U)), {}, 0.05, 400, {}));
-  std::array<cv::Mat, 5> pictures;
-  for (int i = 0; i < 5; ++i) pictures[static_cast<std::size_t>(i)] = makeScene(i, {384, 512}, CV_8UC3);
-  segway_drivers::SimCameraOptions ladybug;
-  ladybug.model = segway_drivers::SimCameraOptions::Model::Ladybug2;
-  add("ladybug2",
-      runCamera<segway_drivers::LadybugCamera>(segway_drivers::packLadybugFrame(pictures, 60), ladybug, 0.1, 200, {}));
+  urban_nav::bench::forEachCamera(
+      [&](const urban_nav::bench::CameraSession& session) { add(session.name, runCamera(session)); });
   table.add({"all", "", cell(100.0 * total, 2)});
   table.note(
       "Processor time of the reading thread, with transport, checks and clock; without ROS. Cameras with the copy of each frame.");
