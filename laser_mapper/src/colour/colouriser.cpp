@@ -106,6 +106,7 @@ Colouriser::Colouriser(std::vector<ColourView> views, ImageLoader load, double v
       load_(std::move(load)),
       voxel_(voxel),
       cached_images_(std::max<std::size_t>(1, cached_images)),
+      samples_(kMaxSamples),
       gains_(views_.size(), {1.0F, 1.0F, 1.0F}) {
   data_.reserve(views_.size());
   for (const ColourView& view : views_) data_.emplace_back(view);
@@ -132,30 +133,25 @@ void Colouriser::addSurface(const std::vector<MapPoint>& points) {
     for (const MapPoint& point : points)
       if (const auto at = view.projection.project(point.p)) view.depth.add(*at, voxel_);
   });
-  for (const MapPoint& point : points) {
-    if (seen_++ % sample_step_ != 0 || point.normal.squaredNorm() < 0.5F) continue;
-    samples_.push_back(point);
-    if (samples_.size() < kMaxSamples) continue;
-    for (std::size_t i = 0; 2 * i < samples_.size(); ++i) samples_[i] = samples_[2 * i];
-    samples_.resize(samples_.size() / 2);
-    sample_step_ *= 2;
-  }
+  for (const MapPoint& point : points)
+    if (point.normal.squaredNorm() > 0.5F) samples_.add(point);
 }
 
 void Colouriser::equalise() {
+  const std::vector<MapPoint>& samples = samples_.items();
   std::vector<ColourObservation> observations;
   for (std::size_t view = 0; view < data_.size(); ++view) {
     const auto picture = image(view);
     if (picture->bgr.empty()) continue;
     const ViewData& data = data_[view];
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const auto at = data.projection.project(samples_[i].p);
-      if (!at || !data.depth.isVisible(*at, data.projection.toCamera(samples_[i]))) continue;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const auto at = data.projection.project(samples[i].p);
+      if (!at || !data.depth.isVisible(*at, data.projection.toCamera(samples[i]))) continue;
       const Colour colour = patchColour(*picture, *at, 2.0 * voxel_, data.projection.focal());
       if (isUsable(colour)) observations.push_back({view, i, colour});
     }
   }
-  gains_ = estimateGains(views_.size(), samples_.size(), observations);
+  gains_ = estimateGains(views_.size(), samples.size(), observations);
 }
 
 std::shared_ptr<const Picture> Colouriser::image(std::size_t view) {

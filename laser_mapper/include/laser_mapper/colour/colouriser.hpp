@@ -11,6 +11,7 @@
 
 #include "laser_mapper/colour/colour_view.hpp"
 #include "laser_mapper/map_point.hpp"
+#include "urban_nav_core/sequence/even_thinning.hpp"
 
 namespace laser_mapper {
 
@@ -46,8 +47,7 @@ class Colouriser {
   const double voxel_;
   const std::size_t cached_images_;
   std::vector<ViewData> data_;
-  std::vector<MapPoint> samples_;  ///< points by which images are compared
-  std::size_t sample_step_ = 1, seen_ = 0;
+  urban_nav_core::EvenThinning<MapPoint> samples_;  ///< points by which images are compared
   std::vector<Colour> gains_;
   std::list<std::size_t> recent_;  ///< views of cache_, the one used last first
   std::unordered_map<

@@ -12,13 +12,13 @@
 #include "scene_labeler/drive/travelled_path.hpp"
 #include "scene_labeler/parameters.hpp"
 #include "stage/class_images.hpp"
-#include "stage/even_thinning.hpp"
 #include "stage/labelled_map.hpp"
 #include "stage/map_layer.hpp"
 #include "stage/panorama_views.hpp"
 #include "stage/stage_result.hpp"
 #include "stages/labels/class_colours.hpp"
 #include "stages/labels/labelled_ply.hpp"
+#include "urban_nav_core/sequence/even_thinning.hpp"
 #include "urban_nav_registration/cloud/cell_table.hpp"
 #include "urban_nav_registration/session/adopted_calibration.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -140,7 +140,7 @@ class ExtentMeter {
 
 /// Shows the classes in the view of the map that stage lasers made.
 std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
-  EvenThinning<unsigned char> kinds(most_shown_points);
+  urban_nav_core::EvenThinning<unsigned char> kinds(most_shown_points);
   for (const PointLabel& label : labels) kinds.add(static_cast<unsigned char>(label.label));
   std::vector<std::array<int, 3>> colours;
   for (std::size_t k = 0; k < scene_labeler::class_count; ++k) {

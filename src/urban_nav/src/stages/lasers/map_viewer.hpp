@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "laser_mapper/map_point.hpp"
-#include "stage/even_thinning.hpp"
+#include "stage/map_layer.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/sequence/even_thinning.hpp"
 
 namespace urban_nav {
 
@@ -29,7 +30,7 @@ class MapViewer {
 
  private:
   const std::size_t number_;
-  EvenThinning<laser_mapper::MapPoint> points_{most_shown_points};
+  urban_nav_core::EvenThinning<laser_mapper::MapPoint> points_{most_shown_points};
   std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
 };
 

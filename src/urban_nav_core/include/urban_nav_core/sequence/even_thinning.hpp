@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-namespace urban_nav {
+namespace urban_nav_core {
 
-/// Keeps evenly thinned items of a sequence, at most `most`: every first, second, fourth ... one. Two sequences of one
-/// length keep the items at the same places.
+/// Keeps evenly thinned items of a sequence whose length is not known, at most `most`: every first, second, fourth ...
+/// one. Two sequences of one length keep the items at the same places. Not thread-safe.
 template <typename Item>
 class EvenThinning {
  public:
@@ -29,7 +29,4 @@ class EvenThinning {
   std::size_t step_ = 1, seen_ = 0;
 };
 
-/// Points of a map that the report shows in three dimensions.
-constexpr std::size_t most_shown_points = 500'000;
-
-}  // namespace urban_nav
+}  // namespace urban_nav_core
