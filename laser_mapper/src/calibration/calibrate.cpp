@@ -13,11 +13,9 @@ namespace laser_mapper {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs kLongestStretch = 300'000'000'000;
 // m between surfels of one place: errors of the calibration at first, then what is left of them.
 constexpr double kReaches[] = {0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.1, 0.1, 0.1, 0.1};
 constexpr int kRefinements = 4;
@@ -30,14 +28,10 @@ class Calibrator {
   Calibrator(const Parameters& parameters, urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
              const urban_nav_core::Trajectory& T_map_base, const urban_nav_core::OdometryChain* odometry)
       : lasers_(statedLasers(store, session)), terms_(lasers_.size(), TermVector::Zero()) {
-    if (T_map_base.size() < 2) return;
-    const StampNs begin = T_map_base.front().stamp, duration = T_map_base.back().stamp - begin + 1;
-    const StampNs parts = (duration + kLongestStretch - 1) / kLongestStretch;
-    for (StampNs i = 0; i < parts; ++i)
+    for (const CalibrationInterval& interval : divideTrajectory(T_map_base))
       stretches_.push_back(std::make_unique<CalibrationStretch>(
           parameters, lasers_, T_map_base, odometry,
-          sampleScans(parameters, store, session, lasers_, begin + duration * i / parts,
-                      begin + duration * (i + 1) / parts)));
+          sampleScans(parameters, store, session, lasers_, interval.begin, interval.end)));
   }
 
   const std::vector<MountedLaser>& lasers() const { return lasers_; }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
@@ -91,35 +90,6 @@ double surfelWeight(const Parameters& parameters, const CalibrationSurfel& surfe
 
 }  // namespace
 
-/// Equations of one place without its plane: all terms, then the corrections at `seconds`, 6 each.
-struct CalibrationStretch::PatchEquations {
-  std::vector<std::uint32_t> seconds;
-  MatrixXd information;
-  VectorXd gradient;
-};
-
-/// Equations of all terms and corrections.
-struct CalibrationStretch::FullEquations {
-  TermEquations terms;
-  MatrixXd corrections, cross;  // lower triangle; rows of corrections, columns of terms
-  VectorXd gradient;            // of corrections
-
-  void add(const PatchEquations& patch) {
-    const Eigen::Index n = terms.gradient.size();
-    terms.information += patch.information.topLeftCorner(n, n);
-    terms.gradient += patch.gradient.head(n);
-    ++terms.patches;
-    for (std::size_t i = 0; i < patch.seconds.size(); ++i) {
-      const Eigen::Index to = 6 * patch.seconds[i], from = n + static_cast<Eigen::Index>(6 * i);
-      gradient.segment<6>(to) += patch.gradient.segment<6>(from);
-      cross.middleRows<6>(to) += patch.information.block(from, 0, 6, n);
-      for (std::size_t j = 0; j <= i; ++j)
-        corrections.block<6, 6>(to, 6 * patch.seconds[j]) +=
-            patch.information.block<6, 6>(from, n + static_cast<Eigen::Index>(6 * j));
-    }
-  }
-};
-
 CalibrationStretch::CalibrationStretch(const Parameters& parameters, const std::vector<MountedLaser>& lasers,
                                        const urban_nav_core::Trajectory& T_map_base,
                                        const urban_nav_core::OdometryChain* odometry, SampledScans samples)
@@ -127,19 +97,17 @@ CalibrationStretch::CalibrationStretch(const Parameters& parameters, const std::
       lasers_(lasers),
       T_map_base_(T_map_base),
       samples_(std::move(samples)),
-      prior_(T_map_base, odometry, samples_.begin,
-             static_cast<std::size_t>((samples_.end - samples_.begin - 1) / 1'000'000'000) + 2),
-      corrections_(prior_.count(), PoseCorrection::Zero()) {}
+      trajectory_(T_map_base, odometry, {samples_.begin, samples_.end}, termCount()) {}
 
 std::vector<ScanPlace> CalibrationStretch::placesWith(const std::vector<TermVector>& terms,
                                                       const std::vector<PoseCorrection>& corrections) const {
   return placeScans(samples_, lasers_, terms, T_map_base_, corrections, std::llround(1e9 * parameters_.max_gap));
 }
 
-CalibrationStretch::PatchEquations CalibrationStretch::equationsOf(const CalibrationPatch& patch, const SurfelSet& set,
-                                                                   const std::vector<ScanPlace>& places,
-                                                                   double scale) const {
-  PatchEquations equations;
+/// Equations without the plane of the place.
+PlaceEquations CalibrationStretch::equationsOf(const CalibrationPatch& patch, const SurfelSet& set,
+                                               const std::vector<ScanPlace>& places, double scale) const {
+  PlaceEquations equations;
   std::vector<std::uint32_t>& seconds = equations.seconds;
   for (const std::uint32_t s : patch.surfels)
     for (const std::uint32_t second : {set.surfels[s].window, set.surfels[s].window + 1}) seconds.push_back(second);
@@ -177,63 +145,25 @@ CalibrationStretch::PatchEquations CalibrationStretch::equationsOf(const Calibra
 }
 
 TermEquations CalibrationStretch::linearise(const std::vector<TermVector>& terms, double reach) {
-  const std::vector<ScanPlace> places = placesWith(terms, corrections_);
+  const std::vector<ScanPlace> places = placesWith(terms, trajectory_.corrections());
   const SurfelSet set = findSurfels(samples_, places);
   std::vector<CalibrationPatch> patches = matchSurfels(set.surfels, reach);
   patches.erase(std::remove_if(patches.begin(), patches.end(), [](const auto& patch) { return patch.is_held_out; }),
                 patches.end());
   const double scale = std::max(kLeastScale, kRobust * medianSpread(patches, set.surfels));
-  const auto size = static_cast<Eigen::Index>(6 * corrections_.size());
-  FullEquations all{zeroEquations(lasers_.size()), MatrixXd::Zero(size, size), MatrixXd::Zero(size, termCount()),
-                    VectorXd::Zero(size)};
-  prior_.addTo(corrections_, all.corrections, all.gradient);
-  std::vector<PatchEquations> equations(patches.size());
+  trajectory_.clear();
+  std::vector<PlaceEquations> equations(std::min(kPatchBatch, patches.size()));
   for (std::size_t first = 0; first < patches.size(); first += kPatchBatch) {
     const std::size_t count = std::min(kPatchBatch, patches.size() - first);
-    urban_nav_core::forEach(
-        count, 16, [&](std::size_t i) { equations[first + i] = equationsOf(patches[first + i], set, places, scale); });
-    for (std::size_t i = first; i < first + count; ++i) {
-      all.add(equations[i]);
-      equations[i].information.resize(0, 0);
-    }
+    urban_nav_core::forEach(count, 16,
+                            [&](std::size_t i) { equations[i] = equationsOf(patches[first + i], set, places, scale); });
+    for (std::size_t i = 0; i < count; ++i) trajectory_.add(std::move(equations[i]));
   }
-  return eliminateTrajectory(std::move(all), equations);
-}
-
-TermEquations CalibrationStretch::eliminateTrajectory(FullEquations all, const std::vector<PatchEquations>& patches) {
-  const Eigen::Index terms = termCount();
-  per_term_ = std::move(all.cross);
-  trajectory_change_ = std::move(all.gradient);
-  if (!urban_nav_core::choleskyInPlace(all.corrections)) {
-    per_term_.setZero();
-    trajectory_change_.setZero();
-    return zeroEquations(lasers_.size());
-  }
-  urban_nav_core::solveLowerInPlace(all.corrections, per_term_);
-  urban_nav_core::solveLowerInPlace(all.corrections, trajectory_change_);
-  all.terms.information -= per_term_.transpose() * per_term_;
-  all.terms.gradient -= per_term_.transpose() * trajectory_change_;
-  urban_nav_core::solveLowerTransposedInPlace(all.corrections, per_term_);
-  urban_nav_core::solveLowerTransposedInPlace(all.corrections, trajectory_change_);
-  all.terms.scatter = prior_.transformed(per_term_);
-  for (const PatchEquations& patch : patches) {
-    VectorXd gradient = patch.gradient.head(terms);
-    for (std::size_t i = 0; i < patch.seconds.size(); ++i)
-      gradient -= per_term_.middleRows<6>(6 * patch.seconds[i]).transpose() *
-                  patch.gradient.segment<6>(terms + static_cast<Eigen::Index>(6 * i));
-    all.terms.scatter += gradient * gradient.transpose();
-  }
-  return all.terms;
-}
-
-void CalibrationStretch::moveTrajectory(const VectorXd& change) {
-  const VectorXd move = trajectory_change_ - per_term_ * change;
-  for (std::size_t k = 0; k < corrections_.size(); ++k)
-    corrections_[k] += move.segment<6>(static_cast<Eigen::Index>(6 * k));
+  return trajectory_.eliminate();
 }
 
 std::vector<CalibrationStretch::Spread> CalibrationStretch::compareHeldOut(const std::vector<TermVector>& terms) const {
-  const std::vector<PoseCorrection> none(corrections_.size(), PoseCorrection::Zero());
+  const std::vector<PoseCorrection> none(trajectory_.corrections().size(), PoseCorrection::Zero());
   const std::vector<TermVector> stated(lasers_.size(), TermVector::Zero());
   SurfelSet set = findSurfels(samples_, placesWith(stated, none));
   std::vector<CalibrationPatch> patches = matchSurfels(set.surfels, kHeldOutReach);

@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "calibration/calibration_patches.hpp"
-#include "calibration/term_equations.hpp"
-#include "calibration/trajectory_prior.hpp"
+#include "calibration/free_trajectory.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 
 namespace laser_mapper {
 
 /// A stretch of a session whose beams calibrate its lasers. Unknown besides their terms are the plane of every place,
-/// and a correction of the trajectory at every second, a random walk with the covariance of odometry. Not thread-safe.
+/// and the trajectory as FreeTrajectory corrects it. Not thread-safe.
 class CalibrationStretch {
  public:
   /// References must outlive the stretch.
@@ -23,7 +22,7 @@ class CalibrationStretch {
   /// Matches surfels up to `reach` (m) apart and returns the equations at these terms, without held-out places.
   TermEquations linearise(const std::vector<TermVector>& terms, double reach);
   /// Moves the trajectory as the equations of the last linearise() ask for with this change of all terms.
-  void moveTrajectory(const Eigen::VectorXd& change);
+  void moveTrajectory(const Eigen::VectorXd& change) { trajectory_.move(change); }
 
   /// Spread of one held-out place along the trajectory as given.
   struct Spread {
@@ -33,11 +32,8 @@ class CalibrationStretch {
   std::vector<Spread> compareHeldOut(const std::vector<TermVector>& terms) const;
 
  private:
-  struct PatchEquations;
-  struct FullEquations;
-  PatchEquations equationsOf(const CalibrationPatch& patch, const SurfelSet& set, const std::vector<ScanPlace>& places,
+  PlaceEquations equationsOf(const CalibrationPatch& patch, const SurfelSet& set, const std::vector<ScanPlace>& places,
                              double scale) const;
-  TermEquations eliminateTrajectory(FullEquations all, const std::vector<PatchEquations>& patches);
   std::vector<ScanPlace> placesWith(const std::vector<TermVector>& terms,
                                     const std::vector<PoseCorrection>& corrections) const;
   Eigen::Index termCount() const { return static_cast<Eigen::Index>(kCalibrationTerms * lasers_.size()); }
@@ -46,11 +42,7 @@ class CalibrationStretch {
   const std::vector<MountedLaser>& lasers_;
   const urban_nav_core::Trajectory& T_map_base_;
   const SampledScans samples_;
-  const TrajectoryPrior prior_;
-  std::vector<PoseCorrection> corrections_;  ///< at whole seconds
-  // Of the last linearise(): corrections change by trajectory_change_ - per_term_ * change of the terms.
-  Eigen::VectorXd trajectory_change_;
-  Eigen::MatrixXd per_term_;
+  FreeTrajectory trajectory_;
 };
 
 }  // namespace laser_mapper

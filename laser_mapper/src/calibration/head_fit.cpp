@@ -2,17 +2,16 @@
 #include "calibration/head_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <utility>
 
-#include "calibration/view_brightness.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace laser_mapper {
 
 using Eigen::Index;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
@@ -21,12 +20,11 @@ constexpr int kRoundsPerLevel = 4, kFinestRounds = 10;
 constexpr float kBrightnessClip =
     0.3F;  // of the logarithm of the brightness: a view that differs more shows something else
 constexpr int kExposureRounds = 5;
-constexpr std::size_t kFewestSightings = 3;             // of a point
-constexpr double kHeadPlaceEdge = 2.0;                  // m
-constexpr double kHeadBeyondChance = 3.0;               // standard errors
-constexpr double kNearestSeen = 0.3, kLensStep = 1e-4;  // m; of the tangents, for differences
-constexpr double kLeastIncidence = 0.2;  // cosine: farther from the normal, a view shows little of a surface
-constexpr std::size_t kSightingGrain = 1024;
+constexpr std::size_t kFewestSightings = 3;  // of a point
+constexpr double kHeadPlaceEdge = 2.0;       // m
+constexpr double kHeadBeyondChance = 3.0;    // standard errors
+constexpr double kLeastRowVariance = 1e-12;  // of logarithms: images without noise
+constexpr std::size_t kPlaceBatch = 64;      // places whose equations are in memory at a time
 
 float medianBrightness(std::vector<float>& values) {
   if (values.empty()) return 0.0F;
@@ -35,26 +33,12 @@ float medianBrightness(std::vector<float>& values) {
   return *middle;
 }
 
-/// See HeadFit::Row.
-using Shifts = Eigen::Matrix<float, 2, kCalibrationTerms>;
-
-/// A pixel, and its derivatives with respect to the point in the frame of the camera.
-struct LensPoint {
-  Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> derivatives;
-};
-
-std::optional<LensPoint> throughLens(const urban_nav_core::RawCamera& camera, const Vector3d& q) {
-  if (q.z() < kNearestSeen) return std::nullopt;
-  const Vector3d ray = q / q.z();
-  const auto pixel = camera.project(ray), right = camera.project(ray + kLensStep * Vector3d::UnitX()),
-             below = camera.project(ray + kLensStep * Vector3d::UnitY());
-  if (!pixel || !right || !below) return std::nullopt;
-  Eigen::Matrix2d lens;
-  lens << (*right - *pixel) / kLensStep, (*below - *pixel) / kLensStep;
-  Eigen::Matrix<double, 2, 3> division;
-  division << 1.0, 0.0, -ray.x(), 0.0, 1.0, -ray.y();
-  return LensPoint{*pixel, lens * division / q.z()};
+std::vector<FreeTrajectory> freeStretches(const urban_nav_core::Trajectory& T_map_base,
+                                          const urban_nav_core::OdometryChain* odometry) {
+  std::vector<FreeTrajectory> stretches;
+  for (const CalibrationInterval& interval : divideTrajectory(T_map_base))
+    stretches.emplace_back(T_map_base, odometry, interval, kCalibrationTerms);
+  return stretches;
 }
 
 }  // namespace
@@ -64,10 +48,23 @@ struct HeadFit::PlaceSpread {
   double squares = 0.0, sightings = 0.0;
 };
 
-HeadFit::HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_map_base, const Vector3d& centre)
-    : images_(images), T_map_base_(T_map_base), centre_(centre), exposures_(images.views.size(), 0.0F) {
+/// A point that several views show.
+struct HeadFit::PointRows {
+  HeadPoint point;
+  std::uint32_t place = 0;
+  float median = 0.0F;  ///< brightness less the exposures
+
+  bool isNear(const HeadRow& row) const { return row.is_seen && std::abs(row.brightness - median) < kBrightnessClip; }
+};
+
+HeadFit::HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_map_base,
+                 const urban_nav_core::OdometryChain* odometry, const Vector3d& centre)
+    : stretches_(freeStretches(T_map_base, odometry)),
+      views_(images, T_map_base, centre, stretches_),
+      exposures_(images.views.size(), 0.0F) {
   std::map<std::array<long, 3>, std::uint32_t> numbers;
-  for (const Vector3d& p : images.points) {
+  for (const HeadPoint& point : views_.points()) {
+    const Vector3d& p = images.points[images.sightings[point.first].point];
     const std::array<long, 3> key{std::lround(std::floor(p.x() / kHeadPlaceEdge)),
                                   std::lround(std::floor(p.y() / kHeadPlaceEdge)),
                                   std::lround(std::floor(p.z() / kHeadPlaceEdge))};
@@ -77,119 +74,121 @@ HeadFit::HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_m
   }
 }
 
-std::vector<HeadFit::Row> HeadFit::rowsAt(const TermVector& terms, int level) const {
-  std::vector<std::optional<ViewMotion>> motions(images_.views.size());
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    motions[i] = viewMotionAt(images_.views[i], T_map_base_, centre_, terms);
-  std::vector<Row> rows(images_.sightings.size());
-  urban_nav_core::forEach(rows.size(), kSightingGrain, [&](std::size_t i) {
-    const HeadSighting& sighting = images_.sightings[i];
-    const auto& motion = motions[sighting.view];
-    if (!motion) return;
-    const Vector3d &p = images_.points[sighting.point], &normal = images_.normals[sighting.point];
-    const Vector3d q = motion->R * p + motion->t;
-    if (std::abs((motion->R * normal).dot(q.normalized())) < kLeastIncidence) return;
-    const auto lens = throughLens(images_.views[sighting.view].camera, q);
-    if (!lens) return;
-    const auto shown = brightnessAt(images_.pyramids[sighting.view], level, lens->pixel);
-    if (!shown) return;
-    Eigen::Matrix<double, 3, 2> axes;
-    axes.col(0) = normal.unitOrthogonal();
-    axes.col(1) = normal.cross(axes.col(0));
-    const Eigen::Matrix2d px_per_m = lens->derivatives * motion->R * axes;
-    const Shifts shifts = (px_per_m.inverse() * lens->derivatives * motion->derivatives(p)).cast<float>();
-    if (!shifts.allFinite()) return;
-    const Eigen::Vector2f texture = (px_per_m.transpose() * shown->slope).cast<float>();
-    rows[i].brightness = static_cast<float>(shown->value);
-    Eigen::Map<Shifts>(rows[i].shifts.data()) = shifts;
-    rows[i].texture = {texture.x(), texture.y()};
-    rows[i].is_seen = true;
-  });
-  return rows;
-}
-
 /// By medians over points and views in turn.
-void HeadFit::estimateExposures(const std::vector<Row>& rows) {
-  std::vector<float> points(images_.points.size(), 0.0F);
+void HeadFit::estimateExposures(const std::vector<HeadRow>& rows) {
+  std::vector<float> points(views_.images().points.size(), 0.0F);
   for (int round = 0; round < kExposureRounds; ++round) {
     std::vector<std::vector<float>> of_view(exposures_.size());
     std::vector<float> of_point;
-    for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
-      const std::uint32_t point = images_.sightings[first].point;
+    for (const HeadPoint& point : views_.points()) {
       of_point.clear();
-      for (; last < rows.size() && images_.sightings[last].point == point; ++last)
-        if (rows[last].is_seen) of_point.push_back(rows[last].brightness - exposures_[images_.sightings[last].view]);
-      points[point] = medianBrightness(of_point);
+      for (std::size_t i = point.first; i < point.last; ++i)
+        if (rows[i].is_seen) of_point.push_back(rows[i].brightness - exposures_[views_.images().sightings[i].view]);
+      points[views_.images().sightings[point.first].point] = medianBrightness(of_point);
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i].is_seen)
-        of_view[images_.sightings[i].view].push_back(rows[i].brightness - points[images_.sightings[i].point]);
+        of_view[views_.images().sightings[i].view].push_back(rows[i].brightness -
+                                                             points[views_.images().sightings[i].point]);
     for (std::size_t view = 0; view < exposures_.size(); ++view) exposures_[view] = medianBrightness(of_view[view]);
   }
 }
 
-/// Calls visit(place, first, last, median) for the points of places that are held out, or not, and that several views
-/// show: by their rows, which are less the exposures.
-template <typename Visit>
-void HeadFit::forEachPoint(const std::vector<Row>& rows, bool held_out, const Visit& visit) const {
+/// Returns the points of places that are held out, or not, and that several views show. `rows`: less the exposures.
+std::vector<HeadFit::PointRows> HeadFit::usablePoints(const std::vector<HeadRow>& rows, bool held_out) const {
+  std::vector<PointRows> usable;
   std::vector<float> values;
-  for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
-    const std::uint32_t point = images_.sightings[first].point;
+  for (std::size_t number = 0; number < place_of_.size(); ++number) {
+    const HeadPoint& point = views_.points()[number];
+    if ((is_held_out_[place_of_[number]] != 0) != held_out) continue;
     values.clear();
-    for (; last < rows.size() && images_.sightings[last].point == point; ++last)
-      if (rows[last].is_seen) values.push_back(rows[last].brightness);
-    if ((is_held_out_[place_of_[point]] != 0) == held_out && values.size() >= kFewestSightings)
-      visit(place_of_[point], first, last, medianBrightness(values));
+    for (std::size_t i = point.first; i < point.last; ++i)
+      if (rows[i].is_seen) values.push_back(rows[i].brightness);
+    if (values.size() >= kFewestSightings) usable.push_back({point, place_of_[number], medianBrightness(values)});
   }
+  return usable;
 }
 
-/// Equations of the terms, from which the brightness of each point is eliminated. Views beyond kBrightnessClip of the
-/// median of their point take no part.
-TermEquations HeadFit::linearise(std::vector<Row> rows) {
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].brightness -= exposures_[images_.sightings[i].view];
-  TermEquations equations = zeroEquations(1);
-  std::vector<TermVector> of_place(is_held_out_.size(), TermVector::Zero());
-  std::vector<std::uint8_t> is_used(is_held_out_.size(), 0);
-  double squares = 0.0, freedom = 0.0;
-  forEachPoint(rows, false, [&](std::uint32_t place, std::size_t first, std::size_t last, float median) {
-    const auto is_near = [&](const Row& row) {
-      return row.is_seen && std::abs(row.brightness - median) < kBrightnessClip;
-    };
-    Shifts mean = Shifts::Zero();
-    Eigen::Vector2f texture = Eigen::Vector2f::Zero();
-    float brightness = 0.0F, count = 0.0F;
-    for (std::size_t i = first; i < last; ++i)
-      if (is_near(rows[i])) {
-        mean += Eigen::Map<const Shifts>(rows[i].shifts.data());
-        texture += Eigen::Vector2f(rows[i].texture[0], rows[i].texture[1]);
-        brightness += rows[i].brightness - median;
-        count += 1.0F;
-      }
-    if (count < 2.0F) return;
-    mean /= count;
-    texture /= count;
-    brightness = median + brightness / count;
-    for (std::size_t i = first; i < last; ++i)
-      if (is_near(rows[i])) {
-        const Shifts apart = Eigen::Map<const Shifts>(rows[i].shifts.data()) - mean;
-        const TermVector row = (apart.transpose() * texture).cast<double>();
-        const auto residual = static_cast<double>(rows[i].brightness - brightness);
-        equations.information.noalias() += row * row.transpose();
-        of_place[place] -= residual * row;
-        squares += residual * residual;
-      }
-    freedom += static_cast<double>(count) - 1.0;
-    is_used[place] = 1;
-  });
-  if (freedom <= 0.0) return equations;
-  const double variance = std::max(squares / freedom, 1e-12);
-  equations.information /= variance;
-  for (const TermVector& gradient : of_place) {
-    equations.gradient += gradient / variance;
-    equations.scatter.noalias() += gradient * gradient.transpose() / (variance * variance);
+/// Returns the rows of the views of a point that differ little from their median; none if there are fewer than two.
+std::vector<BrightnessRow> HeadFit::brightnessRows(const std::vector<HeadRow>& rows, const PointRows& point) const {
+  const HeadPoint& at = point.point;
+  Eigen::Vector2f texture = Eigen::Vector2f::Zero();
+  float count = 0.0F;
+  for (std::size_t i = at.first; i < at.last; ++i)
+    if (point.isNear(rows[i])) {
+      texture += Eigen::Vector2f(rows[i].texture[0], rows[i].texture[1]);
+      count += 1.0F;
+    }
+  std::vector<BrightnessRow> made;
+  if (count < 2.0F) return made;
+  texture /= count;
+  for (std::size_t i = at.first; i < at.last; ++i) {
+    if (!point.isNear(rows[i])) continue;
+    const HeadMoment& seen = views_.moment(i);
+    const Vector3d& p = views_.images().points[views_.images().sightings[i].point];
+    const Vector3d slope =
+        (Eigen::Map<const HeadRow::PointShifts>(rows[i].motion.data()).transpose() * texture).cast<double>();
+    BrightnessRow row;
+    row.residual = static_cast<double>(rows[i].brightness - point.median);
+    row.terms = (Eigen::Map<const HeadRow::TermShifts>(rows[i].shifts.data()).transpose() * texture).cast<double>();
+    row.at_view << -slope, -(p - seen.base).cross(slope);
+    row.at_point << slope, (p - at.measured.base).cross(slope);
+    row.view_share = seen.share;
+    row.point_share = at.measured.share;
+    made.push_back(row);
   }
-  equations.patches = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), std::uint8_t{1}));
-  return equations;
+  return made;
+}
+
+/// Equations of the terms, from which the brightness of each point and the trajectory are eliminated.
+TermEquations HeadFit::linearise(std::vector<HeadRow> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].brightness -= exposures_[views_.images().sightings[i].view];
+  std::vector<PointRows> points = usablePoints(rows, false);
+  const double variance = rowVariance(rows, points);
+  if (!(variance > 0.0)) return zeroEquations(1);
+  const auto order = [](const PointRows& each) { return std::make_pair(each.point.measured.stretch, each.place); };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const PointRows& a, const PointRows& b) { return order(a) < order(b); });
+  std::vector<std::size_t> begins;  // of the points in one place and stretch
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i == 0 || order(points[i - 1]) != order(points[i])) begins.push_back(i);
+  begins.push_back(points.size());
+  for (FreeTrajectory& stretch : stretches_) stretch.clear();
+  std::vector<PlaceEquations> equations(kPlaceBatch);
+  for (std::size_t first = 0; first + 1 < begins.size(); first += kPlaceBatch) {
+    const std::size_t count = std::min(kPlaceBatch, begins.size() - 1 - first);
+    urban_nav_core::forEach(count, 1, [&](std::size_t i) {
+      std::vector<std::vector<BrightnessRow>> all;
+      for (std::size_t p = begins[first + i]; p < begins[first + i + 1]; ++p)
+        if (auto of_point = brightnessRows(rows, points[p]); !of_point.empty()) all.push_back(std::move(of_point));
+      equations[i] = sumBrightnessRows(all, variance);
+    });
+    for (std::size_t i = 0; i < count; ++i)
+      if (!equations[i].seconds.empty())
+        stretches_[points[begins[first + i]].point.measured.stretch].add(std::move(equations[i]));
+  }
+  TermEquations sum = zeroEquations(1);
+  for (FreeTrajectory& stretch : stretches_) sum += stretch.eliminate();
+  return sum;
+}
+
+/// Mean square of the differences of the views of a point, over all points; 0 if no two views show one point.
+double HeadFit::rowVariance(const std::vector<HeadRow>& rows, const std::vector<PointRows>& points) {
+  double squares = 0.0, freedom = 0.0;
+  for (const PointRows& point : points) {
+    double first = 0.0, second = 0.0, count = 0.0;
+    for (std::size_t i = point.point.first; i < point.point.last; ++i)
+      if (point.isNear(rows[i])) {
+        const auto difference = static_cast<double>(rows[i].brightness - point.median);
+        first += difference;
+        second += difference * difference;
+        count += 1.0;
+      }
+    if (count < 2.0) continue;
+    squares += second - first * first / count;
+    freedom += count - 1.0;
+  }
+  return freedom > 0.0 ? std::max(squares / freedom, kLeastRowVariance) : 0.0;
 }
 
 TermEstimate HeadFit::estimate(const std::vector<bool>& wanted) {
@@ -199,7 +198,7 @@ TermEstimate HeadFit::estimate(const std::vector<bool>& wanted) {
   TermEstimate estimate;
   for (int level = all ? kHeadLevels - 1 : 0; level >= 0; --level)
     for (int round = 0; round < (level > 0 ? kRoundsPerLevel : kFinestRounds); ++round) {
-      std::vector<Row> rows = rowsAt(terms_, level);
+      std::vector<HeadRow> rows = views_.rowsAt(terms_, level, true);
       if (round == 0) estimateExposures(rows);
       TermEquations equations = linearise(std::move(rows));
       equations_places_ = equations.patches;
@@ -207,6 +206,7 @@ TermEstimate HeadFit::estimate(const std::vector<bool>& wanted) {
       const auto step = solveTerms(std::move(equations), terms_, wanted);
       if (!step) return estimate;
       terms_ = step->estimate.mean;
+      for (FreeTrajectory& stretch : stretches_) stretch.move(step->change);
       estimate = step->estimate;
       if (isConverged(*step)) break;
     }
@@ -214,18 +214,17 @@ TermEstimate HeadFit::estimate(const std::vector<bool>& wanted) {
 }
 
 std::vector<HeadFit::PlaceSpread> HeadFit::spreadsAt(const TermVector& terms) {
-  std::vector<Row> rows = rowsAt(terms, 0);
+  std::vector<HeadRow> rows = views_.rowsAt(terms, 0, false);
   estimateExposures(rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].brightness -= exposures_[images_.sightings[i].view];
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].brightness -= exposures_[views_.images().sightings[i].view];
   std::vector<PlaceSpread> spreads(is_held_out_.size());
-  forEachPoint(rows, true, [&](std::uint32_t place, std::size_t first, std::size_t last, float median) {
-    for (std::size_t i = first; i < last; ++i) {
+  for (const PointRows& point : usablePoints(rows, true))
+    for (std::size_t i = point.point.first; i < point.point.last; ++i) {
       if (!rows[i].is_seen) continue;
-      const float difference = std::min(std::abs(rows[i].brightness - median), kBrightnessClip);
-      spreads[place].squares += static_cast<double>(difference * difference);
-      spreads[place].sightings += 1.0;
+      const float difference = std::min(std::abs(rows[i].brightness - point.median), kBrightnessClip);
+      spreads[point.place].squares += static_cast<double>(difference * difference);
+      spreads[point.place].sightings += 1.0;
     }
-  });
   return spreads;
 }
 

@@ -72,11 +72,13 @@ struct ViewCalibrator::ViewData {
 };
 
 ViewCalibrator::ViewCalibrator(std::vector<MountedView> views, const urban_nav_core::Trajectory& T_map_base,
-                               double voxel)
+                               const urban_nav_core::OdometryChain* odometry, double voxel)
     : views_(usableViews(std::move(views), T_map_base)),
       T_map_base_(T_map_base),
+      odometry_(odometry),
       voxel_(voxel),
-      centre_(cameraMiddle(views_)) {
+      centre_(cameraMiddle(views_)),
+      samples_(kMostSamples) {
   for (const MountedView& view : views_) data_.emplace_back(view, *T_map_base.at(view.stamp, kLongestViewGap));
 }
 
@@ -94,14 +96,8 @@ void ViewCalibrator::addSurface(const std::vector<MapPoint>& points) {
     for (const MapPoint& point : points)
       if (const auto at = projection.project(point.p)) data_[i].depth.add(*at, voxel_);
   });
-  for (const MapPoint& point : points) {
-    if (seen_++ % sample_step_ != 0 || point.normal.squaredNorm() < 0.5F) continue;
-    samples_.push_back(point);
-    if (samples_.size() < kMostSamples) continue;
-    for (std::size_t i = 0; 2 * i < samples_.size(); ++i) samples_[i] = samples_[2 * i];
-    samples_.resize(samples_.size() / 2);
-    sample_step_ *= 2;
-  }
+  for (const MapPoint& point : points)
+    if (point.normal.squaredNorm() > 0.5F) samples_.add(point);
 }
 
 ViewCalibration ViewCalibrator::estimate(const std::string& name, const ImageLoader& load) const {
@@ -110,9 +106,11 @@ ViewCalibration ViewCalibrator::estimate(const std::string& name, const ImageLoa
   result.centre = centre_;
   HeadImages images;
   images.views = views_;
-  for (const MapPoint& point : samples_) {
+  const std::vector<MapPoint>& samples = samples_.items();
+  for (const MapPoint& point : samples) {
     images.points.push_back(point.p.cast<double>());
     images.normals.push_back(point.normal.cast<double>().normalized());
+    images.stamps.push_back(point.stamp);
   }
   std::vector<std::vector<std::uint32_t>> shown(views_.size());
   for (const MountedView& view : views_) {
@@ -122,10 +120,10 @@ ViewCalibration ViewCalibrator::estimate(const std::string& name, const ImageLoa
   }
   urban_nav_core::forEach(views_.size(), 1, [&](std::size_t view) {
     const ViewProjection projection(data_[view].stated);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (std::abs(samples_[i].stamp - views_[view].stamp) > kLongestApart) continue;
-      const auto at = projection.project(samples_[i].p);
-      if (at && data_[view].depth.isVisible(*at, projection.toCamera(samples_[i])))
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (std::abs(samples[i].stamp - views_[view].stamp) > kLongestApart) continue;
+      const auto at = projection.project(samples[i].p);
+      if (at && data_[view].depth.isVisible(*at, projection.toCamera(samples[i])))
         shown[view].push_back(static_cast<std::uint32_t>(i));
     }
   });
@@ -134,7 +132,7 @@ ViewCalibration ViewCalibrator::estimate(const std::string& name, const ImageLoa
   std::sort(images.sightings.begin(), images.sightings.end(), [](const HeadSighting& a, const HeadSighting& b) {
     return a.point != b.point ? a.point < b.point : a.view < b.view;
   });
-  HeadFit fit(images, T_map_base_, centre_);
+  HeadFit fit(images, T_map_base_, odometry_, centre_);
   const TermSelection selected =
       selectTerms(kCalibrationTerms, [&](const std::vector<bool>& wanted) { return fit.estimate(wanted); });
   if (selected.all.mean.size() == 0) return result;

@@ -34,15 +34,15 @@ Pose leftCamera() {
   return Pose(R, Vector3d(0.3, 0.0, 1.2));
 }
 
-/// The robot passes along the wall at 1.2 m/s, swings its head and sways.
-urban_nav_core::Trajectory drivenPath() {
+/// The robot passes along the wall at 1.2 m/s, swings its head and sways. `slip`: to the left, m/s.
+urban_nav_core::Trajectory drivenPath(double slip = 0.0) {
   urban_nav_core::Trajectory path;
   for (int i = 0; i < 320; ++i) {
     const double t = 0.05 * i - 1.0;
     path.append(std::llround(1e9 * t) + kViewStart,
                 Pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.25 * std::sin(1.1 * t), Vector3d::UnitZ()) *
                                         Eigen::AngleAxisd(0.08 * std::sin(1.7 * t), Vector3d::UnitX())),
-                     Vector3d(1.2 * t - 8.0, 0.2 * std::sin(0.7 * t), 0.0)));
+                     Vector3d(1.2 * t - 8.0, 0.2 * std::sin(0.7 * t) + slip * (t + 1.0), 0.0)));
   }
   return path;
 }
@@ -64,13 +64,15 @@ Picture photograph(const Pose& T_map_camera, std::size_t image) {
   return picture;
 }
 
-std::vector<MapPoint> surfacePoints() {
+/// Points of wall and ground, each measured as the robot passes it. `given`: the trajectory along which they are laid.
+std::vector<MapPoint> surfacePoints(const urban_nav_core::Trajectory& path, const urban_nav_core::Trajectory& given) {
   std::vector<MapPoint> points;
   const auto add = [&](float x, float y, float z, const Eigen::Vector3f& normal) {
     MapPoint point;
-    point.p = {x, y, z};
+    point.stamp = kViewStart + std::llround(1e9 * std::clamp((static_cast<double>(x) + 8.0) / 1.2, 0.0, 13.0));
+    const Pose T_given_path = *given.at(point.stamp, kBetweenViews) * path.at(point.stamp, kBetweenViews)->inverse();
+    point.p = (T_given_path * Vector3d(x, y, z)).cast<float>();
     point.normal = normal;
-    point.stamp = kViewStart;
     points.push_back(point);
   };
   for (float x = -12.0F; x < 12.0F; x += 0.05F) {
@@ -80,9 +82,11 @@ std::vector<MapPoint> surfacePoints() {
   return points;
 }
 
-/// Calibrates images that were taken `late` seconds before their stamps, by a camera that `turn` (rad, axes of the
-/// robot) takes from where it is stated to be to where it is.
-ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_core::Trajectory& path) {
+/// Calibrates images that were taken `late` seconds before their stamps along `path`, by a camera that `turn` (rad,
+/// axes of the robot) takes from where it is stated to be to where it is. `given`: the trajectory as odometry has it.
+ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_core::Trajectory& path,
+                          const urban_nav_core::Trajectory& given,
+                          const urban_nav_core::OdometryChain* odometry = nullptr) {
   const Pose stated = leftCamera(),
              actual(Eigen::Matrix3d(urban_nav_core::expSo3(turn) * stated.q()), Vector3d(stated.t()));
   std::vector<MountedView> views;
@@ -94,11 +98,15 @@ ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_cor
     view.image = i;
     views.push_back(view);
   }
-  ViewCalibrator calibrator(views, path, 0.05);
-  calibrator.addSurface(surfacePoints());
+  ViewCalibrator calibrator(views, given, odometry, 0.05);
+  calibrator.addSurface(surfacePoints(path, given));
   return calibrator.estimate("panorama", [&](std::size_t image) {
     return photograph(*path.at(views[image].stamp - std::llround(1e9 * late), 1'000'000'000) * actual, image);
   });
+}
+
+ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_core::Trajectory& path) {
+  return calibrate(late, turn, path, path);
 }
 
 constexpr double kHeadDegree = M_PI / 180.0;
@@ -148,6 +156,38 @@ TEST(ViewCalibration, WhereNothingIsWrongNothingIsAdopted) {
     EXPECT_LT(std::abs(term.value), std::max(3.0 * term.sigma, 5e-4));
 }
 
+/// Odometry along a path, uncertain by `sigma_y` (m) to the side each root of a second.
+urban_nav_core::OdometryChain odometryAlong(const urban_nav_core::Trajectory& path, double sigma_y) {
+  urban_nav_core::OdometryChain chain;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    urban_nav_core::RelativePose step;
+    step.from = path[i - 1].stamp;
+    step.to = path[i].stamp;
+    step.T_from_to = path[i - 1].pose.inverse() * path[i].pose;
+    const double share = urban_nav_core::secondsBetween(step.from, step.to);
+    urban_nav_core::Vector6d variances;
+    variances << 1e-6, sigma_y * sigma_y, 1e-6, 1e-7, 1e-7, 1e-7;
+    step.covariance = (share * variances).asDiagonal();
+    EXPECT_TRUE(chain.append(step));
+  }
+  return chain;
+}
+
+TEST(ViewCalibration, ASlipThatOdometryAllowsForIsWithinTheStatedSigma) {
+  constexpr double slip = 0.004, turn = 1.0 * kHeadDegree;  // m/s: as if the head were turned by 0.19 deg
+  const urban_nav_core::Trajectory path = drivenPath(), given = drivenPath(-slip);
+  const urban_nav_core::OdometryChain odometry = odometryAlong(given, 2.0 * slip);
+  const ViewCalibration certain = calibrate(0.0, turn * Vector3d::UnitZ(), path, given),
+                        found = calibrate(0.0, turn * Vector3d::UnitZ(), path, given, &odometry);
+  const CalibrationEstimate &yaw = found.head.at(CalibrationTerm::TurnZ),
+                            &certain_yaw = certain.head.at(CalibrationTerm::TurnZ);
+  ASSERT_TRUE(found.isAdopted());
+  EXPECT_LT(std::abs(yaw.value - turn), 3.0 * yaw.sigma);
+  EXPECT_GT(yaw.sigma, certain_yaw.sigma);
+  EXPECT_GT(std::abs(certain_yaw.value - turn), 4.0 * certain_yaw.sigma) << "an odometry of 1 mm a second excludes it";
+  EXPECT_LT(std::abs(yaw.value - turn), 0.3 * std::abs(certain_yaw.value - turn));
+}
+
 TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
   urban_nav_core::Trajectory standing;
   for (const urban_nav_core::StampedPose& pose : drivenPath()) standing.append(pose.stamp, drivenPath()[60].pose);
@@ -160,7 +200,7 @@ TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
 
 TEST(ViewCalibration, WithoutViewsThereIsNothing) {
   const urban_nav_core::Trajectory path = drivenPath();
-  const ViewCalibrator calibrator({}, path, 0.05);
+  const ViewCalibrator calibrator({}, path, nullptr, 0.05);
   const ViewCalibration found = calibrator.estimate("panorama", [](std::size_t) { return Picture(); });
   EXPECT_EQ(found.places, 0U);
   EXPECT_FALSE(found.isAdopted());

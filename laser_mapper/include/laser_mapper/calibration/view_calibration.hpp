@@ -8,6 +8,8 @@
 #include "laser_mapper/calibration/laser_calibration.hpp"
 #include "laser_mapper/colour/colour_view.hpp"
 #include "laser_mapper/map_point.hpp"
+#include "urban_nav_core/sequence/even_thinning.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
 
 namespace laser_mapper {
 
@@ -38,14 +40,17 @@ struct ViewCalibration {
 };
 
 /// Estimates delay and mounting of a head of cameras by the colours of the map: views of one point must show the same
-/// brightness. Each view of a point is compared with the others of the same 20 s, along which drift is small. Order of
+/// brightness. Each view of a point is compared with the others of the same 20 s. What errors of the trajectory, as
+/// odometry states them, may explain is not taken for an error of the head. Order of
 /// calls: addSurface() for all points, then estimate(). The result does not depend on the number of threads. Not
 /// thread-safe.
 class ViewCalibrator {
  public:
-  /// `T_map_base` must outlive it. `voxel`: distance between points of the map, m. Views at times without poses are
-  /// left out, and whole stretches of time where there are more images than fit into memory.
-  ViewCalibrator(std::vector<MountedView> views, const urban_nav_core::Trajectory& T_map_base, double voxel);
+  /// `T_map_base` and `odometry` must outlive it. `odometry`: its covariances say how far the trajectory may be off;
+  /// null: by 1 mm and 0.3 mrad a second. `voxel`: distance between points of the map, m. Views at times without poses
+  /// are left out, and whole stretches of time where there are more images than fit into memory.
+  ViewCalibrator(std::vector<MountedView> views, const urban_nav_core::Trajectory& T_map_base,
+                 const urban_nav_core::OdometryChain* odometry, double voxel);
   ~ViewCalibrator();
 
   /// Notes what points hide.
@@ -58,11 +63,11 @@ class ViewCalibrator {
 
   std::vector<MountedView> views_;
   const urban_nav_core::Trajectory& T_map_base_;
+  const urban_nav_core::OdometryChain* const odometry_;
   const double voxel_;
   urban_nav_core::Vector3d centre_ = urban_nav_core::Vector3d::Zero();
   std::vector<ViewData> data_;
-  std::vector<MapPoint> samples_;
-  std::size_t sample_step_ = 1, seen_ = 0;
+  urban_nav_core::EvenThinning<MapPoint> samples_;
 };
 
 /// Makes all stages use the adopted terms of a calibration of a session's panoramas, or, with none adopted, its

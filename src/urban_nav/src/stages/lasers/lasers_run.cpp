@@ -148,7 +148,8 @@ void calibrateViews(const std::vector<std::size_t>& sessions, const LaserMap& ma
     if (std::find(sessions.begin(), sessions.end(), calibration.number) == sessions.end()) continue;
     for (const laser_mapper::MappedSession& session : mapped) {
       if (session.id != context.ids()[calibration.number]) continue;
-      calibration.panorama = calibratePanoramas(*context.store, session, map);
+      const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[calibration.number]);
+      calibration.panorama = calibratePanoramas(*context.store, session, odometry, map);
       if (calibration.panorama) laser_mapper::storeViewCalibration(*context.store, session.id, *calibration.panorama);
     }
   }

@@ -79,11 +79,12 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
 
 std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store::Store& store,
                                                                 const MappedSession& session,
+                                                                const urban_nav_core::OdometryChain& odometry,
                                                                 const laser_mapper::LaserMap& map) {
   SessionViews made;
   addViews(store, session, {}, made);
   if (made.views.empty()) return std::nullopt;
-  laser_mapper::ViewCalibrator calibrator(made.views, *session.T_map_base, map.parameters().voxel);
+  laser_mapper::ViewCalibrator calibrator(made.views, *session.T_map_base, &odometry, map.parameters().voxel);
   map.forEachTile([&](const laser_mapper::Tile&, const std::vector<laser_mapper::MapPoint>& points) {
     calibrator.addSurface(points);
   });

@@ -20,9 +20,10 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
                                                          double voxel, double memory_mb);
 
 /// Calibrates the panoramic head of a session by the colours of its map; nullopt if there are no panoramas at times
-/// that the trajectory covers.
+/// that the trajectory covers. `odometry`: see laser_mapper::ViewCalibrator.
 std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store::Store& store,
                                                                 const laser_mapper::MappedSession& session,
+                                                                const urban_nav_core::OdometryChain& odometry,
                                                                 const laser_mapper::LaserMap& map);
 
 }  // namespace urban_nav
