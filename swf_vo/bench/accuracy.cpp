@@ -79,7 +79,7 @@ int main(int argc, char** argv) try {
     add(table, sequence, "swf_vo, now", result.now, meanNees(sequence.truth, result.now, result.now_covariance), ms);
     add(table, sequence, "swf_vo, settled", result.settled,
         meanNees(sequence.truth, result.settled, result.settled_covariance), ms);
-    for (const Peer& peer : peersOf(sequence, options.peers)) add(table, sequence, peer.name, peer.poses, "", "");
+    for (const Peer& peer : readPeers(sequence, options.peers)) add(table, sequence, peer.name, peer.poses, "", "");
   }
   return show(table, options.output);
 } catch (const std::exception& error) {

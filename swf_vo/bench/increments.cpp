@@ -139,7 +139,7 @@ int main(int argc, char** argv) try {
   for (const std::string& folder : orRealSequences(folders)) {
     Sequence sequence = kittiFolder(folder);
     std::string name = poolName(sequence.name);
-    for (Peer& peer : peersOf(sequence, peers)) {
+    for (Peer& peer : readPeers(sequence, peers)) {
       sequence.truth = std::move(peer.poses);
       name += ", " + peer.name + " for truth";
     }

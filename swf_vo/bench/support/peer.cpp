@@ -20,7 +20,7 @@ std::vector<urban_nav_core::Pose> readPoses(const std::string& path) {
 
 }  // namespace
 
-std::vector<Peer> peersOf(const Sequence& sequence, const std::vector<std::string>& arguments) {
+std::vector<Peer> readPeers(const Sequence& sequence, const std::vector<std::string>& arguments) {
   std::vector<Peer> peers;
   for (const std::string& argument : arguments) {
     const auto first = argument.find('='), second = argument.find('=', first + 1);

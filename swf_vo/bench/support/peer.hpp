@@ -16,6 +16,6 @@ struct Peer {
 
 /// Of "NAME=SEQUENCE=FILE" each that belongs to the sequence; FILE: poses in KITTI's or (.tum) the TUM format. Throws
 /// UserError where a file cannot be read, or has not as many poses as the sequence.
-std::vector<Peer> peersOf(const Sequence& sequence, const std::vector<std::string>& arguments);
+std::vector<Peer> readPeers(const Sequence& sequence, const std::vector<std::string>& arguments);
 
 }  // namespace swf_vo::bench
