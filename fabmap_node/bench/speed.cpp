@@ -194,6 +194,27 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
   return memory;
 }
 
+/// Maps of panoramas whose descriptors are read back one by one, as from a store, but for the time of the disk.
+void addLargeMaps(const PlaceModel& model, const std::vector<PlaceDescription>& descriptions, BenchTable& table) {
+  const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);
+  const auto shown = [&descriptions](std::size_t i) -> const PlaceDescription& {
+    return descriptions[1 + i % (descriptions.size() - 1)];
+  };
+  const double before = heapKb();
+  PlaceMatcher matcher(likelihoods, model.sampled_places, {}, [&](std::size_t, urban_nav_core::StampNs stamp) {
+    return shown(static_cast<std::size_t>(stamp)).look;
+  });
+  const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};
+  for (const std::size_t places : {std::size_t{10'000}, std::size_t{100'000}, std::size_t{1'000'000}}) {
+    while (matcher.size() < places)
+      matcher.add({0, static_cast<urban_nav_core::StampNs>(matcher.size()), shown(matcher.size()).words, {}});
+    const double memory = (heapKb() - before) / static_cast<double>(places);
+    table.add({"match of a panorama, descriptors in a store",
+               std::to_string(places) + " places, " + cell(memory, 2) + " kB of memory each",
+               cell(medianMs(5, [&] { matcher.match(query, [](std::size_t) { return true; }); }), 1)});
+  }
+}
+
 void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const PlaceModel model = defaultModel();
   const MatcherOptions options;
@@ -219,6 +240,7 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};
   table.add({"match of a panorama, all in one", std::to_string(map_places) + " places",
              cell(medianMs(15, [&] { matcher.match(query, [](std::size_t) { return true; }); }), 1)});
+  addLargeMaps(model, descriptions, table);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "fabmap_node/recognition/compact_look.hpp"
 
@@ -30,10 +31,10 @@ const char* toString(PlaceKnowledge knowledge) {
   return names[static_cast<std::size_t>(knowledge)];
 }
 
-FabMap::FabMap(const PlaceModel& model, const Parameters& parameters)
+FabMap::FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look)
     : known_probability_(parameters.known_probability),
       closure_probability_(parameters.closure_probability),
-      recogniser_(model, recogniserOptions(parameters)),
+      recogniser_(model, recogniserOptions(parameters), std::move(read_look)),
       selector_(parameters) {}
 
 void FabMap::beginSession(const std::string& name) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <utility>
+
 #include "fabmap_node/training/train_model.hpp"
 #include "support/synthetic_places.hpp"
 
@@ -35,6 +39,33 @@ const PlaceModel& syntheticModel() {
 
 PlaceDescription describeNumber(std::uint32_t number, std::uint32_t noise) {
   return PlaceDescriber(syntheticModel().vocabulary, {}, 280).describe(syntheticPlace(number, noise));
+}
+
+TEST(FabMap, GivesTheSameWithLooksThatAreReadBack) {
+  std::map<std::pair<std::size_t, StampNs>, std::string> looks;
+  FabMap plain(syntheticModel(), Parameters());
+  FabMap reading(syntheticModel(), Parameters(), [&looks](std::size_t session, StampNs stamp) {
+    return looks.at({session, stamp});
+  });
+  std::size_t closures = 0;
+  for (std::uint32_t day = 0; day < 2; ++day) {
+    plain.beginSession("day");
+    reading.beginSession("day");
+    for (std::uint32_t i = 0; i < 30; ++i) {
+      const StampNs stamp = (1000 * day + i) * place_second;
+      const PlaceDescription description = describeNumber(5000 + i, day);
+      const PlaceOutput a = plain.process(stamp, description, 6.0 * i),
+                        b = reading.process(stamp, description, 6.0 * i);
+      looks[{day, stamp}] = description.look;
+      EXPECT_EQ(a.belief.p_new, b.belief.p_new) << i;
+      EXPECT_EQ(a.belief.agreeing, b.belief.agreeing) << i;
+      ASSERT_EQ(a.closures.size(), b.closures.size()) << i;
+      closures += a.closures.size();
+    }
+  }
+  EXPECT_GT(closures, 0u);
+  EXPECT_TRUE(reading.place(0).look.empty());
+  EXPECT_FALSE(plain.place(0).look.empty());
 }
 
 TEST(FabMap, AnnouncesARevisitAndProposesItOnce) {

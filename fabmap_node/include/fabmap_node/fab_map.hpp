@@ -46,11 +46,14 @@ struct PlaceOutput {
 /// threads. Not thread-safe.
 class FabMap {
  public:
-  /// The model must outlive the object.
-  FabMap(const PlaceModel& model, const Parameters& parameters);
+  /// The model must outlive the object. With `read_look` the map keeps neither words nor look of a place beside its
+  /// index; looks are read by the thread that calls process(). Sessions count from 0.
+  FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look = {});
 
   /// Starts a session; observations that follow belong to it.
   void beginSession(const std::string& name);
+  /// Renames the session that was started last, for the closures that follow.
+  void renameSession(const std::string& name) { sessions_.back() = name; }
   /// Adds an observation as a place of the map without recognising it.
   void addPlace(urban_nav_core::StampNs stamp, const PlaceDescription& description, double travelled);
   /// Recognises an observation, then adds it to the map, unless the robot stands still. Stamps of a session ascend.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -27,22 +28,30 @@ double logMeanOfExponentials(const std::vector<double>& logs) {
   return top + std::log(sum / static_cast<double>(logs.size()));
 }
 
+LookFeatures unpackPlaceLook(const std::string& packed, const DescribedPlace& place) {
+  return unpackLook(packed, "place at " + urban_nav_core::printStamp(place.stamp) + " s");
+}
+
 }  // namespace
 
 PlaceMatcher::PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled,
-                           const MatcherOptions& options)
-    : options_(options), index_(table), sampled_(table) {
+                           const MatcherOptions& options, LookReader read_look)
+    : options_(options), read_look_(std::move(read_look)), index_(table), sampled_(table) {
   for (const WordSet& words : sampled) sampled_.add(words);
 }
 
 void PlaceMatcher::add(DescribedPlace place) {
   index_.add(place.words);
-  places_.push_back(std::move(place));
+  if (read_look_) places_.push_back({place.session, place.stamp, {}, {}});
+  else places_.push_back(std::move(place));
 }
 
-LookFeatures PlaceMatcher::look(const DescribedPlace& place) const {
-  return unpackLook(place.look, "place at " + urban_nav_core::printStamp(place.stamp) + " s");
+std::string PlaceMatcher::packedLook(std::size_t place) const {
+  const DescribedPlace& one = places_[place];
+  return read_look_ ? read_look_(one.session, one.stamp) : one.look;
 }
+
+LookFeatures PlaceMatcher::look(std::size_t place) const { return unpackPlaceLook(packedLook(place), places_[place]); }
 
 bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
   return places_[a].session != places_[b].session || std::abs(places_[a].stamp - places_[b].stamp) > options_.elsewhere;
@@ -88,15 +97,17 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
 
 /// Compares every `step`-th descriptor of the places with those of the query.
 void PlaceMatcher::compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const {
+  std::vector<std::string> packed;
+  for (const Candidate& candidate : candidates) packed.push_back(packedLook(candidate.place));
   urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-    const LookFeatures all = look(places_[candidates[i].place]);
+    const LookFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].place]);
     candidates[i].look = secondLook(query, step > 1 ? thinnedOut(all, step) : all);
   });
 }
 
 bool PlaceMatcher::showSamePlace(const Candidate& best, const Candidate& other) const {
   return other.look.share > same_place_share * best.look.share &&
-         secondLook(look(places_[best.place]), look(places_[other.place])).share > best.look.share * same_place_share;
+         secondLook(look(best.place), look(other.place)).share > best.look.share * same_place_share;
 }
 
 PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
@@ -135,7 +146,7 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
     const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
   if (options_.second_looks > 0 && !candidates.empty()) {
-    const LookFeatures own = look(query);
+    const LookFeatures own = unpackPlaceLook(query.look, query);
     if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
       compareAll(own, thinning, candidates);
       std::stable_sort(candidates.begin(), candidates.end(),
@@ -174,7 +185,7 @@ PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t p
   comparison.is_first = comparison.is_compared && found == candidates.begin();
   if (!comparison.is_compared) {
     candidates.push_back({place, likelihoods[place], {}});
-    if (options_.second_looks > 0) candidates.back().look = secondLook(look(query), look(places_[place]));
+    if (options_.second_looks > 0) candidates.back().look = secondLook(unpackPlaceLook(query.look, query), look(place));
     found = candidates.end() - 1;
   }
   comparison.look = found->look;

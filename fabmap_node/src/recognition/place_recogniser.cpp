@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fabmap_node/recognition/place_recogniser.hpp"
 
+#include <utility>
+
 #include "fabmap_node/recognition/compact_look.hpp"
 
 namespace fabmap_node {
 
-PlaceRecogniser::PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options)
+PlaceRecogniser::PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options, LookReader read_look)
     : model_(model),
       options_(options),
       table_(model.tree, model.detector, Dependence::ChowLiu),
-      matcher_(table_, model.sampled_places, options.matcher) {}
+      matcher_(table_, model.sampled_places, options.matcher, std::move(read_look)) {}
 
 void PlaceRecogniser::beginSession() {
   if (has_session_) ++session_;

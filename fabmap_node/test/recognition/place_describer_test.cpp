@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <string>
 
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/model/word_bytes.hpp"
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "support/synthetic_places.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace fabmap_node {
@@ -119,6 +122,33 @@ TEST(PlaceRows, ReadBackAndRefuseDamage) {
   refuses([](auto& place) { place.words += "\xff"; });
   refuses([](auto& place) { place.descriptors.pop_back(); });
   EXPECT_THROW(toPlaceDescription(row, 10), urban_nav_core::DataError) << "words of a larger vocabulary";
+}
+
+// What is taken all the same is compared without harm.
+TEST(PlaceRows, Fuzzed) {
+  const PlaceDescription description = describePixels(squares(4));
+  const urban_nav_store::StoredPlace row = toStoredPlace("session", 17, description, "hash");
+  const LookFeatures own = unpackLook(description.look, "query");
+  const auto fuzz = [&](const std::string& seed, std::string urban_nav_store::StoredPlace::*column) {
+    return urban_nav_core::testing::fuzzText({seed}, [&](const std::string& text) {
+      urban_nav_store::StoredPlace damaged = row;
+      damaged.*column = text;
+      try {
+        const PlaceDescription read = toPlaceDescription(damaged, suiteModel().vocabulary.size());
+        ASSERT_TRUE(std::is_sorted(read.words.begin(), read.words.end()));
+        const double share = secondLook(own, unpackLook(read.look, "place")).share;
+        ASSERT_TRUE(share >= 0.0 && share <= 1.0) << share;
+      } catch (const urban_nav_core::DataError& error) {
+        throw urban_nav_core::UserError(error.parts());
+      }
+    });
+  };
+  for (const auto& result : {fuzz(row.words, &urban_nav_store::StoredPlace::words),
+                             fuzz(row.descriptors, &urban_nav_store::StoredPlace::descriptors)}) {
+    EXPECT_EQ(result.failure, "");
+    EXPECT_GT(result.accepted, 0);
+    EXPECT_GT(result.refused, 0);
+  }
 }
 
 TEST(PlaceRows, ThumbnailIsSmall) {

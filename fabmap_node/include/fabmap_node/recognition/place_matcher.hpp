@@ -21,6 +21,9 @@ struct MatcherOptions {
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< places of one session so far apart in time are elsewhere, ns
 };
 
+/// Reads packLook() of a place of the map, by the index of its session and its stamp.
+using LookReader = std::function<std::string(std::size_t session, urban_nav_core::StampNs stamp)>;
+
 /// Observation prepared for matching.
 struct DescribedPlace {
   std::size_t session = 0;  ///< index of the session
@@ -52,11 +55,14 @@ struct PlaceComparison {
 /// section 3): likelihoods of words first, then a second look at the likeliest candidates. The likelihood of a new
 /// place is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
 ///
-/// matches() is deterministic for any number of threads. Const functions are thread-safe.
+/// matches() is deterministic for any number of threads. Const functions are thread-safe if the reader of looks is.
 class PlaceMatcher {
  public:
-  /// The model must outlive the matcher. `sampled`: observations of places outside the map.
-  PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled, const MatcherOptions& options);
+  /// The model must outlive the matcher. `sampled`: observations of places outside the map. With `read_look` the
+  /// matcher keeps neither words nor look of a place beside the index: looks are read when they are compared, by the
+  /// thread that calls.
+  PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled, const MatcherOptions& options,
+               LookReader read_look = {});
 
   /// Appends a place; its number is the former size().
   void add(DescribedPlace place);
@@ -91,9 +97,11 @@ class PlaceMatcher {
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
                    double log_likelihood_new) const;
   bool showSamePlace(const Candidate& best, const Candidate& other) const;
-  LookFeatures look(const DescribedPlace& place) const;
+  std::string packedLook(std::size_t place) const;
+  LookFeatures look(std::size_t place) const;
 
   const MatcherOptions options_;
+  const LookReader read_look_;  // empty: places_ have their looks
   PlaceIndex index_, sampled_;
   std::vector<DescribedPlace> places_;
 };

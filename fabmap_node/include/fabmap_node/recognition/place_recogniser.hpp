@@ -30,8 +30,8 @@ struct PlaceRecognition {
 /// becomes a place itself. Calls in order of time. Not thread-safe.
 class PlaceRecogniser {
  public:
-  /// The model must outlive the recogniser.
-  PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options);
+  /// The model must outlive the recogniser. `read_look`: as of PlaceMatcher.
+  PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options, LookReader read_look = {});
   PlaceRecogniser(const PlaceRecogniser&) = delete;
   PlaceRecogniser& operator=(const PlaceRecogniser&) = delete;
 
