@@ -10,6 +10,7 @@
 
 #include "live/live_places.hpp"
 #include "live/nodelet_parameters.hpp"
+#include "urban_nav_live/time_jump.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
@@ -28,12 +29,20 @@ namespace {
 constexpr const char* belief_topic = "places/belief";
 constexpr double image_timeout = 2.0;     // s
 constexpr double odometry_timeout = 5.0;  // s
+// Writes of some 25 kB that wait for a commit, beside those that LivePlaces holds while the disk takes none.
+constexpr std::size_t waiting_places = 1000;
 
 /// Image of one camera of the head.
 struct CameraImage {
   std::size_t camera = 0;
   RecordedImage image;
 };
+
+urban_nav_live::StoreWriterLink::Options storeOptions() {
+  urban_nav_live::StoreWriterLink::Options options;
+  options.writer.capacity = waiting_places;
+  return options;
+}
 
 urban_nav_msgs::PlaceBelief toMessage(const PlaceBelief& belief) {
   urban_nav_msgs::PlaceBelief message;
@@ -74,6 +83,7 @@ class FabmapStage {
   void advertiseFiles();
   void loadMap();
   void startFeed();
+  void processPanoramas();
   void process(const Panorama& panorama);
 
   Node& node_;
@@ -81,13 +91,15 @@ class FabmapStage {
   Parameters parameters_;
   ros::Publisher belief_, closure_;
   std::unique_ptr<PanoramaFeed> feed_;
+  urban_nav_live::TimeJumpDetector image_time_;
   std::unique_ptr<LivePlaces> places_;
 };
 
 FabmapStage::FabmapStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
-  places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording});
+  places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording},
+                                         nodelet_.store, storeOptions());
   loadMap();
   startFeed();
   belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(belief_topic, 100);
@@ -152,7 +164,16 @@ void FabmapStage::startFeed() {
 void FabmapStage::handle(Input& input) {
   if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) return places_->addOdometry(*pose);
   const CameraImage& image = std::get<CameraImage>(input);
+  if (image_time_.add(image.image.stamp())) {  // the recording begins again
+    feed_->finish();
+    processPanoramas();
+    startFeed();
+  }
   feed_->add(image.camera, image.image);
+  processPanoramas();
+}
+
+void FabmapStage::processPanoramas() {
   while (const auto panorama = feed_->take()) process(*panorama);
 }
 
@@ -171,6 +192,8 @@ void FabmapStage::process(const Panorama& panorama) {
 }
 
 bool FabmapStage::idle() {
+  places_->syncStore();
+  node_.followStore(places_->storeState());
   const urban_nav_live::StageReport report = places_->report();
   node_.publishStatus(report.status, report.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
   return false;
@@ -179,6 +202,7 @@ bool FabmapStage::idle() {
 std::string FabmapStage::reset() {
   places_->reset();
   loadMap();
+  image_time_.reset();
   startFeed();
   return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +
          "are forgotten, the next panorama begins a new session";

@@ -73,7 +73,6 @@ class LoopMetricStage {
   std::unique_ptr<ClosureVerifier> verifier_;
   std::unique_ptr<SessionRecorder> recorder_;
   std::unique_ptr<Inputs> inputs_;
-  std::string store_fault_;
   std::int64_t store_lost_ = 0;
   std::atomic<std::int64_t> candidates_{0};
 };
@@ -143,10 +142,7 @@ void LoopMetricStage::logStore(const urban_nav_live::StoreState& store) {
                                   " keyframes, scans or steps of odometry are lost so far, and " +
                                   std::to_string(store.refused) + " were refused");
   store_lost_ = store.lost + store.refused;
-  if (store.fault == store_fault_) return;
-  if (store.fault.empty()) node_.logInfo(store.path + ": store is writable again");
-  else node_.logError("store: " + store.fault);
-  store_fault_ = store.fault;
+  node_.followStore(store);
 }
 
 LoopsState LoopMetricStage::state() const {

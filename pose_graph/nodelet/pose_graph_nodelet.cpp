@@ -84,7 +84,6 @@ class PoseGraphStage {
   std::optional<Clock::time_point> last_picture_;
   std::int64_t drawn_revision_ = -1;
   StampNs drawn_newest_ = 0;
-  std::string store_fault_;
 };
 
 PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
@@ -171,11 +170,7 @@ void PoseGraphStage::relaxed(const LiveGraph::Outcome& outcome, const LiveGraph&
 }
 
 void PoseGraphStage::followStore(const LiveGraph& graph) {
-  const urban_nav_live::StoreState state = graph.storeState();
-  if (state.fault == store_fault_) return;
-  if (state.fault.empty()) node_.logInfo(state.path + ": store is writable again, recording resumed");
-  else node_.logError("store: " + state.fault);
-  store_fault_ = state.fault;
+  if (!node_.followStore(graph.storeState())) return;
   const urban_nav_core::Status status = graph.status();
   node_.publishStatus(status, toString(static_cast<Trouble>(status.reason)), graph.newest());
 }

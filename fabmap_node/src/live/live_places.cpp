@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/live_places.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 
 namespace fabmap_node {
 
 using urban_nav_core::Health;
+using urban_nav_store::Session;
 
 namespace {
 
@@ -15,28 +20,53 @@ std::string readNamedModel(const Parameters& parameters) {
 }
 
 /// Numbers are published: new ones are appended.
-enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2 };
+enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2, NotStored = 3 };
+
+// Time by stamps until a session without odometry is named after its first observation: visual odometry gives its first
+// pose within a window.
+constexpr urban_nav_core::StampNs longest_wait = 10'000'000'000;
 
 }  // namespace
 
-LivePlaces::LivePlaces(const Parameters& parameters, LiveSessionName name)
+LivePlaces::LivePlaces(const Parameters& parameters, LiveSessionName name, const std::string& store,
+                       urban_nav_live::StoreWriterLink::Options store_options)
     : parameters_(parameters),
       name_(std::move(name)),
       model_bytes_(readNamedModel(parameters)),
       model_(parseModel(model_bytes_, parameters.model)),
-      describer_(model_.vocabulary, featureOptions(parameters), MatcherOptions().look_features) {
+      describer_(model_.vocabulary, featureOptions(parameters), MatcherOptions().look_features),
+      store_(store, model_bytes_, model_.vocabulary.size(), std::move(store_options)),
+      namer_(name_.robot) {
   reset();
 }
 
+LivePlaces::~LivePlaces() { endSession(); }
+
 void LivePlaces::addOdometry(const urban_nav_core::StampedPose& pose) {
-  if (!begin_) begin_ = pose.stamp;
-  travelled_.add(pose.stamp, pose.pose.t());
+  odometry_.add(pose);
+  if (!first_observed_ && odometry_.isAhead()) {  // nothing of the session before was observed
+    odometry_.beginNextSession();
+    session_.reset();
+  }
+  if (!session_ && odometry_.start()) beginSession(*odometry_.start());
 }
 
 PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images) {
-  if (!begin_) begin_ = stamp;
+  if (time_.add(stamp)) {
+    endSession();
+    map_->beginSession("");
+    odometry_.beginNextSession();
+  }
+  if (!first_observed_) first_observed_ = stamp;
+  nameSession(stamp);
   const PlaceDescription description = describer_.describe(images);
-  PlaceOutput output = map_->process(stamp, description, travelled_.at(stamp));
+  const std::size_t places = map_->places();
+  PlaceOutput output = map_->process(stamp, description, odometry_.travelled(stamp));
+  if (store_.isWanted() && map_->places() > places) {
+    urban_nav_store::StoredPlace row = toStoredPlace("", stamp, description, "");
+    row.thumbnail = placeThumbnail(images);
+    keep(std::move(row));
+  }
   ++counts_.observations;
   counts_.unused += description.status != ObservationStatus::Used ? 1 : 0;
   counts_.incomplete += description.missing > 0 ? 1 : 0;
@@ -46,12 +76,61 @@ PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector
   return output;
 }
 
+void LivePlaces::keep(urban_nav_store::StoredPlace place) {
+  if (session_) store_.put(*session_, std::move(place));
+  else unnamed_.push_back(std::move(place));
+}
+
+void LivePlaces::nameSession(urban_nav_core::StampNs now) {
+  if (session_) return;
+  if (odometry_.start()) beginSession(*odometry_.start());
+  else if (first_observed_ && now - *first_observed_ >= longest_wait) beginSession(*first_observed_);
+}
+
+void LivePlaces::beginSession(urban_nav_core::StampNs start) {
+  session_ = namer_.begin(name_.recording, start, resumable_).session;
+  const auto isThis = [this](const Session& other) { return other.id == session_->id; };
+  if (std::any_of(earlier_.begin(), earlier_.end(), isThis)) {  // recorded again: its places will be, too
+    std::vector<PlaceSession> sessions = placeSessions();
+    const PlaceSession recorded = std::move(sessions.back());
+    sessions.pop_back();
+    sessions.erase(std::remove_if(sessions.begin(), sessions.end(),
+                                  [&](const PlaceSession& each) { return isThis(each.session); }),
+                   sessions.end());
+    rebuildMap(sessions, recorded);
+  }
+  for (urban_nav_store::StoredPlace& place : std::exchange(unnamed_, {})) keep(std::move(place));
+}
+
+void LivePlaces::endSession() {
+  if (!session_ && first_observed_) nameSession(*first_observed_ + longest_wait);
+  if (session_ && first_observed_) {
+    store_.end(*session_);
+    map_->renameSession(session_->id);
+    earlier_.push_back(*session_);
+  }
+  session_.reset();
+  first_observed_.reset();
+}
+
+void LivePlaces::syncStore() {
+  std::optional<StoredPlaces> stored = store_.sync();
+  if (!stored) return;
+  for (const PlaceSession& each : stored->sessions) resumable_.push_back(each.session);
+  if (!stored->sessions.empty()) addSessions(std::move(stored->sessions));
+}
+
 void LivePlaces::reset() {
+  endSession();
+  if (store_.isWanted())
+    for (const Session& session : resumable_) namer_.reserve(session.id);  // the store has them
+  else namer_.clear();
   map_ = std::make_unique<FabMap>(model_, parameters_);
   map_->beginSession("");
-  travelled_ = TravelledDistance();
-  loaded_.clear();
-  begin_.reset();
+  earlier_.clear();
+  resumable_.clear();
+  odometry_ = SessionOdometry();
+  time_.reset();
   counts_ = Counts();
   last_ = PlaceBelief();
 }
@@ -69,15 +148,20 @@ urban_nav_live::StageReport LivePlaces::report() const {
             std::string("images cannot be used: ") + toString(last_.observation));
   else if (counts_.incomplete > 0 && counts_.incomplete == counts_.observations)
     degrade(PlacesReason::CameraMissing, "CameraMissing", "a camera of the panorama gives no images");
+  else if (const std::string fault = store_.state().fault; !fault.empty())
+    degrade(PlacesReason::NotStored, "NotStored", "places are not stored: " + fault);
+  report.is_error = !store_.state().fault.empty();
   report.summary = report.status.health == Health::Ok
                        ? std::string(toString(last_.knowledge)) + ", " + std::to_string(map_->places()) + " places"
                        : report.status.sentence;
+  report.add("session", session_ ? session_->id : "");
   report.add("observations", counts_.observations);
   report.add("not used", counts_.unused);
   report.add("with a camera missing", counts_.incomplete);
   report.add("places", map_->places());
   report.add("known", counts_.known);
   report.add("closures proposed", counts_.closures);
+  addStoreFigures(store_.state(), report);
   return report;
 }
 

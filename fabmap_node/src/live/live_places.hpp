@@ -7,11 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/fab_map.hpp"
 #include "fabmap_node/store/place_sessions.hpp"
+#include "live/live_place_store.hpp"
+#include "live/session_odometry.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_live/session_namer.hpp"
 #include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_live/store_writer_link.hpp"
+#include "urban_nav_live/time_jump.hpp"
 
 namespace fabmap_node {
 
@@ -20,47 +24,78 @@ struct LiveSessionName {
   std::string robot, recording;
 };
 
-/// Place recognition of a live session, free of ROS. The session that is being recorded is unnamed in closures; those
-/// that load() adds have the ids of their store. Not thread-safe.
+/// Place recognition of a live robot, free of ROS. The session that is being recorded is unnamed in closures; earlier
+/// ones have the ids of their stores. Ids are those of urban_nav_live::SessionNamer: the session begins with its first
+/// pose of odometry, or, without one for 10 s, with its first observation. Observations whose stamps jump back begin
+/// the next session. Not thread-safe.
 class LivePlaces {
  public:
-  /// Throws UserError or DataError if the model cannot be read.
-  explicit LivePlaces(const Parameters& parameters, LiveSessionName name = {});
+  /// `store`: absolute path of the file to which places are written while they are observed, and whose places are
+  /// earlier ones; empty: none. A session that was recorded from the same start continues: its places there are
+  /// observed again. Throws UserError or DataError if the model cannot be read.
+  explicit LivePlaces(const Parameters& parameters, LiveSessionName name = {}, const std::string& store = "",
+                      urban_nav_live::StoreWriterLink::Options store_options = {});
+  /// Ends the session.
+  ~LivePlaces();
+  LivePlaces(const LivePlaces&) = delete;
+  LivePlaces& operator=(const LivePlaces&) = delete;
 
   /// Adds a pose of odometry.
   void addOdometry(const urban_nav_core::StampedPose& pose);
   /// Recognises an observation. `images`: by camera; an empty view is missing.
   PlaceOutput process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images);
-  /// Forgets all places and begins a new session.
+  /// Opens the store when an attempt is due, and hands places on to it. To be called some ten times a second.
+  void syncStore();
+  /// Forgets all places and begins a new session. What is in the store, or on its way, remains there.
   void reset();
-  /// Writes the places of all sessions to a store, which may exist, with the id of the session that is being recorded
-  /// (urban_nav_live::SessionNamer). Returns what was done. Throws UserError for a path that is not absolute or cannot
-  /// be written, and without places; DataError if the store holds other places of a session at the same times.
-  std::string save(const std::string& path) const;
+  /// Writes the places of all sessions to a store, which may exist, with the id of the session that is being recorded.
+  /// Returns what was done. Throws UserError for a path that is not absolute or cannot be written, and without places;
+  /// DataError if the store holds other places of a session at the same times.
+  std::string save(const std::string& path);
   /// Adds the places of the sessions of a store as earlier ones. Those of the session that is being recorded remain;
   /// its sequence of observations begins anew. Returns what was done. Throws UserError for a path that is not absolute
   /// or a store without places of this model, DataError for a damaged one.
   std::string load(const std::string& path);
 
+  urban_nav_live::StoreState storeState() const { return store_.state(); }
   urban_nav_live::StageReport report() const;
 
  private:
   struct Counts {
     std::int64_t observations = 0, unused = 0, incomplete = 0, known = 0, closures = 0;
   };
+  struct Added {
+    std::size_t sessions = 0, known = 0, places = 0;
+  };
 
+  /// Names the session once it is known when it began.
+  void nameSession(urban_nav_core::StampNs now);
+  void beginSession(urban_nav_core::StampNs start);
+  /// Names the session, if it has places, and marks it complete.
+  void endSession();
+  void keep(urban_nav_store::StoredPlace place);
   /// Returns the places of the map by session; the last one is being recorded.
   std::vector<PlaceSession> placeSessions() const;
+  void rebuildMap(const std::vector<PlaceSession>& earlier, const PlaceSession& recorded);
+  /// Adds sessions that are not in the map yet as earlier ones.
+  Added addSessions(std::vector<PlaceSession> stored);
 
   const Parameters parameters_;
   const LiveSessionName name_;
   const std::string model_bytes_;
   const PlaceModel model_;
   const PlaceDescriber describer_;
+  LivePlaceStore store_;
   std::unique_ptr<FabMap> map_;
-  TravelledDistance travelled_;
-  std::vector<urban_nav_store::Session> loaded_;  // earlier sessions, in the order of the map
-  std::optional<urban_nav_core::StampNs> begin_;  // of the session that is being recorded
+  urban_nav_live::SessionNamer namer_;
+  std::vector<urban_nav_store::Session> earlier_;    // sessions before the one that is being recorded, as in the map
+  std::vector<urban_nav_store::Session> resumable_;  // those of the store when it was opened
+  // Of the session that is being recorded.
+  std::optional<urban_nav_store::Session> session_;  // nullopt: not named yet
+  SessionOdometry odometry_;
+  urban_nav_live::TimeJumpDetector time_;                  // of observations
+  std::optional<urban_nav_core::StampNs> first_observed_;  // nullopt: no observation yet
+  std::vector<urban_nav_store::StoredPlace> unnamed_;      // places for the store, before it has a name
   Counts counts_;
   PlaceBelief last_;
 };

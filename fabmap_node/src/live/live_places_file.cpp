@@ -53,32 +53,76 @@ struct TemporaryStore {
 
 std::vector<PlaceSession> LivePlaces::placeSessions() const {
   std::vector<PlaceSession> sessions;
-  for (const Session& session : loaded_) sessions.push_back({session, {}});
-  urban_nav_live::SessionNamer namer(name_.robot);
-  sessions.push_back({namer.begin(name_.recording, begin_.value_or(0)).session, {}});
+  for (const Session& session : earlier_) sessions.push_back({session, {}});
+  urban_nav_live::SessionNamer namer = namer_;
+  const auto name = [&] {
+    return namer.begin(name_.recording, odometry_.start().value_or(first_observed_.value_or(0)), resumable_).session;
+  };
+  sessions.push_back({session_ ? *session_ : name(), {}});
   for (std::size_t i = 0; i < map_->places(); ++i)
     sessions[map_->place(i).session].places.push_back(toMapPlace(map_->place(i), map_->travelled(i)));
   return sessions;
 }
 
-std::string LivePlaces::save(const std::string& path) const {
+void LivePlaces::rebuildMap(const std::vector<PlaceSession>& earlier, const PlaceSession& recorded) {
+  auto map = std::make_unique<FabMap>(model_, parameters_);
+  earlier_.clear();
+  for (const PlaceSession& each : earlier) {
+    addSession(*map, each.session.id, each.places);
+    earlier_.push_back(each.session);
+  }
+  addSession(*map, "", recorded.places);
+  map_ = std::move(map);
+}
+
+std::string LivePlaces::save(const std::string& path) {
   requireAbsolute(path);
   std::vector<PlaceSession> sessions = placeSessions();
   const std::size_t places = countPlaces(sessions);
   if (places == 0) throw UserError("places", "none yet", "panoramas, or images of the left camera");
-  if (sessions.back().places.empty()) sessions.pop_back();
+  std::error_code error;
+  const bool exists = std::filesystem::exists(path, error);
+  std::vector<std::string> sources;
+  if (exists) sources.push_back(path);
+  if (store_.isWanted()) {
+    syncStore();
+    store_.flush();
+    const std::string own = store_.state().path;
+    if (std::filesystem::equivalent(own, path, error)) return path + ": all places are committed";
+    sources.push_back(own);
+  }
+  sessions.erase(
+      std::remove_if(sessions.begin(), sessions.end(),
+                     [this](const PlaceSession& each) { return each.places.empty() || store_.has(each.session.id); }),
+      sessions.end());
   const TemporaryStore temporary{path + ".saving"};
-  {
+  if (!sessions.empty()) {
     Store store(temporary.path, Access::Write);
     writePlaces(store, sessions, model_bytes_);
     store.commit();
+    sources.push_back(temporary.path);
   }
-  std::error_code error;
-  const bool exists = std::filesystem::exists(path, error);
-  urban_nav_store::merge(exists ? std::vector<std::string>{temporary.path, path}
-                                : std::vector<std::string>{temporary.path},
-                         path);
-  return path + ": " + std::to_string(places) + " places of " + std::to_string(sessions.size()) + " sessions";
+  urban_nav_store::merge(sources, path);
+  return path + ": " + std::to_string(places) + " places are stored";
+}
+
+LivePlaces::Added LivePlaces::addSessions(std::vector<PlaceSession> stored) {
+  Added added;
+  std::vector<PlaceSession> ours = placeSessions();
+  const PlaceSession recorded = std::move(ours.back());
+  ours.pop_back();
+  for (PlaceSession& each : stored) {
+    const auto isThis = [&each](const PlaceSession& other) { return other.session.id == each.session.id; };
+    if (std::any_of(ours.begin(), ours.end(), isThis) || (session_ && isThis(recorded))) {
+      ++added.known;
+      continue;
+    }
+    ++added.sessions;
+    added.places += each.places.size();
+    ours.push_back(std::move(each));
+  }
+  rebuildMap(ours, recorded);
+  return added;
 }
 
 std::string LivePlaces::load(const std::string& path) {
@@ -88,30 +132,10 @@ std::string LivePlaces::load(const std::string& path) {
   if (stored.sessions.empty())
     throw UserError(path, stored.other_model > 0 ? "holds places of another model only" : "holds no places",
                     "a store of `urban_nav map` or of ~save, with the same model");
-  std::vector<PlaceSession> ours = placeSessions();
-  const PlaceSession recorded = std::move(ours.back());
-  ours.pop_back();
-  std::size_t known = 0, added = 0, places = 0;
-  for (PlaceSession& each : stored.sessions) {
-    const auto isThis = [&each](const PlaceSession& other) { return other.session.id == each.session.id; };
-    if (std::any_of(ours.begin(), ours.end(), isThis) || isThis(recorded)) {
-      ++known;
-      continue;
-    }
-    ++added;
-    places += each.places.size();
-    ours.push_back(std::move(each));
-  }
-  auto map = std::make_unique<FabMap>(model_, parameters_);
-  loaded_.clear();
-  for (const PlaceSession& each : ours) {
-    addSession(*map, each.session.id, each.places);
-    loaded_.push_back(each.session);
-  }
-  addSession(*map, "", recorded.places);
-  map_ = std::move(map);
-  return path + ": " + std::to_string(places) + " places of " + std::to_string(added) + " sessions are in the map" +
-         (known > 0 ? "; " + std::to_string(known) + " sessions were there already" : "") +
+  const Added added = addSessions(std::move(stored.sessions));
+  return path + ": " + std::to_string(added.places) + " places of " + std::to_string(added.sessions) +
+         " sessions are in the map" +
+         (added.known > 0 ? "; " + std::to_string(added.known) + " sessions were there already" : "") +
          (stored.other_model > 0 ? "; " + std::to_string(stored.other_model) + " places of another model left out"
                                  : "");
 }

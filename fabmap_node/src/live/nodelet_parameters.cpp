@@ -25,11 +25,13 @@ const Table<NodeletParameters>& nodeletTable() {
           {"max_lateness", &P::max_lateness, "s", 0.2, 0.0, 10.0, {},
            "Time by stamps that a panorama waits for missing images.", "docs/architecture.md"},
           {"robot", &P::robot, "", "", false, false, {},
-           "Name of the robot; with the name of the recording and the first stamp it makes the id of the session in ~save.", "docs/files.md"},
+           "Name of the robot; with the name of the recording and the first stamp it makes the id of the session.", "docs/files.md"},
           {"recording", &P::recording, "", "", false, false, {},
            "Name of the recording, the same on all computers of the robot.", "docs/files.md"},
           {"map", &P::map, "", "", false, false, {},
            "Absolute path of a session store whose places are in the map from the start, as with ~load. Empty: none.", "docs/files.md"},
+          {"store", &P::store, "", "", false, false, {},
+           "Absolute path of a file of its own to which places are written, and whose places are earlier ones. Empty: none.", "docs/files.md"},
       });
   return rows;
 }

@@ -14,7 +14,8 @@ struct NodeletParameters {
   int queue_size;       // images
   double max_lateness;  // s
   std::string robot, recording;
-  std::string map;  // path of a store; empty: none
+  std::string map;    // path of a store; empty: none
+  std::string store;  // path of a file; empty: none
 
   NodeletParameters();
 };

@@ -1,39 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/master.h>
+#include <ros/network.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/PlaceBelief.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
+#include <xmlrpcpp/XmlRpc.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <opencv2/core.hpp>
-#include <random>
 
+#include "../support/square_images.hpp"
+#include "../support/temporary_folder.hpp"
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_store/store.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_place.hpp"
 
 namespace fabmap_node::test {
 namespace {
 
+using testing::drawSquares;
+using testing::TemporaryFolder;
 using urban_nav_core::StampNs;
 
 constexpr StampNs first_stamp = 1'225'719'873'000'000'000, half_second = 500'000'000;
 constexpr int head_cameras = 5;
 
-/// Squares of random brightness: an image that no other place or camera has.
-cv::Mat squaresOf(unsigned place, unsigned camera) {
-  std::mt19937 random(100 * place + camera);
-  cv::Mat grid(24, 32, CV_8UC1), image;
-  for (int v = 0; v < grid.rows; ++v)
-    for (int u = 0; u < grid.cols; ++u) grid.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random() % 256);
-  cv::repeat(cv::Mat::zeros(1, 1, CV_8UC1), 240, 320, image);
-  for (int v = 0; v < image.rows; ++v)
-    for (int u = 0; u < image.cols; ++u) image.at<std::uint8_t>(v, u) = grid.at<std::uint8_t>(v / 10, u / 10);
-  return image;
+/// Returns the number of places that a store has from a stamp on; 0 if there is no store yet.
+std::size_t countPlaces(const std::string& path, StampNs from) {
+  try {
+    urban_nav_store::Store store(path, urban_nav_store::Access::Read);
+    std::size_t count = 0;
+    for (const auto& session : store.sessions().all())
+      urban_nav_store::TableStore<urban_nav_store::StoredPlace>(store).forEach(
+          session.id, [&](const auto& row) { count += row.stamp >= from ? 1 : 0; });
+    return count;
+  } catch (const urban_nav_core::Error&) {
+    return 0;
+  }
+}
+
+/// Returns the process of a node, as its slave API tells it; 0 if it does not answer.
+pid_t findProcess(const std::string& node) {
+  XmlRpc::XmlRpcValue request, response, uri;
+  request[0] = request[1] = node;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, response, uri, false) ||
+      !ros::network::splitURI(std::string(uri), host, port))
+    return 0;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpc::XmlRpcValue caller, answer;
+  caller[0] = ros::this_node::getName();
+  if (!client.execute("getPid", caller, answer) || answer.size() != 3) return 0;
+  return static_cast<int>(answer[2]);
 }
 
 /// A panoramic head on topics, and a subscriber to those of the nodelet.
@@ -43,6 +72,7 @@ class Head {
     for (int camera = 0; camera < head_cameras; ++camera)
       images_.push_back(
           nh_.advertise<sensor_msgs::Image>("ladybug/camera" + std::to_string(camera) + "/image_raw", 100));
+    odometry_ = nh_.advertise<nav_msgs::Odometry>("vo/odometry", 100);
     belief_ = nh_.subscribe<urban_nav_msgs::PlaceBelief>(
         "places/belief", 100, [this](const urban_nav_msgs::PlaceBeliefConstPtr& m) { beliefs.push_back(*m); });
     closure_ = nh_.subscribe<urban_nav_msgs::TopologicalClosure>(
@@ -59,16 +89,26 @@ class Head {
     return until([this] {
       for (const ros::Publisher& image : images_)
         if (image.getNumSubscribers() == 0) return false;
+      if (odometry_.getNumSubscribers() == 0) return false;
       return belief_.getNumPublishers() > 0 && closure_.getNumPublishers() > 0;
     });
   }
   void show(unsigned place, StampNs stamp, int without_camera = -1) {
     for (int camera = 0; camera < head_cameras; ++camera) {
       if (camera == without_camera) continue;
-      sensor_msgs::Image message = urban_nav_ros::toImageMessage(squaresOf(place, static_cast<unsigned>(camera)));
+      sensor_msgs::Image message = urban_nav_ros::toImageMessage(drawSquares(place, static_cast<unsigned>(camera)));
       message.header.stamp = urban_nav_ros::toRosTime(stamp);
       images_[static_cast<std::size_t>(camera)].publish(message);
     }
+  }
+  bool disconnected() {
+    return until([this] { return odometry_.getNumSubscribers() == 0 && images_.back().getNumSubscribers() == 0; });
+  }
+  void drive(StampNs stamp) {
+    nav_msgs::Odometry message;
+    message.header.stamp = urban_nav_ros::toRosTime(stamp);
+    message.pose.pose.orientation.w = 1.0;
+    odometry_.publish(message);
   }
   bool reset() {
     std_srvs::Trigger call;
@@ -87,6 +127,7 @@ class Head {
  private:
   ros::NodeHandle nh_;
   std::vector<ros::Publisher> images_;
+  ros::Publisher odometry_;
   ros::Subscriber belief_, closure_;
 };
 
@@ -116,9 +157,8 @@ TEST(FabmapNodelet, forgetsOnResetAndContinuesWithFourCameras) {
 }
 
 TEST(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
-  std::string folder = (std::filesystem::temp_directory_path() / "fabmap_node_XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  const std::string path = folder + "/places.db";
+  const TemporaryFolder folder;
+  const std::string path = folder.file("places.db");
   Head head;
   ASSERT_TRUE(head.connected());
   ASSERT_TRUE(head.reset());
@@ -128,7 +168,7 @@ TEST(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
   const auto saved = Head::command("save", path);
   EXPECT_TRUE(saved.success) << saved.message;
   EXPECT_FALSE(Head::command("save", "relative.db").success);
-  EXPECT_FALSE(Head::command("load", folder + "/absent.db").success);
+  EXPECT_FALSE(Head::command("load", folder.file("absent.db")).success);
   ASSERT_TRUE(head.reset());
   const auto loaded = Head::command("load", path);
   EXPECT_TRUE(loaded.success) << loaded.message;
@@ -138,7 +178,29 @@ TEST(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
   ASSERT_FALSE(belief.places.empty());
   EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), first_stamp + 22 * half_second);
   EXPECT_EQ(belief.places[0].session.size(), 20U) << "the id of an earlier session";
-  std::filesystem::remove_all(folder);
+}
+
+TEST(FabmapNodelet, knowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
+  std::string store;
+  ASSERT_TRUE(ros::param::get("fabmap_node/store", store));
+  Head head;
+  ASSERT_TRUE(head.connected());
+  ASSERT_TRUE(head.reset());
+  const StampNs start = first_stamp + 20'000 * half_second;
+  head.drive(start);
+  for (unsigned place = 30; place < 35; ++place) head.show(place, start + place * half_second);
+  ASSERT_TRUE(Head::until([&] { return countPlaces(store, start) == 5; })) << "committed without a request";
+  const pid_t process = findProcess("/fabmap_node");
+  ASSERT_GT(process, 0);
+  ASSERT_EQ(kill(process, SIGKILL), 0);
+  ASSERT_TRUE(head.disconnected());
+  ASSERT_TRUE(head.connected()) << "it is started again";
+  head.beliefs.clear();
+  head.show(32, first_stamp + 30'000 * half_second);
+  ASSERT_TRUE(Head::until([&] { return !head.beliefs.empty(); }));
+  ASSERT_FALSE(head.beliefs[0].places.empty());
+  EXPECT_EQ(urban_nav_ros::toStampNs(head.beliefs[0].places[0].stamp), start + 32 * half_second);
+  EXPECT_EQ(head.beliefs[0].places[0].session.size(), 20U) << "the id of an earlier session";
 }
 
 }  // namespace
@@ -148,5 +210,9 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "fabmap_node_test");
   const ros::NodeHandle alive;
-  return RUN_ALL_TESTS();
+  const int result = RUN_ALL_TESTS();
+  std::string store;
+  if (ros::param::get("fabmap_node/store", store))
+    for (const char* suffix : {"", "-wal", "-shm"}) std::filesystem::remove(store + suffix);
+  return result;
 }

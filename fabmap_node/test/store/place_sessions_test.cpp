@@ -3,38 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "fabmap_node/model/place_model.hpp"
 #include "support/synthetic_places.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fabmap_node {
 namespace {
 
 using testing::syntheticPlace;
+using testing::TemporaryFolder;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
 constexpr urban_nav_core::StampNs second = 1'000'000'000;
 
-/// Folder that is removed at the end.
-class Folder {
- public:
-  Folder() : path_((std::filesystem::temp_directory_path() / "places_XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) path_.clear();
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
 PlaceSession makeSession(const PlaceModel& model, const std::string& recording, urban_nav_core::StampNs start) {
   PlaceSession made;
-  made.session = {urban_nav_store::makeSessionId({"lisa", recording, start, ""}), recording, "lisa", recording, start,
-                  false};
+  made.session = {
+      urban_nav_store::makeSessionId({"lisa", recording, start, ""}), recording, "lisa", recording, start, false};
   const PlaceDescriber describer(model.vocabulary, {}, 540);
   for (std::uint32_t i = 0; i < 5; ++i)
     made.places.push_back({start + i * second, describer.describe(syntheticPlace(i, 0, 5)), 2.0 * i});
@@ -42,7 +28,7 @@ PlaceSession makeSession(const PlaceModel& model, const std::string& recording, 
 }
 
 TEST(PlaceSessions, AreReadAsTheyWereWritten) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const PlaceModel model = defaultModel();
   const std::string bytes(defaultModelBytes());
   const std::vector<PlaceSession> written = {makeSession(model, "monday", second), makeSession(model, "tuesday", 99)};
@@ -70,7 +56,7 @@ TEST(PlaceSessions, AreReadAsTheyWereWritten) {
 }
 
 TEST(PlaceSessions, LeavesOutPlacesOfAnotherModel) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const PlaceModel model = defaultModel();
   {
     Store store(folder.file("places.db"), Access::Write);

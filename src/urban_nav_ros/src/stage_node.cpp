@@ -59,6 +59,14 @@ void StageNode::logInfo(const std::string& text) const { ROS_INFO("%s: %s", hand
 
 void StageNode::logError(const std::string& text) const { ROS_ERROR("%s: %s", handles_.name.c_str(), text.c_str()); }
 
+bool StageNode::followStore(const urban_nav_live::StoreState& state) {
+  if (state.fault == store_fault_) return false;
+  if (state.fault.empty()) logInfo(state.path + ": store is writable again");
+  else logError("store: " + state.fault);
+  store_fault_ = state.fault;
+  return true;
+}
+
 void StageNode::logWarning(const std::string& key, const std::string& text) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -22,6 +22,7 @@
 #include "urban_nav_core/types/status.hpp"
 #include "urban_nav_live/input_gate.hpp"
 #include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_live/store_writer_link.hpp"
 #include "urban_nav_live/topic_monitor.hpp"
 #include "urban_nav_live/worker_loop.hpp"
 #include "urban_nav_ros/parameters.hpp"
@@ -88,6 +89,9 @@ class StageNode {
 
   void logInfo(const std::string& text) const;
   void logError(const std::string& text) const;
+  /// Logs the fault of a store when it changes, and when the store is writable again. Returns whether it has changed.
+  /// To be called by one thread.
+  bool followStore(const urban_nav_live::StoreState& state);
   /// Logs a warning, at most one in five seconds for each `key`.
   void logWarning(const std::string& key, const std::string& text);
 
@@ -105,6 +109,7 @@ class StageNode {
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::Publisher status_publisher_;
+  std::string store_fault_;  // of the thread that calls followStore()
 
   mutable std::mutex mutex_;  // guards what follows but updater_
   std::optional<urban_nav_msgs::StageStatus> last_status_;

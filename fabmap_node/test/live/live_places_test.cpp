@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "support/square_images.hpp"
+#include "support/temporary_folder.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/dump.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_place.hpp"
+
+namespace fabmap_node {
+namespace {
+
+using testing::drawSquares;
+using testing::TemporaryFolder;
+using urban_nav_core::StampNs;
+using urban_nav_store::Access;
+using urban_nav_store::Session;
+using urban_nav_store::Store;
+using urban_nav_store::StoredPlace;
+using urban_nav_store::TableStore;
+
+constexpr StampNs observation_period = 1'000'000'000, monday = 1'225'719'873 * observation_period,
+                  tuesday = monday + 86'400 * observation_period;
+
+class LivePlacesTest : public ::testing::Test {
+ protected:
+  /// A process that writes to a store, or to none.
+  std::unique_ptr<LivePlaces> begin(const std::string& store) {
+    urban_nav_live::StoreWriterLink::Options options;
+    options.now = [this] { return now_; };
+    auto places = std::make_unique<LivePlaces>(Parameters(), LiveSessionName{"lisa", "begbroke"}, store, options);
+    places->syncStore();
+    return places;
+  }
+  /// A drive past places, one an observation_period, with odometry.
+  static void drive(LivePlaces& places, StampNs start, unsigned from, unsigned to) {
+    for (unsigned i = from; i < to; ++i) {
+      const StampNs stamp = start + (i - from) * observation_period;
+      places.addOdometry({stamp, {urban_nav_core::Quaterniond::Identity(), {2.0 * (i - from), 0.0, 0.0}}});
+      observe(places, stamp, i);
+      places.syncStore();
+    }
+  }
+  static PlaceOutput observe(LivePlaces& places, StampNs stamp, unsigned place) {
+    const cv::Mat image = drawSquares(place, 0);
+    return places.process(stamp, {{image.data, image.cols, image.rows, image.cols}});
+  }
+  /// An hour later, as far as the store is concerned.
+  void wait() { now_ += std::chrono::hours(1); }
+
+  static std::vector<Session> sessions(const std::string& path) { return Store(path, Access::Read).sessions().all(); }
+  static std::vector<StoredPlace> rows(const std::string& path, const std::string& session) {
+    Store store(path, Access::Read);
+    std::vector<StoredPlace> rows;
+    TableStore<StoredPlace>(store).forEach(session, [&](const StoredPlace& row) { rows.push_back(row); });
+    return rows;
+  }
+  static std::string readContent(const std::string& path) {
+    Store store(path, Access::Read);
+    return urban_nav_store::dump(store);
+  }
+
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_.file("places.db");
+  urban_nav_live::StoreWriterLink::Clock::time_point now_{};
+};
+
+TEST_F(LivePlacesTest, StoresPlacesWhileTheyAreObserved) {
+  const auto places = begin(path_);
+  drive(*places, monday, 0, 4);
+  EXPECT_NE(places->save(path_).find("committed"), std::string::npos);
+  const std::vector<Session> stored = sessions(path_);
+  ASSERT_EQ(stored.size(), 1u);
+  EXPECT_EQ(stored[0].start, monday);
+  EXPECT_EQ(stored[0].robot, "lisa");
+  EXPECT_EQ(stored[0].recording, "begbroke");
+  EXPECT_FALSE(stored[0].complete);
+  const std::vector<StoredPlace> read = rows(path_, stored[0].id);
+  ASSERT_EQ(read.size(), 4u);
+  EXPECT_EQ(read[3].stamp, monday + 3 * observation_period);
+  EXPECT_FALSE(read[3].thumbnail.empty());
+}
+
+TEST_F(LivePlacesTest, KnowsPlacesOfAnEarlierProcess) {
+  drive(*begin(path_), monday, 0, 4);
+  const std::vector<Session> stored = sessions(path_);
+  ASSERT_EQ(stored.size(), 1u);
+  EXPECT_TRUE(stored[0].complete);
+  const auto places = begin(path_);
+  drive(*places, tuesday, 4, 6);
+  const PlaceOutput output = observe(*places, tuesday + 10 * observation_period, 2);
+  ASSERT_FALSE(output.belief.likeliest.empty());
+  EXPECT_EQ(output.belief.likeliest[0].at.session, stored[0].id);
+  EXPECT_EQ(output.belief.likeliest[0].at.stamp, monday + 2 * observation_period);
+}
+
+TEST_F(LivePlacesTest, ARecordingThatIsPlayedAgainGivesTheSameContent) {
+  const std::string whole = folder_.file("whole.db");
+  drive(*begin(whole), monday, 0, 6);
+  drive(*begin(path_), monday, 0, 3);
+  {
+    const auto places = begin(path_);
+    drive(*places, monday, 0, 1);
+    EXPECT_TRUE(observe(*places, monday + observation_period, 1).belief.likeliest.empty())
+        << "it was observed in the future";
+    drive(*places, monday + 2 * observation_period, 2, 6);
+  }
+  EXPECT_EQ(sessions(path_).size(), 1u);
+  EXPECT_EQ(readContent(path_), readContent(whole));
+}
+
+TEST_F(LivePlacesTest, WhatComesWhileTheStoreIsInUseIsNotLost) {
+  auto other = std::make_unique<Store>(path_, Access::Write);
+  const auto places = begin(path_);
+  drive(*places, monday, 0, 3);
+  EXPECT_EQ(places->report().reason_name, "NotStored");
+  EXPECT_TRUE(places->report().is_error);
+  EXPECT_NE(places->report().status.sentence.find(path_), std::string::npos);
+  EXPECT_THROW(places->save(folder_.file("copy.db")), urban_nav_core::UserError);
+  other.reset();
+  wait();
+  drive(*places, monday + 3 * observation_period, 3, 5);
+  places->save(path_);
+  EXPECT_EQ(places->report().reason_name, "None");
+  ASSERT_EQ(sessions(path_).size(), 1u);
+  EXPECT_EQ(rows(path_, sessions(path_)[0].id).size(), 5u);
+}
+
+TEST_F(LivePlacesTest, LeavesADamagedStoreAsItIs) {
+  const std::string noise = "SQLite format 3, but no more of it";
+  std::ofstream(path_) << noise;
+  {
+    const auto places = begin(path_);
+    drive(*places, monday, 0, 2);
+    EXPECT_EQ(places->report().reason_name, "NotStored");
+  }
+  std::ifstream file(path_);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), noise);
+}
+
+TEST_F(LivePlacesTest, StampsThatJumpBackBeginTheNextSession) {
+  const auto places = begin(path_);
+  drive(*places, monday, 0, 4);
+  const PlaceOutput again = [&] {
+    drive(*places, monday, 5, 7);
+    return observe(*places, monday + 3 * observation_period, 1);
+  }();
+  places->save(path_);
+  const std::vector<Session> stored = sessions(path_);
+  ASSERT_EQ(stored.size(), 2u);
+  const std::size_t first = stored[0].recording == "begbroke" ? 0 : 1;
+  EXPECT_EQ(stored[1 - first].recording, "begbroke (2)");
+  EXPECT_EQ(rows(path_, stored[first].id).size(), 4u);
+  EXPECT_EQ(rows(path_, stored[1 - first].id).size(), 3u);
+  EXPECT_TRUE(stored[first].complete);
+  ASSERT_FALSE(again.belief.likeliest.empty());
+  EXPECT_EQ(again.belief.likeliest[0].at.session, stored[first].id);
+}
+
+TEST_F(LivePlacesTest, ImagesThatBeginInTheSecondRoundOfARecordingAreOfItsSession) {
+  const auto places = begin(path_);
+  for (unsigned i = 0; i < 5; ++i) places->addOdometry({monday + i * observation_period, urban_nav_core::Pose()});
+  drive(*places, monday, 0, 2);
+  places->save(path_);
+  ASSERT_EQ(sessions(path_).size(), 1u);
+  EXPECT_EQ(sessions(path_)[0].recording, "begbroke (2)");
+}
+
+TEST_F(LivePlacesTest, ASessionWithoutOdometryIsNamedAfterItsFirstObservation) {
+  const auto places = begin(path_);
+  for (unsigned i = 0; i < 12; ++i) observe(*places, monday + i * observation_period, i);
+  places->save(path_);
+  ASSERT_EQ(sessions(path_).size(), 1u);
+  EXPECT_EQ(sessions(path_)[0].start, monday);
+  EXPECT_EQ(rows(path_, sessions(path_)[0].id).size(), 12u);
+}
+
+TEST_F(LivePlacesTest, ResetForgetsPlacesButTheStoreKeepsThem) {
+  const auto places = begin(path_);
+  drive(*places, monday, 0, 4);
+  places->reset();
+  drive(*places, monday, 4, 5);
+  const PlaceOutput output = observe(*places, monday + 60 * observation_period, 2);
+  ASSERT_FALSE(output.belief.likeliest.empty());
+  EXPECT_EQ(output.belief.likeliest[0].at.stamp, monday) << "the only one that is left, of another look";
+  EXPECT_TRUE(output.belief.likeliest[0].at.session.empty());
+  places->save(path_);
+  ASSERT_EQ(sessions(path_).size(), 2u);
+}
+
+TEST_F(LivePlacesTest, SavesWhatWasLoadedBesideWhatIsStored) {
+  const std::string loaded = folder_.file("loaded.db"), saved = folder_.file("saved.db");
+  drive(*begin(loaded), monday, 0, 3);
+  const auto places = begin(path_);
+  places->load(loaded);
+  drive(*places, tuesday, 3, 5);
+  places->save(saved);
+  const std::vector<Session> stored = sessions(saved);
+  ASSERT_EQ(stored.size(), 2u);
+  EXPECT_EQ(rows(saved, stored[0].id).size(), 3u);
+  EXPECT_EQ(rows(saved, stored[1].id).size(), 2u);
+  EXPECT_EQ(sessions(path_).size(), 1u) << "the store has what it recorded";
+}
+
+TEST_F(LivePlacesTest, SavesWithoutAStore) {
+  const auto places = begin("");
+  EXPECT_THROW(places->save(path_), urban_nav_core::UserError) << "nothing yet";
+  drive(*places, monday, 0, 3);
+  EXPECT_EQ(places->report().reason_name, "None");
+  places->save(path_);
+  ASSERT_EQ(sessions(path_).size(), 1u);
+  EXPECT_EQ(rows(path_, sessions(path_)[0].id).size(), 3u);
+}
+
+}  // namespace
+}  // namespace fabmap_node
