@@ -72,20 +72,31 @@ class ChunkGrid {
 
   /// Appends the cubes to those of their tiles.
   void appendTo(std::map<Tile, std::vector<MapCell>>& parts) const {
-    std::vector<std::uint32_t> order(sums_.size());
-    std::vector<Tile> tiles(sums_.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-      order[i] = i;
-      tiles[i] = tileAt(sums_[i].cell);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // no two cubes have one key
+    order.reserve(sums_.size());
+    for (std::uint32_t i = 0; i < sums_.size(); ++i) order.emplace_back(orderKey(sums_[i].cell), i);
+    std::sort(order.begin(), order.end());
+    std::vector<MapCell>* part = nullptr;
+    Tile tile;
+    for (const auto& [key, i] : order) {
+      const Tile own = tileAt(sums_[i].cell);
+      if (part == nullptr || !(own == tile)) part = &parts[own];
+      tile = own;
+      part->push_back(mean(sums_[i]));
     }
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      if (!(tiles[a] == tiles[b])) return tiles[a] < tiles[b];
-      return toKey(sums_[a].cell) < toKey(sums_[b].cell);  // z, then y, then x
-    });
-    for (const std::uint32_t i : order) parts[tiles[i]].push_back(mean(sums_[i]));
   }
 
  private:
+  /// Ascends with the tile, then z, y and x within it.
+  static std::uint64_t orderKey(const Cell& cell) {
+    const Tile tile = tileAt(cell);
+    const auto part = [](int value, int bias) { return static_cast<std::uint64_t>(value + bias); };
+    constexpr int farthest_tile = (urban_nav_registration::kFarthestCell + kTileCells) / kTileCells;
+    return part(tile.y, farthest_tile) << 45U | part(tile.x, farthest_tile) << 32U |
+           part(cell.z, kMaxHeightCell + 1) << 16U | part(cell.y - tile.y * kTileCells, 0) << 8U |
+           part(cell.x - tile.x * kTileCells, 0);
+  }
+
   static MapCell mean(const CellSums& sums) {
     const float share = 1.0F / static_cast<float>(sums.count);
     MapCell cell;

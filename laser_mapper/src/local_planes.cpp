@@ -80,9 +80,8 @@ Vector3f LocalPlanes::position(const MergedCell& cell) const {
          (Vector3f(static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)) + cell.offset);
 }
 
-std::optional<LocalPlane> LocalPlanes::planeAt(int level, const Cell& cell) const {
+std::optional<LocalPlane> LocalPlanes::fitPlane(int level, const Cell& cube) const {
   const Level& at = levels_[static_cast<std::size_t>(level)];
-  const Cell cube{coarse(cell.x, level), coarse(cell.y, level), coarse(cell.z, level)};
   const std::uint64_t key = toKey(cube);
   Moments sums;
   int cubes = 0;
@@ -119,7 +118,25 @@ std::optional<LocalPlane> LocalPlanes::planeAt(int level, const Cell& cell) cons
   return plane;
 }
 
-std::optional<LocalPlane> LocalPlanes::around(const MergedCell& cell) const {
+/// All cells of one cube share its plane: from the second level on it is fitted once for several of them.
+std::optional<LocalPlane> LocalPlanes::planeAt(int level, const Cell& cell) {
+  const Cell cube{coarse(cell.x, level), coarse(cell.y, level), coarse(cell.z, level)};
+  if (level == 0) return fitPlane(level, cube);
+  Level& at = levels_[static_cast<std::size_t>(level)];
+  const std::uint32_t number = at.table.find(toKey(cube));
+  if (number == urban_nav_registration::CellTable::none) return fitPlane(level, cube);
+  if (at.plane_of.empty()) at.plane_of.assign(at.cubes.size(), kUnknown);
+  std::int32_t& known = at.plane_of[number];
+  if (known == kUnknown) {
+    const std::optional<LocalPlane> plane = fitPlane(level, cube);
+    known = plane ? static_cast<std::int32_t>(at.planes.size()) : kNone;
+    if (plane) at.planes.push_back(*plane);
+  }
+  if (known == kNone) return std::nullopt;
+  return at.planes[static_cast<std::size_t>(known)];
+}
+
+std::optional<LocalPlane> LocalPlanes::around(const MergedCell& cell) {
   const Cell at = local(cell.cell);
   for (int level = 0; level < kLevels; ++level)
     if (std::optional<LocalPlane> plane = planeAt(level, at)) return plane;

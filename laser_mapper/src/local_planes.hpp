@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,15 +21,15 @@ struct LocalPlane {
 };
 
 /// Planes through the neighbourhoods of the cubes of a tile, from the moments of cubes of one, two, four and eight
-/// edges: far from the laser its beams are far apart. Immutable, so thread-safe. Positions are in a frame with the axes
-/// of the map whose origin is the corner of the tile.
+/// edges: far from the laser its beams are far apart. Remembers the planes of cubes that it was asked for. Not
+/// thread-safe. Positions are in a frame with the axes of the map whose origin is the corner of the tile.
 class LocalPlanes {
  public:
   LocalPlanes(double voxel, const Tile& tile, const std::vector<MergedCell>& cells,
               const std::vector<MergedCell>& margin);
 
   /// Returns the plane of the smallest neighbourhood that extends in two directions; nullopt if none does.
-  std::optional<LocalPlane> around(const MergedCell& cell) const;
+  std::optional<LocalPlane> around(const MergedCell& cell);
   /// Returns whether another cube represents the surface at a point of this one: the point lies in it, or it is the
   /// next one along the normal and `reach` (m) of noise separates it from the plane; and it has more beams. `position`:
   /// of the point.
@@ -50,11 +51,16 @@ class LocalPlanes {
     urban_nav_registration::CellTable table{1 << 10};
     std::vector<Moments> cubes;  ///< about the centres of the cubes
     float edge = 0.0F;           ///< m
+    /// Of the neighbourhood of each cube: number in `planes`, or kUnknown, or kNone.
+    std::vector<std::int32_t> plane_of;
+    std::vector<LocalPlane> planes;
   };
+  static constexpr std::int32_t kUnknown = -2, kNone = -1;
   bool hasMoreBeams(const Cell& other, const MergedCell& cell) const;
   Cell local(const Cell& cell) const { return {cell.x - corner_.x, cell.y - corner_.y, cell.z}; }
   void addToLevels(const MergedCell& cell);
-  std::optional<LocalPlane> planeAt(int level, const Cell& cell) const;
+  std::optional<LocalPlane> fitPlane(int level, const Cell& cube) const;
+  std::optional<LocalPlane> planeAt(int level, const Cell& cell);
 
   const float voxel_;
   Cell corner_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "laser_mapper/tile_cells.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +18,12 @@ void TileMerger::elect(MergedCell& cell, const PassVotes& votes) {
 }
 
 void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells, Kind kind) {
+  if (kind == Kind::Lasers && cells_.size() + cells.size() > cells_.capacity()) {
+    const std::size_t room = std::max(2 * cells_.capacity(), cells_.size() + cells.size());
+    cells_.reserve(room);
+    votes_.reserve(room);
+    best_.reserve(room);
+  }
   for (const MapCell& from : cells) {
     if ((from.laser == kStereo) != (kind == Kind::Stereo)) continue;
     if (from.is_ghost) {

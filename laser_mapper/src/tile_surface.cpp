@@ -79,7 +79,7 @@ class SeenByLasers {
 
 std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile, const std::vector<MergedCell>& cells,
                                   const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma) {
-  const LocalPlanes planes(parameters.voxel, tile, cells, margin);
+  LocalPlanes planes(parameters.voxel, tile, cells, margin);
   std::vector<SurfacePoint> made(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const MergedCell& cell = cells[i];
@@ -127,7 +127,7 @@ std::vector<MapPoint> makeStereoSurface(const Parameters& parameters, const Tile
   std::vector<MapPoint> points;
   if (stereo.empty()) return points;
   const SeenByLasers seen(cells, margin);
-  const LocalPlanes planes(parameters.voxel, tile, stereo, {});
+  LocalPlanes planes(parameters.voxel, tile, stereo, {});
   for (const MergedCell& cell : stereo) {
     if (cell.count < kFewestPixels || seen.near(cell.cell) || !(cell.to_laser.norm() > 0.1F)) continue;
     const std::optional<LocalPlane> plane = planes.around(cell);

@@ -47,6 +47,7 @@ ChunkBeams::ChunkBeams(const urban_nav_core::Trajectory& T_map_base, const std::
       }
       sweep.last = static_cast<std::uint32_t>(angles_.size());
       lasers_.back().sweeps.push_back(sweep);
+      lasers_.back().planes.push_back({sweep.R_laser_map.row(2).transpose(), sweep.t_laser_map.z()});
     }
     divide(lasers_.back());
   }
@@ -58,12 +59,12 @@ void ChunkBeams::divide(Laser& laser) {
     Stretch stretch;
     stretch.first = first;
     stretch.last = std::min(first + kStretch + 1, sweeps.size());  // the next one begins with the last sweep
-    stretch.middle = (stretch.first + stretch.last) / 2;
-    const Sweep& middle = sweeps[stretch.middle];
+    const std::size_t middle = (stretch.first + stretch.last) / 2;
+    stretch.middle = laser.planes[middle];
     for (std::size_t i = stretch.first; i < stretch.last; ++i) {
       const Vector3d origin = -(sweeps[i].R_laser_map.transpose() * sweeps[i].t_laser_map);
-      const double turn = (sweeps[i].R_laser_map.row(2) - middle.R_laser_map.row(2)).norm();
-      stretch.reach = std::max(stretch.reach, std::abs(middle.height(origin)) + turn * kMostLookRange);
+      const double turn = (laser.planes[i].normal - stretch.middle.normal).norm();
+      stretch.reach = std::max(stretch.reach, std::abs(stretch.middle.height(origin)) + turn * kMostLookRange);
     }
     laser.stretches.push_back(stretch);
   }
@@ -71,7 +72,7 @@ void ChunkBeams::divide(Laser& laser) {
 
 std::size_t ChunkBeams::bytes() const {
   std::size_t all = 8 * angles_.size();
-  for (const Laser& laser : lasers_) all += sizeof(Sweep) * laser.sweeps.size();
+  for (const Laser& laser : lasers_) all += (sizeof(Sweep) + sizeof(SweepPlane)) * laser.sweeps.size();
   return all;
 }
 
@@ -96,16 +97,17 @@ void ChunkBeams::lookIn(const Sweep& sweep, const Vector3d& p, Found& found) con
 }
 
 void ChunkBeams::lookAlong(const Laser& laser, const Stretch& stretch, const Vector3d& p, Found& found) const {
+  if (std::abs(stretch.middle.height(p)) > stretch.reach + kNearBeam) return;
   const std::vector<Sweep>& sweeps = laser.sweeps;
-  if (std::abs(sweeps[stretch.middle].height(p)) > stretch.reach + kNearBeam) return;
+  const std::vector<SweepPlane>& planes = laser.planes;
   double before = 0.0;
   for (std::size_t i = stretch.first; i < stretch.last; i += kSweepStep) {
-    const double height = sweeps[i].height(p);
+    const double height = planes[i].height(p);
     if (std::abs(height) < kNearBeam) {
       lookIn(sweeps[i], p, found);
     } else if (i > stretch.first && std::abs(before) >= kNearBeam && (before < 0.0) != (height < 0.0)) {
       for (std::size_t j = i - kSweepStep + 1; j < i; ++j)
-        if (std::abs(sweeps[j].height(p)) < kNearBeam || (sweeps[j - 1].height(p) < 0.0) != (sweeps[j].height(p) < 0.0))
+        if (std::abs(planes[j].height(p)) < kNearBeam || (planes[j - 1].height(p) < 0.0) != (planes[j].height(p) < 0.0))
           lookIn(sweeps[j], p, found);
     }
     before = height;

@@ -36,8 +36,12 @@ class ChunkBeams {
     Eigen::Matrix3d R_laser_map = Eigen::Matrix3d::Identity();
     Eigen::Vector3d t_laser_map = Eigen::Vector3d::Zero();
     std::uint32_t first = 0, last = 0;  ///< beams first...last - 1, by angle
-
-    double height(const Eigen::Vector3d& p) const { return R_laser_map.row(2).dot(p) + t_laser_map.z(); }
+  };
+  /// The plane of a turn of the mirror.
+  struct SweepPlane {
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+    double offset = 0.0;
+    double height(const Eigen::Vector3d& p) const { return normal.dot(p) + offset; }
   };
   struct Found {
     float least_excess = 1e9F;  ///< m, of a beam's range over the distance of the point
@@ -46,11 +50,13 @@ class ChunkBeams {
   };
   /// Successive turns of one laser.
   struct Stretch {
-    std::size_t first = 0, last = 0, middle = 0;  ///< indices of sweeps, last not included
-    double reach = 0.0;                           ///< m, by which heights of points differ from those over `middle`
+    std::size_t first = 0, last = 0;  ///< indices of sweeps, last not included
+    SweepPlane middle;                ///< of the one in their middle
+    double reach = 0.0;               ///< m, by which heights of points differ from those over `middle`
   };
   struct Laser {
     std::vector<Sweep> sweeps;
+    std::vector<SweepPlane> planes;  ///< of the sweeps
     std::vector<Stretch> stretches;
   };
   static void divide(Laser& laser);

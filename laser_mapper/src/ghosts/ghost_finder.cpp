@@ -114,8 +114,11 @@ std::vector<GhostFinder::Row> GhostFinder::readRows(const Tile& tile, const std:
 }
 
 std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vector<Row>& rows) const {
-  urban_nav_registration::CellTable table(1 << 12);
+  std::size_t all = 0;
+  for (const Row& row : rows) all += row.cells.size();
+  urban_nav_registration::CellTable table(all);
   std::vector<SeenTimes> times;
+  times.reserve(all);
   for (const Row& row : rows)
     for (const MapCell& cell : row.cells) {
       const std::uint32_t number = table.insert(toKey(cell.cell));
