@@ -105,8 +105,8 @@ std::vector<ScanPlace> CalibrationStretch::placesWith(const std::vector<TermVect
 }
 
 /// Equations without the plane of the place.
-PlaceEquations CalibrationStretch::equationsOf(const CalibrationPatch& patch, const SurfelSet& set,
-                                               const std::vector<ScanPlace>& places, double scale) const {
+PlaceEquations CalibrationStretch::linearisePatch(const CalibrationPatch& patch, const SurfelSet& set,
+                                                  const std::vector<ScanPlace>& places, double scale) const {
   PlaceEquations equations;
   std::vector<std::uint32_t>& seconds = equations.seconds;
   for (const std::uint32_t s : patch.surfels)
@@ -155,8 +155,8 @@ TermEquations CalibrationStretch::linearise(const std::vector<TermVector>& terms
   std::vector<PlaceEquations> equations(std::min(kPatchBatch, patches.size()));
   for (std::size_t first = 0; first < patches.size(); first += kPatchBatch) {
     const std::size_t count = std::min(kPatchBatch, patches.size() - first);
-    urban_nav_core::forEach(count, 16,
-                            [&](std::size_t i) { equations[i] = equationsOf(patches[first + i], set, places, scale); });
+    urban_nav_core::forEach(
+        count, 16, [&](std::size_t i) { equations[i] = linearisePatch(patches[first + i], set, places, scale); });
     for (std::size_t i = 0; i < count; ++i) trajectory_.add(std::move(equations[i]));
   }
   return trajectory_.eliminate();

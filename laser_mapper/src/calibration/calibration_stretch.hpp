@@ -32,8 +32,8 @@ class CalibrationStretch {
   std::vector<Spread> compareHeldOut(const std::vector<TermVector>& terms) const;
 
  private:
-  PlaceEquations equationsOf(const CalibrationPatch& patch, const SurfelSet& set, const std::vector<ScanPlace>& places,
-                             double scale) const;
+  PlaceEquations linearisePatch(const CalibrationPatch& patch, const SurfelSet& set,
+                                const std::vector<ScanPlace>& places, double scale) const;
   std::vector<ScanPlace> placesWith(const std::vector<TermVector>& terms,
                                     const std::vector<PoseCorrection>& corrections) const;
   Eigen::Index termCount() const { return static_cast<Eigen::Index>(kCalibrationTerms * lasers_.size()); }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNearestSeen = 0.3, kLensStep = 1e-4;  // m; of the tangents, for differences
 constexpr double kLeastIncidence = 0.2;  // cosine: farther from the normal, a view shows little of a surface
-constexpr std::size_t kPointGrain = 32;
+constexpr std::size_t kHeadPointGrain = 32;
 constexpr urban_nav_core::StampNs kLongestMomentGap = 500'000'000;
 
 /// A pixel, and its derivatives with respect to the point in the frame of the camera.
@@ -101,7 +101,7 @@ std::vector<HeadRow> HeadViews::rowsAt(const TermVector& terms, int level, bool 
     rows[i].texture = {texture.x(), texture.y()};
     rows[i].is_seen = true;
   };
-  urban_nav_core::forEach(points_.size(), kPointGrain, [&](std::size_t number) {
+  urban_nav_core::forEach(points_.size(), kHeadPointGrain, [&](std::size_t number) {
     for (std::size_t i = points_[number].first; i < points_[number].last; ++i) look(points_[number], i);
   });
   return rows;
