@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """kill -9 at random moments, and a full disk: is all there that was committed, and does the run started again end with the bytes of an unbroken one?
 
-    python3 crash.py FOLDER [map] [live] [disk] [--kills N] [-o crash.json]
+    python3 crash.py FOLDER [map] [live] [disk] [places] [live_places] [--kills N] [-o crash.json]
 
 `map`: the whole process group of `urban_nav map` over two small simulated sessions with closures. `live`: the process of the nodelet pose_graph, fed with a
 recording at twenty times its speed and keeping it in its store. Both are killed, started again and killed again until a run comes to its end, which is
-compared with one that was never killed; then all begins anew. What is committed is what another process reads while they write. `disk`: both again on a
-file system that is too small for them and then grows (needs root: a tmpfs is mounted). `live` and the second half of `disk` need a sourced workspace.
+compared with one that was never killed; then all begins anew. `places`, `live_places`: the same of `map` with place recognition in panoramas, without given
+closures, and of the nodelet fabmap_node; their places are compared, too. What is committed is what another process reads while they write. `disk`: both again on a
+file system that is too small for them and then grows (needs root: a tmpfs is mounted). `live`, `live_places` and the second half of `disk` need a sourced workspace.
 """
 import argparse
 import os
@@ -20,11 +21,14 @@ import time
 from pathlib import Path
 
 import live_graph
+import live_places
 from live_graph import CLOSURES, RATE, STEPS, Feeder, begin_nodelet, quietly, stop
 from support import TOP, commit, show, urban_nav
 
 COLUMNS = ("killed", "kills", "`info` opens", "less than was committed", "runs to the end", "with other bytes", "newest row older than, s (median, most)")
 SAME = ("trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "closures.csv", "graph.g2o")
+PLACES = ("place", "keyframe_place")
+PARTS = ("map", "live", "disk", "places", "live_places")
 PROGRAM = TOP / "build/ws/devel/lib/urban_nav/urban_nav"  # what the command at the top starts, without its look at what is to be built
 PERIOD = 0.05  # s between two looks into a store that is being written
 
@@ -100,6 +104,12 @@ def equal(a, b, names):
     return not other
 
 
+def places(store):
+    """All rows of places, with their words, descriptors and thumbnails."""
+    with sqlite3.connect(f"file:{store}?mode=ro", uri=True, timeout=5) as file:
+        return [file.execute(f"SELECT * FROM {table} ORDER BY session, stamp_ns").fetchall() for table in PLACES]
+
+
 class Inputs:
     """Two days of the same short way, with the closures between them."""
 
@@ -115,6 +125,30 @@ class Inputs:
     def words(self, out):
         return [str(word) for word in (PROGRAM, "map", *self.bags, "--stages", "vo,graph", "--closures", self.closures, "--out", out)]
 
+    @staticmethod
+    def equal(whole, cut):
+        return equal(whole, cut, SAME)
+
+
+class PlaceInputs:
+    """Two days of the same short drive, with panoramas."""
+
+    def __init__(self, folder, duration):
+        self.bags = [folder / f"crash_panoramas{day}.bag" for day in (1, 2)]
+        for day, bag in enumerate(self.bags, 1):
+            if not bag.exists():
+                urban_nav("simulate", "--world", "quad", "--seed", 3, "--day", day, "--duration", duration, "--sensors", "stereo,ladybug", "-o", bag)
+
+    def words(self, out):
+        return [str(word) for word in (PROGRAM, "map", *self.bags, "--stages", "vo,places,loops,graph", "--out", out)]
+
+    @staticmethod
+    def equal(whole, cut):
+        same = places(whole / "session.db") == places(cut / "session.db")
+        if not same:
+            print(f"other places in {cut}", file=sys.stderr)
+        return equal(whole, cut, SAME) and same
+
 
 def whole_map(folder, inputs):
     whole = folder / "crash_whole"
@@ -124,9 +158,9 @@ def whole_map(folder, inputs):
     return whole, time.monotonic() - begin
 
 
-def kill_map(folder, inputs, kills, chance):
+def kill_map(folder, inputs, kills, chance, name="`urban_nav map`"):
     whole, took = whole_map(folder, inputs)
-    count, cut = Count("`urban_nav map`"), folder / "crash_cut"
+    count, cut = Count(name), folder / "crash_cut"
     while count.kills < kills:
         shutil.rmtree(cut, ignore_errors=True)
         ended = False
@@ -141,7 +175,7 @@ def kill_map(folder, inputs, kills, chance):
                 count.killed(cut / "session.db", seen)
         if not ended:
             subprocess.run(inputs.words(cut), check=True, capture_output=True)
-        count.ended(equal(whole, cut, SAME))
+        count.ended(inputs.equal(whole, cut))
     return count
 
 
@@ -179,33 +213,84 @@ def remove(store):
         path.unlink()
 
 
-def kill_live(folder, kills, chance):
-    live_graph.begin_master()
-    feeder, store = Feeder(), folder / "crash_live.db"
-    count, whole = Count("nodelet `pose_graph`"), None
+class GraphNodelet:
+    """The nodelet pose_graph; files of what ~save writes are compared."""
+
+    name = "nodelet `pose_graph`"
+
+    def __init__(self, folder):
+        self.folder, self.store, self.feeder = folder, folder / "crash_live.db", Feeder()
+        self.seconds = STEPS / RATE / live_graph.SPEED
+
+    def begin(self):
+        return begin_nodelet(self.store)
+
+    def finish(self, is_whole):
+        return finish(self.feeder, self.store, self.folder, "crash_live_whole" if is_whole else "crash_live_cut")
+
+    def age(self, now):
+        return age_of(self.store, self.feeder, now)
+
+    @staticmethod
+    def equal(whole, cut):
+        return equal(whole, cut, ("map.tum", "map.g2o"))
+
+
+class PlacesNodelet:
+    """The nodelet fabmap_node; the places of its store are compared."""
+
+    name = "nodelet `fabmap_node`"
+
+    def __init__(self, folder, bag):
+        self.store, self.feeder = folder / "crash_live_places.db", live_places.PlaceFeeder(bag)
+        self.seconds = self.feeder.seconds()
+
+    def begin(self):
+        return live_places.begin_nodelet(self.store)
+
+    def finish(self, _):
+        if not self.feeder.recognised():
+            sys.exit(f"{self.store}: {self.feeder.beliefs} beliefs of {len(self.feeder.panoramas)} panoramas")
+        print(live_places.save(self.store), file=sys.stderr)
+        return places(self.store)
+
+    def age(self, now):
+        """How long before `now` the first panorama was fed that is not in the store; those that were there from a run before hide it."""
+        with_places = sum(count for (table, _), count in (rows(self.store) or {}).items() if table == "place") if self.store.exists() else 0
+        missing = self.feeder.fed[with_places:]
+        return now - missing[0] if missing else 0.0
+
+    @staticmethod
+    def equal(whole, cut):
+        return whole == cut
+
+
+def kill_live(nodelet, kills, chance):
+    feeder, store = nodelet.feeder, nodelet.store
+    count, whole = Count(nodelet.name), None
     while whole is None or count.kills < kills:
         remove(store)
         ended = False
         while not ended:
-            nodelet, watch = begin_nodelet(store), Watch(store)
+            process, watch = nodelet.begin(), Watch(store)
             last = whole is None or count.kills >= kills
-            moment = time.monotonic() + (1e9 if last else chance.uniform(0.0, 1.5 + STEPS / RATE / live_graph.SPEED))
+            moment = time.monotonic() + (1e9 if last else chance.uniform(0.0, 1.5 + nodelet.seconds))
             if feeder.feed(moment):
                 ended = last or not feeder.wait(lambda m=moment: time.monotonic() > m, max(0.0, moment - time.monotonic()))
                 if not ended:
                     ended = chance.random() < 0.3  # as if it had not been killed
             if ended:
-                files = finish(feeder, store, folder, "crash_live_whole" if whole is None else "crash_live_cut")
+                result = nodelet.finish(whole is None)
             now = time.monotonic()
-            stop(nodelet)
+            stop(process)
             seen = watch.end()
             feeder.gone()
             if not ended:
-                count.killed(store, seen, age_of(store, feeder, now))
+                count.killed(store, seen, nodelet.age(now))
         if whole is None:
-            whole = files
+            whole = result
         else:
-            count.ended(equal(whole, files, ("map.tum", "map.g2o")))
+            count.ended(nodelet.equal(whole, result))
     return count
 
 
@@ -246,7 +331,7 @@ def fill_map(folder, inputs):
             opened += not store.exists() or subprocess.run([PROGRAM, "info", store], capture_output=True).returncode == 0
         disk.size(64)
         subprocess.run(inputs.words(out), check=True, capture_output=True)
-        good = named == len(sizes) and opened == len(sizes) and equal(whole, out, SAME)
+        good = named == len(sizes) and opened == len(sizes) and inputs.equal(whole, out)
         notes.append(f"Full disk, `map` with {', '.join(map(str, sizes))} MB: named {named} times of {len(sizes)}, `info` opens {opened}; with room again it ends "
                      f"with {'the same' if good else 'OTHER'} bytes.")
     return notes, good
@@ -280,16 +365,16 @@ def fill_live(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="for what is simulated and mapped; the bags that are there already are taken")
-    parser.add_argument("part", nargs="*", help="map, live, disk; default: all")
+    parser.add_argument("part", nargs="*", help=f"{', '.join(PARTS)}; default: all")
     parser.add_argument("--kills", type=int, default=100, help="of each (default 100)")
     parser.add_argument("--duration", type=int, default=10, help="s, of each simulated session (default 10)")
     parser.add_argument("--seed", type=int, default=1, help="of the moments")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
     arguments = parser.parse_args()
     urban_nav("--help")  # builds it where it is missing
-    parts = arguments.part or ["map", "live", "disk"]
-    if set(parts) - {"map", "live", "disk"}:
-        parser.error("the parts are map, live and disk")
+    parts = arguments.part or PARTS
+    if set(parts) - set(PARTS):
+        parser.error(f"the parts are {', '.join(PARTS)}")
     folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     measured, chance, counts, notes, good = commit(), random.Random(arguments.seed), [], [], True
@@ -297,8 +382,18 @@ def main():
     if "map" in parts:
         counts.append(kill_map(folder, inputs, arguments.kills, chance))
         notes.append(f"`map`: two sessions of {arguments.duration} s with closures.")
+    place_inputs = PlaceInputs(folder, arguments.duration) if {"places", "live_places"} & set(parts) else None
+    if "places" in parts:
+        counts.append(kill_map(folder, place_inputs, arguments.kills, chance, "`urban_nav map`, places"))
+        notes.append(f"`map` with places: two days of {arguments.duration} s with panoramas, no closures given.")
+    if {"live", "live_places"} & set(parts):
+        live_graph.begin_master()
+    if "live_places" in parts:
+        nodelet = PlacesNodelet(folder, place_inputs.bags[0])
+        counts.append(kill_live(nodelet, arguments.kills, chance))
+        notes.append(f"Nodelet `fabmap_node`: {len(nodelet.feeder.panoramas)} panoramas, fed {live_places.SPEED} times as fast and again from the beginning each time.")
     if "live" in parts:
-        counts.append(kill_live(folder, arguments.kills, chance))
+        counts.append(kill_live(GraphNodelet(folder), arguments.kills, chance))
         notes.append(f"Nodelet: {STEPS // RATE} s of odometry with a closure a second, fed {live_graph.SPEED} times as fast and again from the beginning each time.")
     if "disk" in parts:
         for said, fine in (fill_map(folder, inputs), fill_live(folder)):

@@ -64,6 +64,23 @@ class Stores(FolderCase):
             self.assertFalse(crash.equal(self.folder / "a", self.folder / "c", ["graph.g2o"]))
         self.assertIn("graph.g2o", said.getvalue())
 
+    def mapped(self, name, words):
+        (self.folder / name).mkdir()
+        for file in crash.SAME:
+            (self.folder / name / file).write_text("1")
+        with sqlite3.connect(self.folder / name / "session.db") as file:
+            for table in crash.PLACES:
+                file.execute(f"CREATE TABLE {table}(session, stamp_ns, words)")
+            file.executemany("INSERT INTO keyframe_place VALUES(?, ?, ?)", [("a", 2, words), ("a", 1, b"x")])
+        return self.folder / name
+
+    def test_other_places_are_named(self):
+        whole, same, other = (self.mapped(name, words) for name, words in (("whole", b"y"), ("same", b"y"), ("other", b"z")))
+        self.assertTrue(crash.PlaceInputs.equal(whole, same))
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertFalse(crash.PlaceInputs.equal(whole, other))
+        self.assertIn("other places", said.getvalue())
+
 
 @unittest.skipIf(live_graph.rospy is None, "no sourced workspace")
 class Recording(unittest.TestCase):

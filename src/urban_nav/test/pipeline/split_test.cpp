@@ -20,6 +20,9 @@
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/store.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_keyframe_place.hpp"
+#include "urban_nav_store/tables/stored_place.hpp"
 
 namespace urban_nav {
 namespace {
@@ -133,6 +136,41 @@ TEST_F(Split, goesOnWithWheels) {
   for (int i = 0; i < 3; ++i) map({part(i)}, folder.file("out"), i > 0 ? folder.file("out") : "", with_wheels);
   EXPECT_TRUE(readFile(folder.file("once/covariance.csv")) == readFile(folder.file("out/covariance.csv")));
   EXPECT_FALSE(readFile(whole() + "/covariance.csv") == readFile(folder.file("out/covariance.csv")));
+}
+
+/// Rows of place recognition: of panoramas, or of keyframes beside them.
+template <typename Row>
+std::vector<Row> placeRows(const std::string& store) {
+  urban_nav_store::Store file(store, urban_nav_store::Access::Read);
+  std::vector<Row> rows;
+  for (const auto& session : file.sessions().all())
+    urban_nav_store::TableStore<Row>(file).forEach(session.id, [&](const Row& row) { rows.push_back(row); });
+  return rows;
+}
+
+TEST_F(Split, keepsTheWordsOfKeyframesBesidePanoramas) {
+  const auto with_places = [](MapOptions& request) { request.stages = {"vo", "places"}; };
+  map({all()}, folder.file("once"), {}, with_places);
+  for (int i = 0; i < 3; ++i) map({part(i)}, folder.file("out"), i > 0 ? folder.file("out") : "", with_places);
+  const auto panoramas = placeRows<urban_nav_store::StoredPlace>(folder.file("once/session.db"));
+  const auto keyframes = placeRows<urban_nav_store::StoredKeyframePlace>(folder.file("once/session.db"));
+  EXPECT_EQ(panoramas.size(), static_cast<std::size_t>(kFrames));
+  ASSERT_GE(keyframes.size(), 2U);
+  EXPECT_LT(keyframes.size(), static_cast<std::size_t>(kFrames));
+  for (const auto& row : panoramas) EXPECT_EQ(row.cameras, 5);
+  for (const auto& row : keyframes) {
+    EXPECT_EQ(row.cameras, 1);
+    EXPECT_EQ(row.status, "used");
+    EXPECT_FALSE(row.words.empty());
+    EXPECT_TRUE(row.thumbnail.empty()) << "the keyframe has the image";
+  }
+  const auto in_parts = placeRows<urban_nav_store::StoredKeyframePlace>(folder.file("out/session.db"));
+  ASSERT_EQ(in_parts.size(), keyframes.size());
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    EXPECT_EQ(in_parts[i].stamp, keyframes[i].stamp);
+    EXPECT_EQ(in_parts[i].words, keyframes[i].words);
+    EXPECT_EQ(in_parts[i].descriptors, keyframes[i].descriptors);
+  }
 }
 
 // What ties moments of the first bag together still does when the others have come.

@@ -48,16 +48,24 @@ class PlaceRecognitionRun {
  public:
   PlaceRecognitionRun(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                       const MapContext& context)
-      : model_(model), context_(context), map_(model.model, parameters) {}
+      : model_(model),
+        context_(context),
+        ids_(context.ids()),
+        map_(model.model, parameters, [this](std::size_t session, urban_nav_core::StampNs stamp) {
+          StoredPlace key;
+          key.session = ids_[session];
+          key.stamp = stamp;
+          const auto row = TableStore<StoredPlace>(*context_.store).get(key);
+          return row ? row->descriptors : std::string();
+        }) {}
 
   PlacesRun run() {
-    const std::vector<urban_nav_store::SessionId> ids = context_.ids();
     const std::vector<const VoRun*> runs = context_.runs();
     const std::size_t previous = context_.previous.runs.size();
-    result_.beliefs.resize(ids.size());
-    for (std::size_t s = 0; s < ids.size(); ++s) {
+    result_.beliefs.resize(ids_.size());
+    for (std::size_t s = 0; s < ids_.size(); ++s) {
       map_.beginSession(context_.names[s]);
-      addSession(s, ids[s], travelledDistance(*runs[s], s < previous), s < previous);
+      addSession(s, ids_[s], travelledDistance(*runs[s], s < previous), s < previous);
     }
     result_.places = map_.places();
     if (other_model_ > 0)
@@ -95,7 +103,8 @@ class PlaceRecognitionRun {
 
   const LoadedPlaceModel& model_;
   const MapContext& context_;
-  FabMap map_;
+  const std::vector<urban_nav_store::SessionId> ids_;
+  FabMap map_;  // with descriptors from the store
   PlacesRun result_;
   std::size_t other_model_ = 0;
 };
