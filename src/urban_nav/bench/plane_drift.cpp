@@ -2,9 +2,10 @@
 // What constraints from planes make of drift: laser scans of a simulated bag (`simulate --sensors lasers`, no images
 // needed) with an odometry made of the truth and a random walk, relaxed with and without them.
 //
-//   urban_nav-bench-plane_drift [-o FILE.json] [--trials 3] BAG...
+//   urban_nav-bench-plane_drift [-o FILE.json] [--trials 3] [--icp] BAG...
 //
-// The truth is read from BAG_STEM.truth/trajectory.tum.
+// The truth is read from BAG_STEM.truth/trajectory.tum. Closures are drawn: the truth with noise; with --icp, measured
+// by ICP of the scans.
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
@@ -18,8 +19,10 @@
 #include <string>
 #include <vector>
 
+#include "command_line/console.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
 #include "stages/graph/plane_closures.hpp"
+#include "stages/loops/loops_run.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
@@ -121,15 +124,20 @@ std::vector<std::pair<std::size_t, std::size_t>> findRevisits(const Trajectory& 
   return pairs;
 }
 
-std::vector<ClosureRow> makeClosures(const Trajectory& truth, unsigned seed) {
+ClosureRow makeCandidate(const Trajectory& truth, std::size_t a, std::size_t b) {
+  ClosureRow row;
+  row.session_a = row.session_b = "drive";
+  row.stamp_a = truth[a].stamp;
+  row.stamp_b = truth[b].stamp;
+  return row;
+}
+
+std::vector<ClosureRow> drawClosures(const Trajectory& truth, unsigned seed) {
   std::mt19937 random(seed + 1000);
   std::normal_distribution<double> normal(0.0, 1.0);
   std::vector<ClosureRow> rows;
   for (const auto& [a, b] : findRevisits(truth)) {
-    ClosureRow row;
-    row.session_a = row.session_b = "drive";
-    row.stamp_a = truth[a].stamp;
-    row.stamp_b = truth[b].stamp;
+    ClosureRow row = makeCandidate(truth, a, b);
     row.kind = "stereo";
     Vector6d error = Vector6d::NullaryExpr([&](Eigen::Index) { return normal(random); });
     error.head<3>() *= kClosureM;
@@ -142,11 +150,18 @@ std::vector<ClosureRow> makeClosures(const Trajectory& truth, unsigned seed) {
   return rows;
 }
 
+std::vector<ClosureRow> measureClosures(const Trajectory& truth, const VoRun& odometry, Store& store) {
+  std::vector<ClosureRow> rows;
+  for (const auto& [a, b] : findRevisits(truth)) rows.push_back(makeCandidate(truth, a, b));
+  Console console;
+  return runLoops({}, {}, {}, {{"drive", kBenchSession, &odometry}}, store, std::move(rows), console).closures;
+}
+
 struct Figures {
   double displacement = 0.0, angle = 0.0;  ///< m, rad: of the walls of all passes
   double ate = 0.0;                        ///< m, after alignment
   double revisits = 0.0;                   ///< m, rms error of one pass relative to another
-  double constraints = 0.0, accepted = 0.0;
+  double constraints = 0.0, accepted = 0.0, closures = 0.0;
 
   Figures& operator+=(const Figures& other) {
     displacement += other.displacement;
@@ -155,6 +170,7 @@ struct Figures {
     revisits += other.revisits;
     constraints += other.constraints;
     accepted += other.accepted;
+    closures += other.closures;
     return *this;
   }
 };
@@ -170,6 +186,7 @@ Figures measure(const GraphRun& run, const Trajectory& truth, Store& store) {
   Figures figures;
   figures.constraints = static_cast<double>(planes.all());
   figures.accepted = static_cast<double>(planes.accepted);
+  figures.closures = static_cast<double>(run.closureVerdicts().accepted);
   figures.displacement = walls.displacement.mean;
   figures.angle = walls.angle.mean;
   std::vector<Pose> true_poses, poses;
@@ -187,7 +204,8 @@ Figures measure(const GraphRun& run, const Trajectory& truth, Store& store) {
   return figures;
 }
 
-void compare(const std::string& bag, unsigned trials, urban_nav_core::testing::BenchTable& table) {
+/// Returns the length of the session, s.
+double compare(const std::string& bag, unsigned trials, bool by_icp, urban_nav_core::testing::BenchTable& table) {
   const std::filesystem::path path(bag);
   const std::string store_path = (std::filesystem::temp_directory_path() / "urban_nav_plane_drift.db").string();
   urban_nav_store::removeStore(store_path);
@@ -205,20 +223,23 @@ void compare(const std::string& bag, unsigned trials, urban_nav_core::testing::B
       Figures sum;
       for (unsigned seed = 1; seed <= trials; ++seed) {
         const VoRun odometry = makeOdometry(truth, seed);
+        std::vector<ClosureRow> closures;
+        if (has_closures) closures = by_icp ? measureClosures(truth, odometry, store) : drawClosures(truth, seed);
         const GraphRun run =
-            runGraph({}, {&odometry}, {"drive"}, has_closures ? makeClosures(truth, seed) : std::vector<ClosureRow>(),
-                     {}, {}, {}, has_planes ? find_planes : PlaneFinder());
+            runGraph({}, {&odometry}, {"drive"}, closures, {}, {}, {}, has_planes ? find_planes : PlaneFinder());
         sum += measure(run, truth, store);
       }
       const double mean = 1.0 / trials;
       const auto count = [&](double value) { return has_planes ? cell(mean * value, 0) : std::string("-"); };
-      table.add({path.stem().string(), has_closures ? "odometry and closures" : "odometry", count(sum.constraints),
+      const std::string closures = cell(mean * sum.closures, 0) + (by_icp ? " closures by ICP" : " closures");
+      table.add({path.stem().string(), has_closures ? "odometry and " + closures : "odometry", count(sum.constraints),
                  count(sum.accepted), cell(1e3 * mean * sum.displacement, 1), cell(180.0 / M_PI * mean * sum.angle, 2),
                  cell(1e3 * mean * sum.revisits, 0), cell(1e3 * mean * sum.ate, 0)});
       std::fputs((table.text() + "\n").c_str(), stderr);
     }
   opened.reset();
   urban_nav_store::removeStore(store_path);
+  return urban_nav_core::secondsBetween(truth.front().stamp, truth.back().stamp);
 }
 
 }  // namespace urban_nav::bench
@@ -230,17 +251,24 @@ int main(int argc, char** argv) {
       argc, argv);
   std::string output;
   unsigned trials = 3;
+  bool by_icp = false;
   std::vector<std::string> bags;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "-o" && i + 1 < argc) output = argv[++i];
     else if (word == "--trials" && i + 1 < argc) trials = static_cast<unsigned>(std::atoi(argv[++i]));
+    else if (word == "--icp") by_icp = true;
     else bags.push_back(word);
   }
-  for (const std::string& bag : bags) urban_nav::bench::compare(bag, trials, table);
-  table.note(
-      "Orbits for 260 s: two and a half in quad, one and a half in street and begbroke; displacement and angle without ground truth (Table 4 of the paper). Means over " +
-      std::to_string(trials) + " random walks of the odometry, each 5 mm and 0.3 mrad per root of a second.");
+  std::string lengths;
+  for (const std::string& bag : bags) {
+    const double seconds = urban_nav::bench::compare(bag, trials, by_icp, table);
+    lengths += (lengths.empty() ? "" : ", ") + urban_nav_core::testing::cell(seconds, 0) + " s";
+  }
+  table.note("Sessions of " + lengths +
+             "; displacement and angle without ground truth (Table 4 of the paper). Means over " +
+             std::to_string(trials) + " random walks of the odometry, each 5 mm and 0.3 mrad per root of a second" +
+             (by_icp ? "; closures measured by ICP of the scans." : "; closures are the truth with noise."));
   std::fputs(table.text().c_str(), stdout);
   if (!output.empty()) table.write(output);
   return 0;
