@@ -47,9 +47,11 @@ struct EdgeAssessment {
 /// How a selection among several sets of edges ended.
 struct SelectionReport {
   bool contested = false;     ///< whether more sets than one and odometry alone were weighed
+  bool unweighed = false;     ///< the graph is too large for that, and closures were rejected or variances are far off
   bool undecided = false;     ///< no set of closures is likelier than chance: odometry alone
   bool has_rival = false;     ///< another set, with other closures, is likelier than a thousandth of the chosen one
   double log_evidence = 0.0;  ///< of the set that was chosen, over odometry alone
+  std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, where the graph is of a file
   /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
   double odometry_factor = 1.0, closure_factor = 1.0;
 };
@@ -93,7 +95,9 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
 /// explains. The set with the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of
 /// them: where no set is likelier by a factor of 1000, no closure is accepted. Edges that are the same to the last bit
 /// count once. Where the variances of odometry and closures are off by more than a factor of 9 against each other, the
-/// poses are those of the information put right. Graphs beyond 200 000 poses are taken as relaxRobust() has them.
+/// poses are those of the information put right. Of graphs beyond 200 000 poses
+/// the selection of relaxRobust() alone is weighed against odometry, by the core that their chains leave, or not at all
+/// where it is as large (SelectionReport::unweighed).
 template <int D>
 RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const SolveOptions& options);

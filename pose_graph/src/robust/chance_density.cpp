@@ -89,8 +89,11 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
 }
 
 template <int D>
-ChanceDensity<D>::ChanceDensity(const DeadReckoning<D>& chains, std::size_t closures)
-    : chains_(chains), pairs_(std::clamp(kDistances / std::max<std::size_t>(1, closures), kFewestPairs, kMostPairs)) {}
+ChanceDensity<D>::ChanceDensity(const DeadReckoning<D>& chains, const std::vector<Rigid<D>>& poses,
+                                std::size_t closures)
+    : chains_(chains),
+      poses_(poses),
+      pairs_(std::clamp(kDistances / std::max<std::size_t>(1, closures), kFewestPairs, kMostPairs)) {}
 
 template <int D>
 PoseSample<D> ChanceDensity<D>::sample(int octave) const {
@@ -102,19 +105,20 @@ PoseSample<D> ChanceDensity<D>::sample(int octave) const {
   for (std::uint64_t k = 0; longest > shortest && k < 4 * pairs_ && pairs.size() < pairs_; ++k) {
     const std::size_t from = drawIndex(2 * k, n), to = from + shortest + drawIndex(2 * k + 1, longest - shortest);
     if (to >= n || chains_.of_pose[from] != chains_.of_pose[to]) continue;
-    pairs.push_back(chains_.pose[from].inverse() * chains_.pose[to]);
+    pairs.push_back(poses_[from].inverse() * poses_[to]);
     ends.emplace_back(static_cast<int>(from), static_cast<int>(to));
   }
   return {std::move(pairs), chains_.extent, std::move(ends)};
 }
 
 template <int D>
-double ChanceDensity<D>::logAt(const Edge<D>& edge) {
+double ChanceDensity<D>::logAt(const Edge<D>& edge, double volume) {
   const int from = edge.from, to = edge.to;
   const int octave = chains_.of_pose[sz(from)] == chains_.of_pose[sz(to)] ? octaveBetween(from, to) : kAnyOctave;
   auto known = of_octave_.find(octave);
   if (known == of_octave_.end()) known = of_octave_.emplace(octave, sample(octave)).first;
-  const double resolved = std::sqrt(boundedCovariance<D>(edge.information, chains_.extent).determinant());
+  const double resolved =
+      std::max(volume, std::sqrt(boundedCovariance<D>(edge.information, chains_.extent).determinant()));
   const int reach = std::clamp(static_cast<int>(chains_.pose.size()) / kOwnShare, 1, kOwnReach);
   return known->second.logDensity(from <= to ? edge.Z : edge.Z.inverse(), resolved,
                                   {std::min(from, to), std::max(from, to), reach});

@@ -43,16 +43,19 @@ class PoseSample {
 template <int D>
 class ChanceDensity {
  public:
-  /// `chains` must outlive it. `closures`: how many will be asked for; of many, each sees fewer pairs.
-  ChanceDensity(const DeadReckoning<D>& chains, std::size_t closures);
+  /// Of the map that dead reckoning gives. `closures`: how many will be asked for; of many, each sees fewer pairs.
+  ChanceDensity(const DeadReckoning<D>& chains, std::size_t closures) : ChanceDensity(chains, chains.pose, closures) {}
+  /// Of the map that these poses are, by the same pairs. Both must outlive it.
+  ChanceDensity(const DeadReckoning<D>& chains, const std::vector<Rigid<D>>& poses, std::size_t closures);
 
-  /// As PoseSample::logDensity(), of what an edge measures, over what it resolves.
-  double logAt(const Edge<D>& edge);
+  /// As PoseSample::logDensity(), of what an edge measures, over what it resolves and no less than `volume`.
+  double logAt(const Edge<D>& edge, double volume = 0.0);
 
  private:
   PoseSample<D> sample(int octave) const;
 
   const DeadReckoning<D>& chains_;
+  const std::vector<Rigid<D>>& poses_;
   std::size_t pairs_ = 0;
   std::map<int, PoseSample<D>> of_octave_;
 };

@@ -29,7 +29,8 @@ constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // of a ratio; of logarith
 constexpr double kComponentsSettled = 0.05;           // of the logarithms of the factors
 constexpr double kHypothesisShare = 1e-4;
 constexpr double kOdometryMargin = 100.0;
-constexpr int kNeighbours = 10;     // poses, as in ClosureLoops
+constexpr int kNeighbours = 10;           // poses, as in ClosureLoops
+constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
 constexpr double kLooseRow = 25.0;  // as in InformationScale: false closures found in a row err alike, more or less
 
 double logFactorial(double n) { return std::lgamma(n + 1.0); }
@@ -180,6 +181,28 @@ double HypothesisJudge<D>::chance(const Hypothesis<D>& hypothesis) const {
   return sum;
 }
 
+// By how much closures inside agree by chance rather on the map of the hypothesis than on that of odometry: closures
+// are found where two places are alike, so that the density of one that is true is relative to how often two poses of
+// the map lie as it says, over the volume within which the set as a whole predicts it.
+template <int D>
+double HypothesisJudge<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
+  std::vector<int> inside;
+  for (const int e : candidates_)
+    if (hypothesis.in[sz(e)]) inside.push_back(e);
+  if (inside.empty()) return 0.0;
+  ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
+  const double log_predicted =
+      (hypothesis.log_inside - log_odometry_) / static_cast<double>(inside.size());  // density of each, on average
+  const std::size_t every = 1 + inside.size() / kAskedOfMap;
+  double sum = 0.0, asked = 0.0;
+  for (std::size_t i = 0; i < inside.size(); i += every, asked += 1.0) {
+    const std::size_t e = sz(inside[i]);
+    const double on_map = by_chance.logAt(problem_.edges[e], std::exp(-log_predicted));
+    sum += std::max(0.0, on_map - (neighbour_[e] < 0 ? log_false_[e] : std::max(log_false_[e], log_alike_[e])));
+  }
+  return sum / asked * static_cast<double>(inside.size());
+}
+
 template <int D>
 void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
   constexpr int N = tangent_size<D>;
@@ -218,14 +241,16 @@ void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
   hypothesis.log_evidence = -std::numeric_limits<double>::infinity();
   if (!graph.factor(hypothesis.poses)) return;
   const double unknowns = graph.unknowns();
-  double sum = chance(hypothesis) - 0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ +
-               0.5 * unknowns * N * kLogTwoPiHypothesis - 0.5 * graph.logDeterminant();
+  double sum = -0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ + 0.5 * unknowns * N * kLogTwoPiHypothesis -
+               0.5 * graph.logDeterminant();
   for (const int e : edges) {
     const auto [log_determinant, rank] = logDeterminant<D>(problem_.edges[sz(e)].information);
     sum += 0.5 * log_determinant - 0.5 * rank * (kLogTwoPiHypothesis + std::log(factorOf(e)));
   }
   sum += logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
-  if (std::isfinite(sum)) hypothesis.log_evidence = sum;
+  if (!std::isfinite(sum)) return;
+  hypothesis.log_inside = sum;
+  hypothesis.log_evidence = sum + chance(hypothesis) - gainByContraction(hypothesis);
 }
 
 template <int D>
@@ -239,7 +264,7 @@ double HypothesisJudge<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-Hypothesis<D> HypothesisJudge<D>::withoutClosures() const {
+Hypothesis<D> HypothesisJudge<D>::judgeOdometry() {
   Hypothesis<D> made;
   Problem<D> part;
   part.poses = problem_.poses;
@@ -248,6 +273,8 @@ Hypothesis<D> HypothesisJudge<D>::withoutClosures() const {
     if (made.in.back()) part.edges.push_back(problem_.edges[e]);
   }
   made.poses = posesAlongEdges(part);
+  judge(made);
+  log_odometry_ = made.log_inside;
   return made;
 }
 

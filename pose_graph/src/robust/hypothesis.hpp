@@ -21,7 +21,8 @@ struct Hypothesis {
   std::vector<char> in;  ///< by edge: not 0 for those taken as true
   std::vector<Rigid<D>> poses;
   VarianceFactors factors;
-  double log_evidence = 0.0;
+  double log_inside = 0.0;    ///< the part of the evidence that is of the edges inside
+  double log_evidence = 0.0;  ///< all of it
 };
 
 /// Judges hypotheses of one graph by their evidence: the density of all measurements, with the poses integrated out
@@ -29,7 +30,9 @@ struct Hypothesis {
 /// chance: anywhere within what odometry can have reached, and any heading; a closure outside whose neighbour is
 /// outside too may err like that one, as places that look alike do. The number of closures inside is a priori any, and
 /// which they are as well, so that a set is worth only what it explains beyond the choice of it; of neighbours the
-/// choice is one of how often true and false ones alternate.
+/// choice is one of how often true and false ones alternate. Where the map that follows from a set makes agreement by
+/// chance likelier than the odometry does, the set explains that much less: any closures agree with a map drawn
+/// together to a few places.
 template <int D>
 class HypothesisJudge {
  public:
@@ -52,11 +55,12 @@ class HypothesisJudge {
   /// How many rows of neighbouring closures are inside: closures of one row are no independent witnesses.
   double rowsInside(const Hypothesis<D>& hypothesis) const;
 
-  /// Only trusted and asserted edges.
-  Hypothesis<D> withoutClosures() const;
+  /// Only trusted and asserted edges, judged. To be asked for before any other is judged.
+  Hypothesis<D> judgeOdometry();
 
  private:
   double chance(const Hypothesis<D>& hypothesis) const;
+  double gainByContraction(const Hypothesis<D>& hypothesis) const;
 
   Problem<D> problem_;  // what an edge does not measure lies within the map
   const std::vector<EdgeRole>& roles_;
@@ -64,6 +68,7 @@ class HypothesisJudge {
   std::vector<int> candidates_;
   double largest_odometry_ = 1.0;
   bool assertions_ = false;
+  double log_odometry_ = 0.0;      ///< log_inside of odometry alone
   double log_place_ = 0.0;         ///< of one pose anywhere, density
   std::vector<double> log_false_;  ///< by edge, density of its measurement were it anywhere
   std::vector<int> neighbour_;     ///< by edge: a closure near it, before it; -1 without one

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "linear/index.hpp"
+#include "robust/core_graph.hpp"
 #include "robust/hypothesis.hpp"
 #include "robust/judgement.hpp"
 #include "robust/session_links.hpp"
@@ -26,7 +28,7 @@ constexpr double kRegrowFactor = 1.7;  // of variances: less changes no verdict
 constexpr int kRegrows = 2;
 constexpr double kHealedShare = 0.01;  // of a step's information that what takes its place has
 // Beyond so many poses what nothing contests is not judged, and beyond so many one selection is all that there is time
-// for.
+// for, weighed where the chains of a graph leave a core that is no larger.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
 
 // Edges that are the same to the last bit count once: they are no independent measurements.
@@ -82,15 +84,18 @@ class Selection {
 
   void run() {
     best_.judgement = judgeGraph(problem_, roles_);
-    if (candidates_ == 0 || problem_.poses.size() > kMostPoses) return;
+    if (candidates_ == 0) return;
     if (problem_.poses.size() > kManyPoses && !isContested(best_.judgement)) return;
+    if (problem_.poses.size() > kMostPoses) {
+      weighCore();
+      return;
+    }
     parts_ = sessionParts(problem_, roles_);
     std::size_t between = 0;
     for (std::size_t e = 0; e < roles_.size(); ++e) between += isBetween(e);
     contested_ = isContested(best_.judgement) || between > 0;
     judge_ = std::make_unique<HypothesisJudge<D>>(problem_, roles_);
-    odometry_ = judge_->withoutClosures();
-    judge_->judge(odometry_);
+    odometry_ = judge_->judgeOdometry();
     best_.hypothesis = hypothesisOver(best_.judgement, {});
     weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
     if (!contested_) return;
@@ -103,6 +108,8 @@ class Selection {
   bool wasJudged() const { return judge_ != nullptr; }
   /// Whether other sets than the first one were looked at.
   bool wasContested() const { return contested_; }
+  /// Whether they should have been, and the graph is too large.
+  bool isUnweighed() const { return unweighed_; }
   // Whether another set that takes other closures is nearly as likely.
   bool hasRival() const {
     return std::any_of(weighed_.begin(), weighed_.end(), [&](const auto& other) {
@@ -207,6 +214,32 @@ class Selection {
     return true;
   }
 
+  // Weighs the one selection of a large graph against odometry alone, by its core.
+  void weighCore() {
+    core_ = CoreGraph<D>::of(problem_, roles_);
+    unweighed_ = !core_ || core_->problem().poses.size() > kMostPoses;
+    if (unweighed_) return;
+    contested_ = true;
+    HypothesisJudge<D> along_odometry(core_->problem(), core_->roles());
+    odometry_ = along_odometry.judgeOdometry();
+    const double log_evidence = odometry_.log_evidence;
+    odometry_.poses = core_->expanded(odometry_.poses);
+    Hypothesis<D> made;
+    for (std::size_t i = 0; i < core_->problem().poses.size(); ++i)
+      made.poses.push_back(best_.judgement.poses[sz(core_->pose(static_cast<int>(i)))]);
+    for (std::size_t e = 0; e < core_->problem().edges.size(); ++e) {
+      const int edge = core_->edge(static_cast<int>(e));
+      made.in.push_back(edge < 0 || best_.judgement.edges[sz(edge)].weight > 0.0);
+    }
+    core_->expanded(made.poses);
+    core_->relinearise();
+    judge_ = std::make_unique<HypothesisJudge<D>>(core_->problem(), core_->roles());
+    judge_->judgeOdometry();
+    judge_->judge(made);
+    best_.hypothesis = std::move(made);
+    odometry_.log_evidence = log_evidence;
+  }
+
   // Joins parts that enough closures agree on, and bars all closures between others.
   void link() {
     std::vector<char> within = best_.hypothesis.in;
@@ -275,7 +308,8 @@ class Selection {
   std::size_t candidates_ = 0;
   std::vector<int> parts_;    // by pose, what odometry holds together
   std::vector<char> barred_;  // by edge: joins parts that too few closures agree on
-  bool contested_ = false;
+  bool contested_ = false, unweighed_ = false;
+  std::optional<CoreGraph<D>> core_;  // of a graph beyond kMostPoses
   std::unique_ptr<HypothesisJudge<D>> judge_;
   Hypothesis<D> odometry_;
   Proposal best_;
@@ -292,6 +326,7 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
   Selection<D> selection(unique.problem, unique.roles);
   selection.run();
   SelectionReport report;
+  report.unweighed = selection.isUnweighed();
   VarianceFactors factors;
   if (selection.wasJudged()) {
     report.contested = selection.wasContested();

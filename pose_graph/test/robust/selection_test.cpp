@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pose_graph/robust.hpp"
@@ -72,6 +73,21 @@ TEST(Selection, AChainWithFalseClosuresAloneStaysWithOdometry) {
   for (const std::size_t wrong : {5, 20, 80}) {
     staysWithOdometry<2>(drawTown, wrong);
     staysWithOdometry<3>(drawGlobe, wrong);
+  }
+}
+
+// Odometry that turns by half a radian a step is bent to fit any closures once all places have become one.
+TEST(Selection, AMapThatIsDrawnTogetherExplainsNothing) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SimulatedGraph graph =
+        urban_nav_core::testing::gridGraph(5, 5, 5, 1.0, 0.5, urban_nav_core::testing::evenNoise(0.1, 0.4), seed);
+    addFalseClosures(graph, FalseClosures::Random, 100, seed + 10);
+    graph.edges.erase(std::remove_if(graph.edges.begin(), graph.edges.end(),
+                                     [](const auto& edge) { return !isStep(edge) && !edge.wrong; }),
+                      graph.edges.end());
+    const Selected<3> selected(simulatedProblem<3>(graph, deadReckoning(graph)));
+    EXPECT_TRUE(selected.robust.selection.undecided) << seed;
+    EXPECT_EQ(selected.closures(ClosureVerdict::Accepted), 0u) << seed;
   }
 }
 
