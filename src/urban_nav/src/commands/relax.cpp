@@ -7,14 +7,15 @@
 #include "commands/commands.hpp"
 #include "pipeline/parameters.hpp"
 #include "pose_graph/ceres.hpp"
+#include "pose_graph/false_priors.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/parameters.hpp"
 #include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
+#include "pose_graph/selection_warnings.hpp"
 #include "pose_graph/solution.hpp"
 #include "relax/relax_files.hpp"
 #include "relax/relax_report.hpp"
-#include "relax/relax_warnings.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/io/toro.hpp"
@@ -81,6 +82,29 @@ pose_graph::Parameters relaxParameters(const Arguments& arguments) {
   return parameters;
 }
 
+/// The graph without its false priors and closures.
+template <int D>
+pose_graph::RobustSolution<D> selected(const pose_graph::FileProblem<D>& file,
+                                       const pose_graph::SolveOptions& options) {
+  const pose_graph::FalsePriors wrong = pose_graph::findFalsePriors(file);
+  pose_graph::RobustSolution<D> robust;
+  if (wrong.rejected.empty()) {
+    robust = pose_graph::relaxSelected(file.problem, file.roles, options);
+  } else {
+    pose_graph::Problem<D> without = file.problem;
+    for (const int e : wrong.rejected) without.edges[static_cast<std::size_t>(e)].information.setZero();
+    robust = pose_graph::relaxSelected(without, file.roles, options);
+  }
+  for (const int e : wrong.rejected) {
+    pose_graph::EdgeAssessment& edge = robust.edges[static_cast<std::size_t>(e)];
+    edge.weight = 0.0;
+    edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
+    edge.reason = pose_graph::Reason::Disagrees;
+  }
+  robust.selection.undecided_priors = wrong.undecided;
+  return robust;
+}
+
 /// Poses, and what is thought of each edge.
 template <int D>
 pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, const pose_graph::Parameters& parameters,
@@ -92,7 +116,7 @@ pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, con
                     "--solver gauss_newton, ceres");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
-  if (doubted) robust = pose_graph::relaxSelected(file.problem, file.roles, options);
+  if (doubted) robust = selected(file, options);
   if (solver != "gauss_newton") {
     pose_graph::Problem<D> accepted;
     accepted.poses = file.problem.poses;
@@ -152,9 +176,12 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
   report.after = computeCosts(file.problem, solution.poses);
   if (solution.components > 1)
     warnings.add(std::to_string(solution.components) + " parts that no edge connects; each stays in its own frame");
-  if (!doubted || report.edges <= trusted) return;
+  // A tree contradicts nothing.
+  if (!doubted || file.problem.edges.size() + static_cast<std::size_t>(std::max(solution.components, 1)) <=
+                      file.problem.poses.size())
+    return;
   report.scales = estimateScales(file.problem, file.roles, robust.edges, solution.poses, robust.selection);
-  for (const std::string& warning : selectionWarnings(file, robust, *report.scales)) warnings.add(warning);
+  for (const std::string& warning : pose_graph::selectionWarnings(file, robust, *report.scales)) warnings.add(warning);
 }
 
 template <int D>

@@ -116,6 +116,23 @@ TEST_F(Relax, WhatCannotBeDecidedIsOdometryAndSaysSo) {
   EXPECT_NE(readTextFile(path("a.json")).find("\"unknown\""), std::string::npos);
 }
 
+TEST_F(Relax, AFalsePriorIsRejectedAndNamed) {
+  const std::string priors =
+      "EDGE_PRIOR_SE2_XY 0 0 0 1e4 0 1e4\nEDGE_PRIOR_SE2_XY 1 1 0 1e4 0 1e4\nEDGE_PRIOR_SE2_XY 2 1 1 1e4 0 1e4\n"
+      "EDGE_PRIOR_SE2_XY 4 0 0 1e4 0 1e4\n";
+  writeAtomically(path("in.g2o"), kSharpSquare + priors + "EDGE_PRIOR_SE2_XY 3 50 -30 1e4 0 1e4\n");
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--edges", path("e.csv"), "--rejected", path("r.g2o"), "--json",
+                   path("a.json")}),
+            0);
+  EXPECT_NE(readTextFile(path("e.csv")).find("\n3,,0,rejected,"), std::string::npos) << readTextFile(path("e.csv"));
+  EXPECT_NE(readTextFile(path("a.json")).find("1 of 5 priors"), std::string::npos) << readTextFile(path("a.json"));
+  EXPECT_EQ(readTextFile(path("r.g2o")).find("EDGE_PRIOR_SE2_XY 3 "), std::string::npos);
+  writeAtomically(path("in.g2o"), kSharpSquare + priors);
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("b.g2o"), "--json", path("b.json")}), 0);
+  EXPECT_NE(readTextFile(path("b.json")).find("\"warnings\": []"), std::string::npos) << readTextFile(path("b.json"));
+  expectSamePoses(read("a.g2o"), read("b.g2o"), 1e-3);
+}
+
 TEST_F(Relax, CovariancesAndRejectedEdgesAreWritten) {
   writeAtomically(path("in.g2o"), std::string(kSharpSquare) + "EDGE_SE2 0 2 50 -30 1 1e4 0 0 1e4 0 4e4\n");
   ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--edges", path("e.csv"), "--covariance", path("c.csv"),

@@ -8,13 +8,12 @@
 #include "pose_graph/robust.hpp"
 #include "pose_graph/scales.hpp"
 
-namespace urban_nav {
+namespace pose_graph {
 
 /// What a user should know of a selection, a sentence each: nothing could be decided, more than half of a kind of edge
 /// is rejected, odometry slipped, or the information is off by more than a factor of 3 in its deviations.
 template <int D>
-std::vector<std::string> selectionWarnings(const pose_graph::FileProblem<D>& file,
-                                           const pose_graph::RobustSolution<D>& robust,
-                                           const pose_graph::DeviationScales& scales);
+std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,
+                                           const DeviationScales& scales);
 
-}  // namespace urban_nav
+}  // namespace pose_graph

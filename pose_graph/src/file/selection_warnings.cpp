@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "relax/relax_warnings.hpp"
+#include "pose_graph/selection_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
+#include <utility>
 
-#include "report/plot.hpp"
+namespace pose_graph {
 
-namespace urban_nav {
-
-using pose_graph::EdgeRole;
 using urban_nav_core::ClosureVerdict;
 
 namespace {
@@ -20,12 +18,12 @@ struct Rejections {
   std::size_t rejected = 0, all = 0;
 };
 
+// Of edges, without those of odometry.
 template <int D>
-Rejections count(const std::vector<int>& edges, const pose_graph::FileProblem<D>& file,
-                 const pose_graph::RobustSolution<D>& robust, EdgeRole role) {
+Rejections count(const std::vector<int>& edges, const FileProblem<D>& file, const RobustSolution<D>& robust) {
   Rejections made;
   for (const int edge : edges) {
-    if (edge < 0 || file.roles[static_cast<std::size_t>(edge)] != role) continue;
+    if (edge < 0 || file.roles[static_cast<std::size_t>(edge)] == EdgeRole::Trusted) continue;
     ++made.all;
     made.rejected += robust.edges[static_cast<std::size_t>(edge)].verdict == ClosureVerdict::Rejected;
   }
@@ -34,8 +32,7 @@ Rejections count(const std::vector<int>& edges, const pose_graph::FileProblem<D>
 
 // The poses around a slip up to the next ends of accepted closures: in between nothing tells which step it was.
 template <int D>
-std::string describeSlip(const pose_graph::FileProblem<D>& file, const pose_graph::RobustSolution<D>& robust,
-                         std::size_t edge) {
+std::string describeSlip(const FileProblem<D>& file, const RobustSolution<D>& robust, std::size_t edge) {
   const int from = std::min(file.problem.edges[edge].from, file.problem.edges[edge].to);
   const int to = std::max(file.problem.edges[edge].from, file.problem.edges[edge].to);
   int first = 0, last = static_cast<int>(file.ids.size()) - 1;
@@ -51,32 +48,48 @@ std::string describeSlip(const pose_graph::FileProblem<D>& file, const pose_grap
          id(to) + ": this edge is rejected";
 }
 
+std::string twoDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value < 100.0 ? "%.2g" : "%.0f", value);
+  return text;
+}
+
 void addScale(const std::string& what, const std::optional<double>& scale, std::vector<std::string>& warnings) {
   if (scale && (*scale > kImplausible || *scale < 1.0 / kImplausible))
-    warnings.push_back("the errors of " + what + " are " + forPerson(*scale, 2) +
+    warnings.push_back("the errors of " + what + " are " + twoDigits(*scale) +
                        " times the deviations that its information states");
 }
 
 }  // namespace
 
 template <int D>
-std::vector<std::string> selectionWarnings(const pose_graph::FileProblem<D>& file,
-                                           const pose_graph::RobustSolution<D>& robust,
-                                           const pose_graph::DeviationScales& scales) {
+std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,
+                                           const DeviationScales& scales) {
   std::vector<std::string> warnings;
-  const Rejections closures = count(file.edges, file, robust, EdgeRole::Candidate);
+  const Rejections closures = count(file.edges, file, robust);
   if (robust.selection.undecided)
     warnings.push_back("nothing could be decided: no set of the " + std::to_string(closures.all) +
                        " closures agrees with odometry and itself better than chance explains; the answer is odometry");
   else if (2 * closures.rejected > closures.all)
     warnings.push_back(std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +
                        " closures are rejected: more than half");
+  if (robust.selection.unweighed)
+    warnings.push_back("the graph is too large for sets of closures to be weighed against odometry alone: " +
+                       std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +
+                       " are rejected, and the others may agree by chance");
   if (robust.selection.has_rival)
     warnings.push_back("another set of closures is nearly as likely as the accepted one: what differs is a guess");
-  const Rejections priors = count(file.priors, file, robust, EdgeRole::Candidate);
-  if (2 * priors.rejected > priors.all)
-    warnings.push_back(std::to_string(priors.rejected) + " of " + std::to_string(priors.all) +
-                       " priors are rejected: more than half");
+  for (const auto& [edges, name] :
+       {std::make_pair(&file.priors, "priors"), std::make_pair(&file.point_edges, "measurements of landmarks")}) {
+    const Rejections some = count(*edges, file, robust);
+    if (some.rejected > 0)
+      warnings.push_back(std::to_string(some.rejected) + " of " + std::to_string(some.all) + " " + name +
+                         " are rejected: they contradict odometry and the others");
+  }
+  if (robust.selection.undecided_priors > 0)
+    warnings.push_back(std::to_string(robust.selection.undecided_priors) +
+                       " priors or measurements of landmarks contradict odometry and the others, and which are false "
+                       "cannot be decided: all are used");
   for (std::size_t e = 0; e < file.roles.size(); ++e)
     if (file.roles[e] == EdgeRole::Trusted && robust.edges[e].verdict == ClosureVerdict::Rejected)
       warnings.push_back(describeSlip(file, robust, e));
@@ -87,11 +100,9 @@ std::vector<std::string> selectionWarnings(const pose_graph::FileProblem<D>& fil
   return warnings;
 }
 
-template std::vector<std::string> selectionWarnings<2>(const pose_graph::FileProblem<2>&,
-                                                       const pose_graph::RobustSolution<2>&,
-                                                       const pose_graph::DeviationScales&);
-template std::vector<std::string> selectionWarnings<3>(const pose_graph::FileProblem<3>&,
-                                                       const pose_graph::RobustSolution<3>&,
-                                                       const pose_graph::DeviationScales&);
+template std::vector<std::string> selectionWarnings<2>(const FileProblem<2>&, const RobustSolution<2>&,
+                                                       const DeviationScales&);
+template std::vector<std::string> selectionWarnings<3>(const FileProblem<3>&, const RobustSolution<3>&,
+                                                       const DeviationScales&);
 
-}  // namespace urban_nav
+}  // namespace pose_graph

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/false_priors.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "robust/accepted_graph.hpp"
+#include "robust/whitened_edge.hpp"
+#include "start/along_edges.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+// Of chi-square over degrees of freedom, in units of the middle one: as of a step of odometry that slipped.
+constexpr double kFalseSquare = 100.0;
+constexpr double kFitNarrowing = 4.0;  // of the square of the kernel's width, each round
+constexpr int kFitStartSteps = 20, kFitSteps = 3, kFitLastRounds = 5;
+constexpr double kFitStartShare = 1e-3, kFitShare = 1e-4;
+
+template <int D>
+struct Doubted {
+  int edge = 0;
+  int group = -1;  // the landmark; -1 for priors
+  WhitenedEdge<D> whitened;
+
+  double squareOverRank(const std::vector<Rigid<D>>& poses) const {
+    return whitenedError(whitened, poses[sz(whitened.from)], poses[sz(whitened.to)]).squaredNorm() / whitened.rank;
+  }
+};
+
+template <int D>
+std::vector<Doubted<D>> collectDoubted(const FileProblem<D>& file) {
+  std::vector<Doubted<D>> made;
+  const auto add = [&](int e, int group) {
+    Doubted<D> one{e, group, whitened(file.problem.edges[sz(e)])};
+    if (one.whitened.rank > 0) made.push_back(one);
+  };
+  for (const int e : file.priors) add(e, -1);
+  for (const int e : file.point_edges)
+    if (file.roles[sz(e)] == EdgeRole::Asserted) add(e, file.problem.edges[sz(e)].to);
+  return made;
+}
+
+template <int D>
+double largestSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Rigid<D>>& poses) {
+  double most = 0.0;
+  for (const Doubted<D>& one : doubted) most = std::max(most, one.squareOverRank(poses));
+  return most;
+}
+
+template <int D>
+double middleSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Rigid<D>>& poses) {
+  std::vector<double> squares;
+  for (const Doubted<D>& one : doubted) squares.push_back(one.squareOverRank(poses));
+  const auto at = squares.begin() + static_cast<std::ptrdiff_t>((squares.size() - 1) / 2);
+  std::nth_element(squares.begin(), at, squares.end());
+  return *at;
+}
+
+// The frame of the priors where their positions fit those of the poses best (Umeyama, least-squares estimation of
+// transformation parameters, PAMI 1991, without scale): of positions alone no other start finds how it is turned.
+template <int D>
+void alignFrame(const FileProblem<D>& file, std::vector<Rigid<D>>& poses) {
+  if (file.frame < 0 || file.priors.size() < 2) return;
+  using Position = Eigen::Matrix<double, D, 1>;
+  Position prior_mean = Position::Zero(), pose_mean = Position::Zero();
+  const double share = 1.0 / static_cast<double>(file.priors.size());
+  const auto at = [&](int e) { return poses[sz(file.problem.edges[sz(e)].to)].t; };
+  for (const int e : file.priors) {
+    prior_mean += share * file.problem.edges[sz(e)].Z.t;
+    pose_mean += share * at(e);
+  }
+  Eigen::Matrix<double, D, D> moments = Eigen::Matrix<double, D, D>::Zero();
+  for (const int e : file.priors)
+    moments += (at(e) - pose_mean) * (file.problem.edges[sz(e)].Z.t - prior_mean).transpose();
+  if (moments.isZero(0.0)) return;
+  Rigid<D>& frame = poses[sz(file.frame)];
+  frame.R = nearestRotation(moments);
+  frame.t = pose_mean - frame.R * prior_mean;
+}
+
+// Where odometry and most of the doubted ones put the poses. Nothing where least squares fit all of them.
+template <int D>
+std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doubted<D>>& doubted) {
+  const Problem<D>& problem = file.problem;
+  const std::vector<EdgeRole>& roles = file.roles;
+  std::vector<char> in;
+  Problem<D> part;
+  part.poses = problem.poses;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    in.push_back(roles[e] != EdgeRole::Candidate && whitened(problem.edges[e]).rank > 0);
+    if (in.back()) part.edges.push_back(problem.edges[e]);
+  }
+  std::vector<Rigid<D>> poses = posesAlongEdges(part);
+  alignFrame(file, poses);
+  AcceptedGraph<D> graph(problem);
+  std::vector<double> weights(roles.size(), 1.0);
+  graph.take(in, weights);
+  graph.relax(poses, kFitStartSteps, kFitStartShare, true);
+  const bool all_fit = std::all_of(doubted.begin(), doubted.end(),
+                                   [&](const Doubted<D>& one) { return one.squareOverRank(poses) <= kFalseSquare; });
+  if (all_fit) return {};
+  int last = 0;
+  for (double width = largestSquare(doubted, poses); last < kFitLastRounds;
+       width = std::max(1.0, width / kFitNarrowing)) {
+    last += width <= 1.0;
+    for (const Doubted<D>& one : doubted) weights[sz(one.edge)] = 1.0 / (1.0 + one.squareOverRank(poses) / width);
+    graph.take(in, weights);
+    graph.relax(poses, kFitSteps, kFitShare, false);
+  }
+  return poses;
+}
+
+}  // namespace
+
+template <int D>
+FalsePriors findFalsePriors(const FileProblem<D>& file) {
+  FalsePriors made;
+  const std::vector<Doubted<D>> doubted = collectDoubted(file);
+  if (doubted.empty()) return made;
+  const std::vector<Rigid<D>> poses = fitMost(file, doubted);
+  if (poses.empty()) return made;
+  const double scale = std::max(1.0, middleSquare(doubted, poses));
+  struct Group {
+    std::size_t all = 0;
+    std::vector<int> off;
+  };
+  std::map<int, Group> groups;
+  for (const Doubted<D>& one : doubted) {
+    Group& group = groups[one.group];
+    ++group.all;
+    if (one.squareOverRank(poses) > scale * kFalseSquare) group.off.push_back(one.edge);
+  }
+  for (const auto& [name, group] : groups) {
+    const std::size_t witnesses = group.all + (name >= 0);  // with the first sighting
+    if (2 * group.off.size() < witnesses) made.rejected.insert(made.rejected.end(), group.off.begin(), group.off.end());
+    else made.undecided += group.off.size();
+  }
+  std::sort(made.rejected.begin(), made.rejected.end());
+  return made;
+}
+
+template FalsePriors findFalsePriors<2>(const FileProblem<2>&);
+template FalsePriors findFalsePriors<3>(const FileProblem<3>&);
+
+}  // namespace pose_graph
