@@ -60,13 +60,14 @@ def rigid_motion(source, target):
     return rotation, target.mean(0) - rotation @ source.mean(0)
 
 
-def main():
-    cloud, folder = read_ply(sys.argv[1]), Path(sys.argv[2])
+def measure(map_ply, folder, trajectory=None):
+    """{"lasers": (distances m, stated sigmas m), "stereo": ...} of the points of a map; kinds without points are left out."""
+    cloud, folder = read_ply(map_ply), Path(folder)
     points, stamps = positions(cloud), cloud["stamp"]
     true = np.loadtxt(folder / "trajectory.tum")
     interpolated = lambda at: np.column_stack([np.interp(at, true[:, 0], true[:, i]) for i in (1, 2, 3)])
-    if len(sys.argv) > 3:
-        estimate = np.loadtxt(sys.argv[3])
+    if trajectory:
+        estimate = np.loadtxt(trajectory)
         nearest = np.clip(np.searchsorted(true[:, 0], estimate[:, 0]), 0, len(true) - 1)
         rotation, translation = rigid_motion(spread(estimate), spread(true[nearest]))
         points = points @ rotation.T + translation
@@ -76,15 +77,14 @@ def main():
     truth = read_ply(folder / "cloud.ply")
     distance, nearest = distances(points[chosen], positions(truth))
     stereo = cloud["laser"][chosen] == STEREO
-    for name, kind in (("lasers", ~stereo), ("stereo", stereo)):
-        used = kind & (truth["class"][nearest] != LEAVES)
-        if used.any():
-            state(name, distance[used], cloud["sigma"][chosen][used])
+    kinds = {name: kind & (truth["class"][nearest] != LEAVES) for name, kind in (("lasers", ~stereo), ("stereo", stereo))}
+    return {name: (distance[used], cloud["sigma"][chosen][used]) for name, used in kinds.items() if used.any()}
 
 
-def state(name, d, sigma):
-    print(f"{name}, {len(d)} points: median {1e3 * np.median(d):.2f} mm, 95 % {100 * np.quantile(d, .95):.2f} cm, "
-          f"99 % {100 * np.quantile(d, .99):.2f} cm; median of distance over sigma {np.median(d / sigma):.2f}")
+def main():
+    for name, (d, sigma) in measure(*sys.argv[1:4]).items():
+        print(f"{name}, {len(d)} points: median {1e3 * np.median(d):.2f} mm, 95 % {100 * np.quantile(d, .95):.2f} cm, "
+              f"99 % {100 * np.quantile(d, .99):.2f} cm; median of distance over sigma {np.median(d / sigma):.2f}")
 
 
 if __name__ == "__main__":
