@@ -250,7 +250,8 @@ void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
   sum += logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
   if (!std::isfinite(sum)) return;
   hypothesis.log_inside = sum;
-  hypothesis.log_evidence = sum + chance(hypothesis) - gainByContraction(hypothesis);
+  hypothesis.log_evidence = sum + chance(hypothesis);
+  hypothesis.by_contraction = gainByContraction(hypothesis);
 }
 
 template <int D>

@@ -21,8 +21,9 @@ struct Hypothesis {
   std::vector<char> in;  ///< by edge: not 0 for those taken as true
   std::vector<Rigid<D>> poses;
   VarianceFactors factors;
-  double log_inside = 0.0;    ///< the part of the evidence that is of the edges inside
-  double log_evidence = 0.0;  ///< all of it
+  double log_inside = 0.0;      ///< the part of the evidence that is of the edges inside
+  double log_evidence = 0.0;    ///< all of it
+  double by_contraction = 0.0;  ///< what of it any closures would have on the map of this set, beyond that of odometry
 };
 
 /// Judges hypotheses of one graph by their evidence: the density of all measurements, with the poses integrated out
@@ -31,8 +32,8 @@ struct Hypothesis {
 /// outside too may err like that one, as places that look alike do. The number of closures inside is a priori any, and
 /// which they are as well, so that a set is worth only what it explains beyond the choice of it; of neighbours the
 /// choice is one of how often true and false ones alternate. Where the map that follows from a set makes agreement by
-/// chance likelier than the odometry does, the set explains that much less: any closures agree with a map drawn
-/// together to a few places.
+/// chance likelier than the odometry does, the set explains that much less beside odometry alone: any closures agree
+/// with a map drawn together to a few places.
 template <int D>
 class HypothesisJudge {
  public:

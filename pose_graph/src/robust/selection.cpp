@@ -121,7 +121,7 @@ class Selection {
     });
   }
   bool tellsVariances() const { return judge_ && !judge_->areAssertions(); }
-  double evidence() const { return best_.hypothesis.log_evidence - odometry_.log_evidence; }
+  double evidence() const { return overOdometry(best_.hypothesis); }
   const Hypothesis<D>& odometryAlone() const { return odometry_; }
   const Hypothesis<D>& hypothesis() const { return best_.hypothesis; }
   Judgement<D> take() { return std::move(best_.judgement); }
@@ -134,6 +134,9 @@ class Selection {
     std::vector<Slip<D>> slips;
   };
 
+  double overOdometry(const Hypothesis<D>& hypothesis) const {
+    return hypothesis.log_evidence - hypothesis.by_contraction - odometry_.log_evidence;
+  }
   bool rejectsMany(const Judgement<D>& judged) const {
     const auto rejected = std::count_if(judged.edges.begin(), judged.edges.end(), [](const EdgeAssessment& edge) {
       return edge.verdict == ClosureVerdict::Rejected;
@@ -156,11 +159,11 @@ class Selection {
 
   // Whether a set fits because variances were changed until it did: each row is then hardly likelier than chance.
   bool isInflated(const Hypothesis<D>& hypothesis) const {
+    if (overOdometry(hypothesis) < kDecisive) return true;
     if (!beyond(hypothesis.factors.odometry, kContestedFactor) &&
         !beyond(hypothesis.factors.closures, kContestedFactor))
       return false;
-    return hypothesis.log_evidence - odometry_.log_evidence <
-           kDecisive + kEachDecisive * judge_->rowsInside(hypothesis);
+    return overOdometry(hypothesis) < kDecisive + kEachDecisive * judge_->rowsInside(hypothesis);
   }
 
   bool isBetween(std::size_t e) const {
