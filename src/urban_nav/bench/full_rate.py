@@ -3,7 +3,7 @@
 
   full_rate.py BAG [--times N] [-o FILE.json] [--work DIR]
 
-BAG: of `urban_nav simulate`, with all sensors. --times: so many times after each other, as one session. Needs a sourced workspace (. build/ws/devel/setup.bash).
+BAG: of `urban_nav simulate`, with all sensors. --times: so many times after each other, as one session, with a pause of a second, which counts as missing. Needs a sourced workspace (. build/ws/devel/setup.bash).
 """
 import argparse
 import os
@@ -19,6 +19,7 @@ import live_graph
 from support import commit, show
 
 try:
+    import genpy
     import numpy as np
     import rosbag
 except ImportError:
@@ -37,7 +38,7 @@ def repeated(session, times, target):
     with rosbag.Bag(str(session)) as bag, rosbag.Bag(str(target), "w") as out:
         begin, end = bag.get_start_time(), bag.get_end_time()
         for k in range(times):
-            shift = rosbag.rosbag.genpy.Duration.from_sec(k * (end - begin + 1.0))
+            shift = genpy.Duration.from_sec(k * (end - begin + 1.0))
             for topic, message, received in bag.read_messages():
                 if topic.endswith("tf_static"):
                     if k == 0:
