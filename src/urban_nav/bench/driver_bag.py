@@ -5,18 +5,15 @@
 
 BAG: of `urban_nav simulate`, with stereo, lasers, imu, wheels and gps. Needs a sourced workspace (. build/ws/devel/setup.bash). Runs in real time.
 """
-import argparse
 import json
 import os
 import signal
-import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
 import live_graph
-from support import commit, show, urban_nav
+from support import commit, session_parser, show, urban_nav, work_folder
 
 try:
     import numpy as np
@@ -118,15 +115,11 @@ def odometry_error(bag, session, folder, shift):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("bag", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    parser.add_argument("--work", type=Path)
-    arguments = parser.parse_args()
+    arguments = session_parser(__doc__).parse_args()
     if rosbag is None:
         sys.exit("there is no rosbag here")
     measured = commit()
-    folder = arguments.work or Path(tempfile.mkdtemp())
+    folder = work_folder(arguments)
     recorded = folder / "drivers.bag"
     session = arguments.bag.resolve()
     with rosbag.Bag(str(session)) as bag:

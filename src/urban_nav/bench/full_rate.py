@@ -5,18 +5,15 @@
 
 BAG: of `urban_nav simulate`, with all sensors. --times: so many times after each other, as one session, with a pause of a second, which counts as missing. Needs a sourced workspace (. build/ws/devel/setup.bash).
 """
-import argparse
 import os
 import signal
-import subprocess
 import sys
-import tempfile
 import time
 from collections import Counter
 from pathlib import Path
 
 import live_graph
-from support import commit, show
+from support import commit, session_parser, show, work_folder
 
 try:
     import genpy
@@ -77,7 +74,7 @@ def run(session, folder, duration):
     launch = live_graph.quietly("roslaunch", "urban_nav_launch", "robot.launch", f"simulated:={session}", f"ports:={folder}/ports", "loops:=false", "laser_map:=false")
     time.sleep(PATIENCE)
     before, begin = processor_seconds(), time.monotonic()
-    time.sleep(duration - PATIENCE)
+    time.sleep(max(duration - PATIENCE, 1.0))
     after, seconds = processor_seconds(), time.monotonic() - begin
     time.sleep(PATIENCE)
     for process in (launch, recorder):
@@ -112,17 +109,13 @@ def missing(stamps, rate):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("bag", type=Path)
+    parser = session_parser(__doc__)
     parser.add_argument("--times", type=int, default=1)
-    parser.add_argument("-o", "--output", type=Path)
-    parser.add_argument("--work", type=Path)
     arguments = parser.parse_args()
     if rosbag is None:
         sys.exit("there is no rosbag here")
     measured = commit()
-    folder = arguments.work or Path(tempfile.mkdtemp())
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = work_folder(arguments)
     session = arguments.bag.resolve()
     if arguments.times > 1:
         session = repeated(session, arguments.times, folder / "session.bag")

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the programs of this folder share: the command, and a table as the READMEs take it (scripts/tables.py)."""
+import argparse
 import json
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[3]
@@ -52,6 +54,21 @@ def mapped(folder, out, *settings):
     """What visual odometry makes of a folder: its summary, compared with the truth that lies there."""
     urban_nav("map", folder, "--stages", "vo", "--out", out, *(word for each in settings for word in ("--set", each)))
     return json.loads((out / "summary.json").read_text())
+
+
+def session_parser(text):
+    """Of a program that runs the bag of one session: the bag, the table's file, and the folder for what is made on the way (`work_folder`)."""
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bag", type=Path)
+    parser.add_argument("-o", "--output", type=Path)
+    parser.add_argument("--work", type=Path)
+    return parser
+
+
+def work_folder(arguments):
+    folder = arguments.work or Path(tempfile.mkdtemp())
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
 
 
 def machine():
