@@ -92,6 +92,8 @@ class LoopsLaunch(LaunchCase):
         self.expect(lambda: heard <= connections("/stereo_manager"), lambda: f"only {connections('/stereo_manager')}")
         self.expect(camera_is_connected, lambda: f"only {connections('/stereo_manager')}")
         self.expect(lambda: {"/loops/metric", "/vo/relative_pose"} <= connections("/pose_graph"), lambda: f"only {connections('/pose_graph')}")
+        own = rospy.get_name()
+        self.expect(lambda: {"/loops/metric", "/loops/matches"} <= connections(own), lambda: f"only {connections(own)}")
         # Ahead of all data: they wait. The last one's earlier moment was before the drive.
         for a, b, _ in self.closures:
             places.publish(self.message(a, b))
@@ -112,7 +114,8 @@ class LoopsLaunch(LaunchCase):
             self.assertLess(np.arccos(min(1.0, (np.trace(off[:3, :3]) - 1) / 2)), np.radians(0.2))
         rejected = [closure for closure in closures if closure.verdict == MetricClosure.REJECTED]
         self.assertEqual([closure.reason_name for closure in rejected], ["unknown_moment"])
-        self.assertTrue(pictures and pictures[0].encoding == "bgr8" and pictures[0].width >= 2 * 512, "the two views beside each other")
+        self.expect(lambda: pictures, "the two views beside each other")  # drawn after the verdict was published
+        self.assertTrue(pictures[0].encoding == "bgr8" and pictures[0].width >= 2 * 512)
 
         self.expect(lambda: states and states[-1].closures == len(self.closures), lambda: f"{states[-1:]}")
         self.assertTrue(rospy.ServiceProxy("/pose_graph/optimize", Trigger)().success)
