@@ -23,7 +23,7 @@ from pathlib import Path
 import live_graph
 import live_places
 from live_graph import CLOSURES, RATE, STEPS, Feeder, begin_nodelet, quietly, stop
-from support import TOP, commit, show, urban_nav
+from support import TOP, commit, show, urban_nav, wait_until
 
 COLUMNS = ("killed", "kills", "`info` opens", "less than was committed", "runs to the end", "with other bytes", "newest row older than, s (median, most)")
 SAME = ("trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "closures.csv", "graph.g2o")
@@ -192,7 +192,7 @@ def nodes(store):
 
 def finish(feeder, store, folder, name):
     """What the graph is at the end of the recording, by way of ~save, as files."""
-    if not feeder.wait(lambda: sum(count for (table, _), count in (rows(store) or {}).items() if table == "edge") == STEPS + CLOSURES):
+    if not wait_until(lambda: sum(count for (table, _), count in (rows(store) or {}).items() if table == "edge") == STEPS + CLOSURES):
         sys.exit(f"{store}: not all that was fed has come")
     feeder.optimized()
     copy = folder / f"{name}.db"
@@ -276,7 +276,7 @@ def kill_live(nodelet, kills, chance):
             last = whole is None or count.kills >= kills
             moment = time.monotonic() + (1e9 if last else chance.uniform(0.0, 1.5 + nodelet.seconds))
             if feeder.feed(moment):
-                ended = last or not feeder.wait(lambda m=moment: time.monotonic() > m, max(0.0, moment - time.monotonic()))
+                ended = last or not wait_until(lambda m=moment: time.monotonic() > m, max(0.0, moment - time.monotonic()))
                 if not ended:
                     ended = chance.random() < 0.3  # as if it had not been killed
             if ended:
@@ -349,11 +349,11 @@ def fill_live(folder):
         store = disk.folder / "live.db"
         nodelet = begin_nodelet(store)
         feeder.feed(time.monotonic() + 1e9)
-        named = feeder.wait(lambda: feeder.status and feeder.status.reason_name == "NotStored" and "full" in feeder.status.text)
+        named = wait_until(lambda: feeder.status and feeder.status.reason_name == "NotStored" and "full" in feeder.status.text)
         before = nodes(store)
         disk.size(64)
-        whole = feeder.wait(lambda: nodes(store) == STEPS + 1)
-        healed = feeder.wait(lambda: feeder.status.reason_name != "NotStored")
+        whole = wait_until(lambda: nodes(store) == STEPS + 1)
+        healed = wait_until(lambda: feeder.status.reason_name != "NotStored")
         stop(nodelet)
         feeder.gone()
         opened = subprocess.run([PROGRAM, "info", store], capture_output=True).returncode == 0

@@ -12,6 +12,8 @@ import subprocess
 import sys
 import time
 
+from support import wait_until
+
 try:
     import rosgraph
     import rospy
@@ -119,22 +121,16 @@ class Feeder:
                 self.closures.publish(closure(i + 1))
         return True
 
-    def wait(self, so, seconds=30):
-        end = time.monotonic() + seconds
-        while not so() and time.monotonic() < end:
-            time.sleep(0.05)
-        return so()
-
     def gone(self):
         """Waits until the master and the publishers know that the nodelet has been killed, and no other one is taken for it."""
-        self.wait(lambda: self.steps.get_num_connections() == 0 and self.closures.get_num_connections() == 0)
+        wait_until(lambda: self.steps.get_num_connections() == 0 and self.closures.get_num_connections() == 0)
         self.status = None
 
     def optimized(self):
         """Relaxes from the measurements alone; waits for it."""
         before = self.revision
         rospy.ServiceProxy("pose_graph/optimize", Trigger)()
-        return self.wait(lambda: self.revision > before)
+        return wait_until(lambda: self.revision > before)
 
 
 def begin_nodelet(store):

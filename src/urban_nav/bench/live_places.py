@@ -6,6 +6,7 @@ Needs a sourced workspace (. build/ws/devel/setup.bash) and a master (live_graph
 import time
 
 from live_graph import quietly, rospy
+from support import wait_until
 
 try:
     import rosbag
@@ -76,19 +77,13 @@ class PlaceFeeder:
             self.fed.append(time.monotonic())
         return True
 
-    def wait(self, so, seconds=30):
-        end = time.monotonic() + seconds
-        while not so() and time.monotonic() < end:
-            time.sleep(0.05)
-        return so()
-
     def recognised(self):
         """Waits for the beliefs of all that was fed."""
-        return self.wait(lambda: self.beliefs >= len(self.panoramas))
+        return wait_until(lambda: self.beliefs >= len(self.panoramas))
 
     def gone(self):
         """Waits until the publishers know that the nodelet has been killed."""
-        self.wait(lambda: max(self.connections()) == 0)
+        wait_until(lambda: max(self.connections()) == 0)
         self.status = None
 
 

@@ -1,11 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the default model of places claims between days and among strangers, in simulated worlds that it was neither trained nor calibrated with.
+"""What the default model of places claims between days, within one, and among strangers, in simulated worlds that it was neither trained nor calibrated with.
 
-A site is driven on two days: the second one is looked for in the first, panoramas alone. Strangers drive through other sites of the same world, one after the other: each is looked for in all
-before it, and every match is wrong. A match within 7.5 m is right, beyond 10 m wrong. Matches within one drive do not count.
+two days     a site is driven on two days; the second is looked for in the first
+reversed     as two days; counted is what the second day drives in the direction opposite to the first. Places of the second day are no candidates
+left images  as two days, by the left image of the stereo head alone, two a second
+one day      a drive that returns to where it began is looked for in itself
+strangers    other sites of the same world, one after the other: each is looked for in all before it, and every match is wrong
+real images  425 images of a car, with revisits: of $URBAN_NAV_DATA, if it is set
+
+Panoramas but where it says otherwise. A match within 7.5 m is right, beyond 10 m wrong. But for one day, matches within one drive do not count.
+FOLDER/claims.csv keeps each claim with all evidence, for places_reliability.py.
 """
 import argparse
 import csv
+import os
+import sys
+from collections import namedtuple
 from pathlib import Path
 
 import numpy as np
@@ -13,72 +23,207 @@ import numpy as np
 from localisation import places_at, trajectory
 from support import commit, show, simulated_bag, urban_nav
 
+try:
+    import rosbag
+except ImportError:
+    rosbag = None
+
 COLUMNS = ("world", "drives", "evidence", "compared", "revisits", "right place first", "recall at 100 % precision", "above 0.99", "right", "0.9 to 0.99", "right", "0.05 to 0.9", "right")
-CASES = ("quad:930001:40", "street:930002:40", "begbroke:930003:30")
+CLAIM_COLUMNS = ("world", "drives", "probability", "verdict", "stretch")
+TWO_DAYS = ("quad:930001:40", "street:930002:40", "begbroke:930003:30")
 STRANGERS = ("quad:930001:40,930004:20,930007:20", "street:930002:40,930005:20,930008:20", "begbroke:930003:30,930006:20,930009:20")
+ONE_DAY = "begbroke:930003:200"  # round the building in 170 s
+REVERSED = "quad:930001:40"  # to the archway
+RETURN_SECONDS = 60  # to the archway and back
+LEFT_IMAGES = "quad:930001:25"
 EVIDENCE = {"words alone": ("--second-look", "off", "--sequence", "off"), "+ sequence": ("--second-look", "off"), "+ second look": ()}  # the last one is how it is by default
 SAME_M, ELSEWHERE_M, REVISIT_M = 7.5, 10.0, 2.0
+SAME_IMAGES, ELSEWHERE_IMAGES = 3, 20  # of the real images, a quarter of a second apart
+STRETCH_M, STRETCH_IMAGES = 10.0, 5
+MASK_NS = 20 * 10**9
+OPPOSITE_DEG = 135.0
+KINDS = ("two days", "reversed", "left images", "one day", "strangers", "real images")
+
+Match = namedtuple("Match", "drive_a stamp_a drive_b stamp_b probability")  # a: the earlier place, b: the query
+Claim = namedtuple("Claim", "probability right revisit stretch")  # right: True, False, or None for neither
 
 
-def matches(model, bags, csv_path, options):
-    """Matches with another drive: (drive, stamp) of the earlier place and of the query, and the probability."""
-    urban_nav("places", "query", model, *bags, *options, "-o", csv_path)
-    drives = {bag.stem: k for k, bag in enumerate(bags)}
+def matches(model, inputs, csv_path, options):
+    urban_nav("places", "query", model, *inputs, *options, "-o", csv_path)
+    drives = {Path(each).stem: k for k, each in enumerate(inputs)}
     with csv_path.open() as file:
-        rows = [(drives[r["session_a"]], int(r["stamp_a_ns"]), drives[r["session_b"]], int(r["stamp_b_ns"]), float(r["probability"])) for r in csv.DictReader(file)]
-    return [row for row in rows if row[0] != row[2]]
+        return [Match(drives[r["session_a"]], int(r["stamp_a_ns"]), drives[r["session_b"]], int(r["stamp_b_ns"]), float(r["probability"])) for r in csv.DictReader(file)]
 
 
-def drive(folder, world, seed, duration, day=1):
-    return simulated_bag(folder / f"{world}_{seed}_{day}.bag", world, seed, duration, "--day", day, "--sensors", "ladybug")
+def drive(folder, world, seed, duration, day=1, route="loops", sensors="ladybug"):
+    name = "_".join(map(str, (world, seed, day, *((route,) if route != "loops" else ()), *((duration, sensors) if sensors != "ladybug" else ()))))
+    return simulated_bag(folder / f"{name}.bag", world, seed, duration, "--day", day, "--route", route, "--sensors", sensors)
 
 
-def judged(rows, bags, one_site):
-    """Of each match whether it is right (None: neither), and whether its query is at a place of the map."""
-    truths = [trajectory(bag.with_suffix(".truth") / "trajectory.tum") for bag in bags]
-    off = [np.linalg.norm(places_at(truths[a], [stamp_a]) - places_at(truths[b], [stamp_b])) if one_site else np.inf for a, stamp_a, b, stamp_b, _ in rows]
-    right = [True if d <= SAME_M else False if d > ELSEWHERE_M else None for d in off]
-    revisit = [one_site and np.linalg.norm(truths[a][1] - places_at(truths[b], [stamp_b]), axis=1).min() <= REVISIT_M for a, _, b, stamp_b, _ in rows]
-    return np.array([row[4] for row in rows]), right, np.array(revisit, bool)
+def left_images(bag):
+    """Two left images a second of a bag, as a bag; what is there already is taken."""
+    thinned = bag.with_name(f"{bag.stem}_left.bag")
+    if not thinned.exists():
+        with rosbag.Bag(str(bag)) as source, rosbag.Bag(str(thinned), "w") as target:
+            for i, (topic, message, stamp) in enumerate(source.read_messages(topics=["/stereo/left/image_raw"], raw=True)):
+                if i % 10 == 0:
+                    target.write(topic, message, stamp, raw=True)
+    return thinned
 
 
-def summary(name, p, right, revisit):
-    wrong_most = max((value for value, good in zip(p, right) if good is False), default=-1.0)
-    is_right = np.array([good is True for good in right])
+class Drive:
+    """The true path of a bag."""
+
+    def __init__(self, bag):
+        self.path = bag.with_suffix(".truth") / "trajectory.tum"
+        self.stamps, self.places = trajectory(self.path)
+        x, y, z, w = np.array([line.split()[4:8] for line in self.path.read_text().splitlines() if not line.startswith("#")], float).T
+        self.headings = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+        self.travelled = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(self.places, axis=0), axis=1))])
+
+    def place(self, stamp):
+        return places_at((self.stamps, self.places), [stamp])[0]
+
+    def index(self, stamp):
+        return min(int(np.searchsorted(self.stamps, stamp)), len(self.stamps) - 1)
+
+
+def nearest(earlier, query, stamp):
+    """Distance (m) of a moment of `query` to the path of `earlier`, and the angle (deg) between the headings there."""
+    until = int(np.searchsorted(earlier.stamps, stamp - MASK_NS)) if earlier is query else len(earlier.stamps)
+    if until == 0:
+        return np.inf, 0.0
+    off = np.linalg.norm(earlier.places[:until] - query.place(stamp), axis=1)
+    at = int(off.argmin())
+    turn = earlier.headings[at] - query.headings[query.index(stamp)]
+    return off[at], abs(np.degrees(np.arctan2(np.sin(turn), np.cos(turn))))
+
+
+def judged(found, bags, one_site, only_opposite=False):
+    """The claims of matches with drives of one site, or of several."""
+    drives = [Drive(bag) for bag in bags]
+    claims = []
+    for match in found:
+        a, b = drives[match.drive_a], drives[match.drive_b]
+        distance, angle = nearest(a, b, match.stamp_b) if one_site else (np.inf, 0.0)
+        if only_opposite and not (distance <= REVISIT_M and angle >= OPPOSITE_DEG):
+            continue
+        off = np.linalg.norm(a.place(match.stamp_a) - b.place(match.stamp_b)) if one_site else np.inf
+        right = True if off <= SAME_M else False if off > ELSEWHERE_M else None
+        stretch = f"{match.drive_b}:{int(b.travelled[b.index(match.stamp_b)] / STRETCH_M)}"
+        claims.append(Claim(match.probability, right, bool(distance <= REVISIT_M), stretch))
+    return claims
+
+
+def judged_images(found, positions, stamps):
+    claims = []
+    index = {round(stamp * 1e9): i for i, stamp in enumerate(stamps)}
+    for match in found:
+        i, j = index[match.stamp_a], index[match.stamp_b]
+        off = abs(positions[i] - positions[j])
+        right = True if off <= SAME_IMAGES else False if off > ELSEWHERE_IMAGES else None
+        revisit = any(abs(positions[j] - positions[k]) <= SAME_IMAGES for k in range(len(positions)) if stamps[k] * 1e9 <= match.stamp_b - MASK_NS)
+        claims.append(Claim(match.probability, right, revisit, f"0:{int(j / STRETCH_IMAGES)}"))
+    return claims
+
+
+def summary(name, claims):
+    wrong_most = max((claim.probability for claim in claims if claim.right is False), default=-1.0)
+    revisits = [claim for claim in claims if claim.revisit]
     counts = []
     for low, high in ((0.99, 1.0), (0.9, 0.99), (0.05, 0.9)):
-        claims = [good for value, good in zip(p, right) if low < value <= high and good is not None]
-        counts += [str(len(claims)), str(sum(claims))]
-    at_place = f"{(is_right & revisit & (p > wrong_most)).sum() / revisit.sum():.0%}" if revisit.any() else ""
-    return [*name, str(len(p)), str(revisit.sum()), str((is_right & revisit).sum()), at_place, *counts]
+        some = [claim.right for claim in claims if low < claim.probability <= high and claim.right is not None]
+        counts += [str(len(some)), str(sum(some))]
+    first = [claim for claim in revisits if claim.right]
+    recall = f"{sum(claim.probability > wrong_most for claim in first) / len(revisits):.0%}" if revisits else ""
+    return [*name, str(len(claims)), str(len(revisits)), str(len(first)), recall, *counts]
+
+
+class Bench:
+    def __init__(self, model, folder):
+        self.model, self.folder = model, folder
+        self.rows, self.claims = [], []  # claims: (world, drives, Claim) with all evidence
+
+    def add(self, world, drives, inputs, judge, keep=lambda match: match.drive_a != match.drive_b, options=()):
+        print(f"looks for {world}, {drives}", file=sys.stderr)
+        for evidence, switches in EVIDENCE.items():
+            found = matches(self.model, inputs, self.folder / "matches.csv", (*switches, *options))
+            claims = judge([match for match in found if keep(match)])
+            self.rows.append(summary((world, drives, evidence), claims))
+        self.claims += [(world, drives, claim) for claim in claims]
+
+    def two_days(self):
+        for case in TWO_DAYS:
+            world, seed, duration = case.split(":")
+            bags = [drive(self.folder, world, seed, duration, day) for day in (1, 2)]
+            self.add(world, "two days", bags, lambda found, bags=bags: judged(found, bags, True))
+
+    def reversed(self):
+        world, seed, duration = REVERSED.split(":")
+        bags = [drive(self.folder, world, seed, duration), drive(self.folder, world, seed, RETURN_SECONDS, 2, "return")]
+        self.add(world, "two days, reversed", bags, lambda found: judged(found, bags, True, only_opposite=True), options=("--mask", 1000))
+
+    def left_images(self):
+        world, seed, duration = LEFT_IMAGES.split(":")
+        if rosbag is None:
+            sys.exit("left images need python3-rosbag")
+        whole = [drive(self.folder, world, seed, duration, day, sensors="stereo") for day in (1, 2)]
+        self.add(world, "two days, left images", [left_images(bag) for bag in whole], lambda found: judged(found, whole, True))
+
+    def one_day(self):
+        world, seed, duration = ONE_DAY.split(":")
+        bags = [simulated_bag(self.folder / f"{world}_{seed}_{duration}s.bag", world, seed, duration, "--sensors", "ladybug")]
+        self.add(world, "one day", bags, lambda found: judged(found, bags, True), keep=lambda match: True)
+
+    def strangers(self):
+        for case in STRANGERS:
+            world, drives = case.split(":", 1)
+            bags = [drive(self.folder, world, *each.split(":")) for each in drives.split(",")]
+            self.add(world, "strangers", bags, lambda found, bags=bags: judged(found, bags, False))
+
+    def real_images(self):
+        source = Path(os.environ.get("URBAN_NAV_DATA", "")) / "places/malaga_07"
+        if not source.is_dir():
+            print("URBAN_NAV_DATA names no folder with places/malaga_07: no real images", file=sys.stderr)
+            return
+        with (source / "truth.csv").open() as file:
+            truth = list(csv.DictReader(file))
+        images = self.folder / "route"
+        images.mkdir(exist_ok=True)
+        for row in truth:
+            link = images / Path(row["image"]).name
+            if not link.exists():
+                link.symlink_to(source / "images" / link.name)
+        stamps = [0.25 * i for i in range(len(truth))]
+        (images / "times.txt").write_text("".join(f"{stamp}\n" for stamp in stamps))
+        positions = [float(row["position"]) for row in truth]
+        self.add("streets, a car", "one day, single images", [images], lambda found: judged_images(found, positions, stamps), keep=lambda match: True)
+
+    def write_claims(self):
+        with (self.folder / "claims.csv").open("w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(CLAIM_COLUMNS)
+            for world, drives, claim in self.claims:
+                verdict = {True: "right", False: "wrong", None: "neither"}[claim.right]
+                writer.writerow((world, drives, claim.probability, verdict, claim.stretch))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="for what is simulated; bags that are there already are taken")
+    parser.add_argument("--kind", action="append", choices=KINDS, help="repeatable (default: all)")
     parser.add_argument("--model", default="default")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    rows, pooled = [], []
-
-    def add(name, bags, one_site):
-        for evidence, options in EVIDENCE.items():
-            found = judged(matches(arguments.model, bags, arguments.folder / "matches.csv", options), bags, one_site)
-            rows.append(summary((*name, evidence), *found))
-        pooled.append(found)
-
-    for case in CASES:
-        world, seed, duration = case.split(":")
-        add((world, "two days"), [drive(arguments.folder, world, seed, duration, day) for day in (1, 2)], True)
-    for case in STRANGERS:
-        world, drives = case.split(":", 1)
-        bags = [drive(arguments.folder, world, *each.split(":")) for each in drives.split(",")]
-        add((world, "strangers"), bags, False)
-    p, right, revisit = (sum((list(each[k]) for each in pooled), []) for k in range(3))
-    rows.append(summary(("all", "", "+ second look"), np.array(p), right, np.array(revisit, bool)))
-    show(COLUMNS, rows, ["Panoramas. Right within 7.5 m, wrong beyond 10 m, between not counted; of strangers every match is wrong. Mask and parameters as they are by default."], measured, arguments.output)
+    bench = Bench(arguments.model, arguments.folder)
+    for kind in arguments.kind or KINDS:
+        getattr(bench, kind.replace(" ", "_"))()
+    bench.write_claims()
+    bench.rows.append(summary(("all", "", "+ second look"), [claim for _, _, claim in bench.claims]))
+    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, between not counted; of strangers every match is wrong. Reversed: places of the same day are no candidates. Real images: within 3 images, beyond 20. "
+                               "Otherwise mask and parameters as they are by default."], measured, arguments.output)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[3]
@@ -69,6 +70,14 @@ def work_folder(arguments):
     folder = arguments.work or Path(tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
     return folder
+
+
+def wait_until(so, seconds=30):
+    """Whether it is so, at the latest after the time."""
+    end = time.monotonic() + seconds
+    while not so() and time.monotonic() < end:
+        time.sleep(0.05)
+    return so()
 
 
 def machine():

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sites that are not the same, mapped together: does `urban_nav map`, which proposes closures by appearance, join what does not belong together?
+
+Each case is WORLD:SEED:SECONDS, for each site one, driven with stereo and panoramas. Every closure between two sites is false.
+"""
+import argparse
+import csv
+import json
+from pathlib import Path
+
+from support import commit, show, simulated_bag, urban_nav
+
+COLUMNS = ("sites", "panoramas", "announced as KNOWN", "closures proposed between sites", "accepted by geometry and map", "sites in one map")
+CASES = ("quad:930001:20,quad:930004:20,quad:930007:20", "street:930002:20,street:930005:20,street:930008:20", "begbroke:930003:20,begbroke:930006:20,begbroke:930009:20")
+SENSORS = "stereo,ladybug,imu,wheels"
+
+
+def between_sites(path):
+    """Verdicts of the closures whose ends are in two sessions."""
+    with path.open() as file:
+        return [row["verdict"] for row in csv.DictReader(file) if row["session_a"] != row["session_b"]]
+
+
+def row_of(folder, case):
+    sites = [each.split(":") for each in case.split(",")]
+    bags = [simulated_bag(folder / f"{world}_{seed}_{seconds}_stereo.bag", world, seed, seconds, "--sensors", SENSORS) for world, seed, seconds in sites]
+    out = folder / ("_".join(bag.stem for bag in bags) + "_map")
+    urban_nav("map", *bags, "--stages", "vo,places,loops,graph", "--overwrite", "--out", out)
+    summary = json.loads((out / "summary.json").read_text())
+    places, verdicts = summary["fabmap_node"], between_sites(out / "closures.csv")
+    return [", ".join(f"{world} {seed}" for world, seed, _ in sites), str(places["panoramas"]), str(places["known"]), str(len(verdicts)), str(verdicts.count("accepted")),
+            f"{summary['pose_graph']['sessions_joined']} of {len(bags)}"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; bags that are there already are taken")
+    parser.add_argument("--case", action="append", help="repeatable (default: three sites of each world)")
+    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    arguments = parser.parse_args()
+    measured = commit()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    rows = [row_of(arguments.folder, case) for case in arguments.case or CASES]
+    show(COLUMNS, rows, ["Parameters as they are by default; 20 s at each site."], measured, arguments.output)
+
+
+if __name__ == "__main__":
+    main()
