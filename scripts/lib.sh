@@ -72,8 +72,8 @@ configure() {
   # catkin notes once, while it configures, which of these folders exist, and tests see no others in their environment.
   mkdir -p "$folder/build" "$folder/devel/bin" "$folder/devel/lib/pkgconfig" "$folder/devel/lib/python3/dist-packages"
   rm -f "$folder/configured"
-  # ccache compares files as a whole: with it, headers are not precompiled. -DURBAN_NAV_UNITY=ON compiles sources in
-  # batches as well; it is off until every target has been built and tested that way.
+  # ccache compares files as a whole: with it, headers are not precompiled. -DURBAN_NAV_UNITY=ON compiles all sources in
+  # batches, which is quicker for a first build and slower for a changed file; -DURBAN_NAV_UNITY_TESTS=ON those of tests.
   if command -v ccache >/dev/null; then
     set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
   else

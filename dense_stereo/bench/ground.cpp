@@ -16,6 +16,7 @@
 #include "support/arguments.hpp"
 #include "support/true_scene.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 
 namespace {
 
@@ -23,12 +24,7 @@ using dense_stereo::NearScene;
 using dense_stereo::bench::TrueObstacle;
 using dense_stereo::bench::TrueScene;
 using urban_nav_core::testing::cell;
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
-}
+using urban_nav_core::testing::quantile;
 
 /// Figures of one world.
 struct GroundFigures {

@@ -2,8 +2,6 @@
 // Processor time of one pair of 512x384 px at 64 disparities on one core, beside OpenCV's matchers in the same run.
 //
 //   dense_stereo-bench-speed [-o FILE.json]
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -13,16 +11,9 @@
 
 #include "support/peers.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
 
-namespace {
-
-double processorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
+using urban_nav_core::testing::threadMs;
 
 int main(int argc, char** argv) {
   constexpr int runs = 15;
@@ -40,9 +31,9 @@ int main(int argc, char** argv) {
   for (const auto& peer : dense_stereo::bench::allPeers()) {
     std::vector<double> times;
     for (int i = 0; i <= runs; ++i) {
-      const double begin = processorMs();
+      const double begin = threadMs();
       peer->match(left, right, 64);
-      if (i > 0) times.push_back(processorMs() - begin);
+      if (i > 0) times.push_back(threadMs() - begin);
     }
     std::sort(times.begin(), times.end());
     table.add({peer->name(), urban_nav_core::testing::cell(times[times.size() / 2], 1),

@@ -27,6 +27,7 @@
 #include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
 #include "urban_nav_registration/io/jpeg.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_keyframe_place.hpp"
@@ -37,21 +38,16 @@ namespace {
 using namespace fabmap_node;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
-
-double processorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
+using urban_nav_core::testing::threadMs;
 
 /// Median of the processor times of `runs` calls, ms, after one that does not count.
 template <typename Call>
 double medianMs(int runs, const Call& call) {
   std::vector<double> times;
   for (int i = 0; i <= runs; ++i) {
-    const double begin = processorMs();
+    const double begin = threadMs();
     call();
-    if (i > 0) times.push_back(processorMs() - begin);
+    if (i > 0) times.push_back(threadMs() - begin);
   }
   std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
   return times[static_cast<std::size_t>(runs) / 2];
@@ -181,11 +177,11 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
   {
     urban_nav_store::Store store(folder + "/map.db", urban_nav_store::Access::Read);
     KeyframePlaces places;
-    const double before = heapKb(), begin = processorMs();
+    const double before = heapKb(), begin = threadMs();
     places.open(store, keyframes);
     while (places.readNext()) {
     }
-    table.add({"keyframes of a map ready for localization", std::to_string(count), cell(processorMs() - begin, 0)});
+    table.add({"keyframes of a map ready for localization", std::to_string(count), cell(threadMs() - begin, 0)});
     memory = (heapKb() - before) / static_cast<double>(count);
     table.add({"search for a keyframe among them", std::to_string(count) + ", image decoded and described",
                cell(medianMs(15, [&] { places.find(query, 3); }), 1)});

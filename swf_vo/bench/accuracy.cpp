@@ -13,6 +13,7 @@
 #include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
 
@@ -22,6 +23,7 @@ using namespace swf_vo::bench;
 using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::quantile;
 
 struct Options {
   std::vector<std::string> peers, sets, folders;

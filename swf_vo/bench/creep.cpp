@@ -15,6 +15,7 @@
 #include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
 
 namespace {
@@ -26,6 +27,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::Scene;
 
 constexpr std::array<double, 6> limits = {0.05, 0.1, 0.2, 0.4, 0.8, 10.0};

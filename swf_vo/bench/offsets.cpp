@@ -12,12 +12,14 @@
 #include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 
 namespace {
 
 using namespace swf_vo::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::quantile;
 
 constexpr double wrong_px = 0.2;  // what the calibration says of the disparities, which are exact
 

@@ -11,12 +11,14 @@
 #include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 
 namespace {
 
 using namespace swf_vo::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::quantile;
 
 struct Variant {
   const char* name;

@@ -9,6 +9,8 @@
 #include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 
 namespace {
 
@@ -16,6 +18,8 @@ using namespace swf_vo;
 using namespace swf_vo::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::quantile;
+using urban_nav_core::testing::threadMs;
 
 constexpr std::size_t drawn_frames = 200;
 constexpr std::size_t block = 900;  // frames of one row
@@ -65,9 +69,9 @@ int main(int argc, char** argv) try {
   std::size_t next = 100;
   for (std::size_t i = 0; i < frames; ++i) {
     const std::size_t at = forthAndBack(i, left.size());
-    const double start = processorMs();
+    const double start = threadMs();
     const Frame& frame = filter.process({static_cast<std::int64_t>(i) * period_ns, view(left[at]), view(right[at])});
-    const double took = processorMs() - start;
+    const double took = threadMs() - start;
     if (i < next) continue;
     ms.push_back(took);
     features += frame.statistics.features;

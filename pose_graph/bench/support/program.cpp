@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <fstream>
 #include <iostream>
 
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph::bench {
 
 using urban_nav_core::UserError;
+using urban_nav_core::testing::processMs;
 
 std::string Arguments::text(const std::string& option, const std::string& otherwise) const {
   const auto found = options.find(option);
@@ -59,12 +59,6 @@ int complain(const std::exception& error) {
 
 namespace {
 
-double processorTime() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// A line of /proc/self/status, bytes.
 double memory(const std::string& key) {
   std::ifstream status("/proc/self/status");
@@ -78,9 +72,9 @@ double memory(const std::string& key) {
 double measureSeconds(int runs, const std::function<void()>& work) {
   std::vector<double> seconds;
   for (int run = 0; run < runs; ++run) {
-    const double begin = processorTime();
+    const double begin = processMs();
     work();
-    seconds.push_back(processorTime() - begin);
+    seconds.push_back(1e-3 * (processMs() - begin));
   }
   std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
   return seconds[static_cast<std::size_t>(runs / 2)];

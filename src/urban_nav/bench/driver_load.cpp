@@ -3,7 +3,6 @@
 // cameras from frames in memory.
 //
 //   urban_nav-bench-driver_load [-o FILE.json] [--seconds 20]
-#include <ctime>
 
 #include <atomic>
 #include <cstdio>
@@ -16,18 +15,14 @@
 #include "support/camera_sessions.hpp"
 #include "support/device_sessions.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
 #include "urban_nav_sim/device/device_server.hpp"
 
 namespace {
 
 using segway_drivers::TimeNs;
 using urban_nav_core::testing::cell;
-
-double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+using urban_nav_core::testing::threadMs;
 
 struct Load {
   double share = 0.0;  ///< of a core
@@ -47,10 +42,10 @@ Load runSerial(urban_nav::bench::DeviceSession& session, double seconds, const s
   };
   const TimeNs second = 1'000'000'000, begin = segway_drivers::steadyTime() + 4 * second;  // identified by then
   runUntil(begin);
-  const double before = threadSeconds();
+  const double before = 1e-3 * threadMs();
   const std::int64_t messages = *session.messages;
   runUntil(begin + static_cast<TimeNs>(1e9 * seconds));
-  Load load{(threadSeconds() - before) / seconds, static_cast<double>(*session.messages - messages) / seconds};
+  Load load{(1e-3 * threadMs() - before) / seconds, static_cast<double>(*session.messages - messages) / seconds};
   stop = true;
   server.join();
   return load;
@@ -59,9 +54,9 @@ Load runSerial(urban_nav::bench::DeviceSession& session, double seconds, const s
 /// Of frames of 20 s.
 Load runCamera(const urban_nav::bench::CameraSession& session) {
   constexpr double duration = 20.0;
-  const double before = threadSeconds();
+  const double before = 1e-3 * threadMs();
   const int taken = session.run_until(static_cast<int>(duration / session.period));
-  return {(threadSeconds() - before) / duration, taken / duration};
+  return {(1e-3 * threadMs() - before) / duration, taken / duration};
 }
 
 }  // namespace

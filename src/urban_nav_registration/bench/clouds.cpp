@@ -6,7 +6,6 @@
 // FILE: pair,peer,ms,metres,deg as CSV, metres and deg from the stored pose. Clouds: URBAN_NAV_DATA/clouds.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -17,6 +16,7 @@
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/dice.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
 #include "urban_nav_core/testing/sequence_folder.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/icp/align.hpp"
@@ -30,6 +30,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::Dice;
+using urban_nav_core::testing::processMs;
 
 constexpr double degrees = 57.29577951308232;
 constexpr double right_m = 0.3, right_deg = 2.0;  // of a random start
@@ -82,12 +83,6 @@ std::vector<Pair> chooseKeyframePairs(const std::string& folder) {
           {"car_pair", read("car_pair/car_cloud401.csv.gz"), read("car_pair/car_cloud400.csv.gz"), toPose(car)}};
 }
 
-double processorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 std::size_t startsRight(const Pair& pair, std::size_t starts) {
   Dice dice(1);
   std::size_t right = 0;
@@ -109,9 +104,9 @@ void addPair(const Pair& pair, const Options& options, BenchTable& table) {
   std::vector<double> ms;
   Alignment found;
   for (std::size_t run = 0; run < std::max<std::size_t>(options.runs, 1); ++run) {
-    const double before = processorMs();
+    const double before = processMs();
     found = align(pair.source, pair.target, {});
-    ms.push_back(processorMs() - before);
+    ms.push_back(processMs() - before);
   }
   std::nth_element(ms.begin(), ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2), ms.end());
   table.add({pair.name, "urban_nav", cell(distanceBetween(found.T_target_source, pair.T_target_source), 4),

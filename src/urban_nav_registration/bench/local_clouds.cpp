@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -22,6 +21,8 @@
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/dice.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 #include "urban_nav_registration/icp/align.hpp"
 
 namespace {
@@ -32,6 +33,8 @@ using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::processMs;
+using urban_nav_core::testing::quantile;
 
 struct Options {
   std::vector<std::string> folders, sets;
@@ -53,18 +56,6 @@ Options parse(int argc, char** argv) {
     else options.folders.push_back(word);
   }
   return options;
-}
-
-double processorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 constexpr double place_radius_m = 9.0;  // loop_metric.place_radius
@@ -149,12 +140,12 @@ class Program {
   void see(const std::string& name, const std::vector<Place>& places, std::size_t i, std::size_t j, const char* kind,
            Tally& tally) const {
     const Pose truth = places[i].T_world_base.inverse() * places[j].T_world_base;
-    const double before = processorMs();
+    const double before = processMs();
     AlignmentPrior known;
     if (!options_.unknown)
       known.deformation_sigma = std::hypot(places[i].deformation_sigma, places[j].deformation_sigma);
     const Alignment alignment = align(places[j].cloud, places[i].cloud, parameters_, {}, SearchMode::AtOnce, known);
-    tally.ms.push_back(processorMs() - before);
+    tally.ms.push_back(processMs() - before);
     ++tally.pairs;
     const double metres = urban_nav_core::distanceBetween(alignment.T_target_source, truth),
                  deg = degrees * urban_nav_core::angleBetween(alignment.T_target_source, truth);

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -22,6 +21,8 @@
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/dice.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 #include "urban_nav_core/testing/sequence_folder.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
 #include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
@@ -34,6 +35,8 @@ using namespace urban_nav_registration;
 using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::processMs;
+using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::Recording;
 
 struct Options {
@@ -56,18 +59,6 @@ Options parse(int argc, char** argv) {
     else options.folders.push_back(word);
   }
   return options;
-}
-
-double processorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 constexpr double elsewhere_m = 40.0;  // from here on it is another place
@@ -170,9 +161,9 @@ class Program {
     std::vector<Keyframe> keyframes;
     std::vector<double> ms, sizes, points;
     for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-      const double before = processorMs();
+      const double before = processMs();
       keyframes.push_back(extractor.extract({"", static_cast<urban_nav_core::StampNs>(i)}, recording.frames[i].pair()));
-      ms.push_back(processorMs() - before);
+      ms.push_back(processMs() - before);
       sizes.push_back(static_cast<double>(keyframes.back().image.size()) / 1000.0);
       points.push_back(static_cast<double>(keyframes.back().points.size()));
     }
@@ -188,9 +179,9 @@ class Program {
         if (kind == nullptr) continue;
         const auto k = static_cast<std::size_t>(kind - classes.data());
         StereoMatcher matcher(recording.camera, parameters_);  // nothing kept from before: all in
-        const double before = processorMs();
+        const double before = processMs();
         const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
-        const double taken = processorMs() - before + ms[i] + ms[j];
+        const double taken = processMs() - before + ms[i] + ms[j];
         const bool accepted = closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
         std::optional<Pose> T_a_b;
         if (accepted) T_a_b = closure.lefts.T_a_b;
@@ -199,10 +190,10 @@ class Program {
         draw(name, keyframes[i], keyframes[j], closure);
         if (!options_.peers || ours[k].pairs % peers_every != 1) continue;
         for (const bench::Feature feature : {bench::Feature::Sift, bench::Feature::Orb}) {
-          const double start = processorMs();
+          const double start = processMs();
           const auto pose =
               bench::poseByOpenCv(feature, recording.camera, recording.frames[i].pair(), recording.frames[j].pair());
-          (feature == bench::Feature::Sift ? sift : orb)[k].see(pose, nullptr, truth, processorMs() - start);
+          (feature == bench::Feature::Sift ? sift : orb)[k].see(pose, nullptr, truth, processMs() - start);
         }
       }
     for (std::size_t k = 0; k < classes.size(); ++k) addRow(table, name, classes[k].name, ours[k], sift[k], orb[k]);
@@ -261,13 +252,13 @@ class Program {
     int most_matches = 0;
     StereoMatcher matcher(recording.camera, parameters_);
     for (const auto& [i, j] : pairs) {
-      const double before = processorMs();
+      const double before = processMs();
       const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
       const bool accepted = closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
       const Pose truth = recording.truth[i].inverse() * recording.truth[j];
       std::optional<Pose> T_a_b;
       if (accepted) T_a_b = closure.lefts.T_a_b;
-      tally.see(T_a_b, nullptr, truth, processorMs() - before);
+      tally.see(T_a_b, nullptr, truth, processMs() - before);
       if (closure.matches >= parameters_.min_matches) largest_likeness = std::max(largest_likeness, closure.likeness);
       most_matches = std::max(most_matches, closure.matches);
       if (options_.list && (accepted || closure.matches > 20)) list(name + " FALSE", i, j, truth, closure);

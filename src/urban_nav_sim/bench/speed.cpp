@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <ctime>
 #include <iostream>
 #include <set>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "support/program.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
 #include "urban_nav_sim/session.hpp"
 
 namespace {
@@ -25,6 +25,7 @@ using namespace urban_nav_sim;
 using namespace urban_nav_sim::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::processMs;
 
 struct Cost {
   double build = 0.0;                   // core-seconds until the first measurement can be asked for
@@ -32,22 +33,16 @@ struct Cost {
   double memory = 0.0;                  // MB at most
 };
 
-double processorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Cost measureCost(const SessionOptions& options, int threads) {
   const urban_nav_core::ThreadLimit limit(threads);
   Cost cost;
-  const double start = processorSeconds();
+  const double start = processMs();
   Session session(options);
-  const double built = processorSeconds();
+  const double built = processMs();
   const auto begin = std::chrono::steady_clock::now();
   while (session.next()) continue;
-  cost.build = built - start;
-  cost.processor = processorSeconds() - built;
+  cost.build = 1e-3 * (built - start);
+  cost.processor = 1e-3 * (processMs() - built);
   cost.clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
@@ -12,6 +11,8 @@
 #include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
+#include "urban_nav_core/testing/processor_time.hpp"
+#include "urban_nav_core/testing/quantile.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
 #include "urban_nav_core/testing/textured_street.hpp"
 
@@ -19,6 +20,7 @@ namespace swf_vo::bench {
 
 using urban_nav_core::ImageView;
 using urban_nav_core::Pose;
+using urban_nav_core::testing::quantile;
 
 std::string dataFolder(const std::string& name) {
   const char* root = std::getenv("URBAN_NAV_DATA");
@@ -109,12 +111,6 @@ void take(const std::vector<Settled>& settled, Run& run) {
 
 }  // namespace
 
-double processorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters) {
   std::vector<Run> results(sequences.size());
   std::vector<SwfVo> filters;
@@ -125,9 +121,9 @@ std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Param
     for (std::size_t s = 0; s < sequences.size(); ++s) {
       Run& result = results[s];
       sequences[s].read(i, left, right);
-      const double start = processorMs();
+      const double start = urban_nav_core::testing::threadMs();
       const Frame& frame = filters[s].process({sequences[s].stamps[i], view(left), view(right)});
-      result.ms.push_back(processorMs() - start);
+      result.ms.push_back(urban_nav_core::testing::threadMs() - start);
       result.now.push_back(frame.T_odom_base.pose);
       result.now_covariance.push_back(frame.T_odom_base.covariance);
       result.statistics.push_back(frame.statistics);
@@ -165,12 +161,6 @@ double stepRatio(const std::vector<Pose>& truth, const std::vector<Pose>& estima
     if (step > 0.05) ratios.push_back(distanceBetween(estimate[i - 1], estimate[i]) / step);
   }
   return quantile(ratios, 0.5);
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(q * static_cast<double>(values.size() - 1)))];
 }
 
 }  // namespace swf_vo::bench

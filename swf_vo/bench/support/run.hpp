@@ -57,9 +57,6 @@ Run run(const Sequence& sequence, const Parameters& parameters);
 /// A filter each, frame by frame in turn. All sequences have as many frames.
 std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters);
 
-/// Time that this thread has had of a processor.
-double processorMs();
-
 /// Errors over all spans of so many frames: mean in per cent and deg/m, and the median ratio of the lengths of
 /// one-frame steps.
 struct SpanErrors {
@@ -69,6 +66,5 @@ struct SpanErrors {
 SpanErrors spanErrors(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate,
                       std::size_t span);
 double stepRatio(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate);
-double quantile(std::vector<double> values, double q);
 
 }  // namespace swf_vo::bench
