@@ -138,8 +138,7 @@ void LaserMapperStage::handle(Input& input) {
     else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
     else if (const auto* closure = std::get_if<urban_nav_core::MetricClosure>(&input)) map_->addClosure(*closure);
     else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) {
-      map_->addNode(step->from);
-      map_->addNode(step->to);
+      map_->addStep(*step);
       has_new_poses_ = true;
     }
     changed_ = true;

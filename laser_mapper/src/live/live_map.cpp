@@ -74,6 +74,7 @@ void LiveMap::clear() {
   T_odom_base_.clear();
   T_map_base_.clear();
   nodes_.clear();
+  drift_ = {};
   by_icp_.clear();
   decided_.clear();
   revision_.reset();
@@ -99,6 +100,11 @@ void LiveMap::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
   if (newest() > T_odom_base.stamp + kBackInTime) clear();
   T_odom_base_[T_odom_base.stamp] = T_odom_base.pose;
   counts_.poses = T_odom_base_.size();
+}
+
+void LiveMap::addStep(const urban_nav_core::RelativePose& step) {
+  nodes_.insert({step.from, step.to});
+  drift_.add(step);
 }
 
 void LiveMap::addGraph(const urban_nav_core::GraphUpdate& update) {
@@ -198,7 +204,7 @@ std::vector<urban_nav_core::RelativeConstraint> LiveMap::takeConstraints() {
   const StampNs complete = std::min(lastStampBefore(nodes, 2.0 * cloud_half_length_), nodes.back().stamp - kFewSeconds);
   std::vector<urban_nav_core::RelativeConstraint> taken;
   for (const PlaneConstraint& found :
-       by_icp.discount(findPlaneConstraints(MapQuality(map).places(), {&nodes}, parameters_.range_bias))) {
+       by_icp.discount(findPlaneConstraints(MapQuality(map).places(), {&nodes}, parameters_.range_bias, {&drift_}))) {
     const StampNs end = nodes.front().stamp + (std::max(found.stretch_a, found.stretch_b) + 1) * kPlaneGroupTime;
     if (end > complete || !decided_.insert({found.stretch_a, found.stretch_b}).second) continue;
     if (found.is_shared) ++counts_.constraints_shared;

@@ -13,12 +13,14 @@
 #include "laser_mapper/map_point.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
+#include "laser_mapper/quality/odometry_drift.hpp"
 #include "laser_mapper/quality/plane_constraints.hpp"
 #include "laser_mapper/quality/shared_beams.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace laser_mapper {
@@ -53,8 +55,8 @@ class LiveMap {
   /// A pose earlier than the last one by over a second begins a new session.
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
-  /// A pose of the graph: constraints are between such poses.
-  void addNode(urban_nav_core::StampNs stamp) { nodes_.insert(stamp); }
+  /// A step of odometry between two poses of the graph: constraints are between such poses.
+  void addStep(const urban_nav_core::RelativePose& step);
   /// A closure of the running session; ignored unless it was accepted and measured by ICP.
   void addClosure(const urban_nav_core::MetricClosure& closure);
 
@@ -109,6 +111,7 @@ class LiveMap {
   std::map<std::string, urban_nav_core::Pose> placed_;
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_, T_map_base_;
   std::set<urban_nav_core::StampNs> nodes_;
+  OdometryDrift drift_;
   std::vector<CloudClosure> by_icp_;                         ///< accepted
   std::set<std::pair<std::int64_t, std::int64_t>> decided_;  ///< pairs of stretches that constraints were taken of
   std::optional<std::int64_t> revision_;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <tuple>
 
+#include "quality/stretch_walk.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 
@@ -37,9 +39,22 @@ using PlaneJacobian = Eigen::Matrix<double, 3, 6>;
 /// points p that b has seen go to Exp(phi) (p - t_b) + t_b + rho.
 struct PlanePair {
   PlaneJacobian J;
+  PlaneAxes axes;
   Vector3d r = Vector3d::Zero();          // displacement along the normal, m; two tilts, rad
-  Vector3d weights = Vector3d::Zero();    // 1/m^2, 1/rad^2: share of this pair in the plane's information
-  Vector3d variances = Vector3d::Zero();  // of r
+  Vector3d shares = Vector3d::Zero();     // of this pair in the plane's information
+  Vector3d variances = Vector3d::Zero();  // of r, m^2 and rad^2: noise and constant error of the lasers
+};
+
+/// The pairs of a group, and the inverse covariance of all their r.
+struct PairGroup {
+  std::vector<PlanePair> pairs;
+  Eigen::MatrixXd weights;
+};
+
+/// The poses of a session, and what odometry states of their drift; null: none.
+struct PosesOfPass {
+  const Trajectory* T_map_base = nullptr;
+  const OdometryDrift* drift = nullptr;
 };
 
 /// Patches of one plane and the pair among them.
@@ -67,6 +82,7 @@ PlanePair makePair(const PlaceOfPair& of, const Vector3d& t_b, double range_bias
   const Vector3d first = normal.unitOrthogonal(), second = normal.cross(first);
   const Vector3d arm = 0.5 * (a.centre + b.centre) - t_b, turn = b.normal.cross(a.normal);
   PlanePair pair;
+  pair.axes = {normal, first, second};
   pair.J << normal.transpose(), arm.cross(normal).transpose(), Eigen::RowVector3d::Zero(), first.transpose(),
       Eigen::RowVector3d::Zero(), second.transpose();
   pair.r << normal.dot(a.centre - b.centre), first.dot(turn), second.dot(turn);
@@ -76,8 +92,9 @@ PlanePair makePair(const PlaceOfPair& of, const Vector3d& t_b, double range_bias
   for (const PlanePatch& patch : of.place->patches)
     if (isUsable(patch)) all += patchVariances(patch, range_bias).cwiseInverse();
   const Eigen::Vector2d of_a = patchVariances(a, range_bias), of_b = patchVariances(b, range_bias);
-  const Eigen::Vector2d weights = (of_a.array() * of_b.array() * all.array()).inverse(), variances = of_a + of_b;
-  pair.weights << weights(0), weights(1), weights(1);
+  const Eigen::Vector2d variances = of_a + of_b;
+  const Eigen::Vector2d shares = variances.array() / (of_a.array() * of_b.array() * all.array());
+  pair.shares << shares(0), shares(1), shares(1);
   pair.variances << variances(0), variances(1), variances(1);
   return pair;
 }
@@ -88,45 +105,77 @@ struct GroupFit {
   Vector6d x = Vector6d::Zero();
 };
 
-GroupFit fitGroup(const std::vector<PlanePair>& pairs) {
-  Matrix6d H = Matrix6d::Zero();
-  Vector6d g = Vector6d::Zero();
-  for (const PlanePair& pair : pairs) {
-    H += pair.J.transpose() * pair.weights.asDiagonal() * pair.J;
-    g += pair.J.transpose() * pair.weights.cwiseProduct(pair.r);
+/// Solves for the directions that the planes tell by their arrangement: those in which they would tell enough of poses
+/// without drift.
+GroupFit fitGroup(const PairGroup& group) {
+  Matrix6d arrangement = Matrix6d::Zero();
+  const auto rows = static_cast<Eigen::Index>(3 * group.pairs.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> J(rows, 6);
+  Eigen::VectorXd r(rows);
+  for (std::size_t i = 0; i < group.pairs.size(); ++i) {
+    const PlanePair& pair = group.pairs[i];
+    arrangement += pair.J.transpose() * pair.shares.cwiseQuotient(pair.variances).asDiagonal() * pair.J;
+    const Vector3d roots = pair.shares.cwiseSqrt();
+    J.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = roots.asDiagonal() * pair.J;
+    r.segment<3>(3 * static_cast<Eigen::Index>(i)) = roots.cwiseProduct(pair.r);
   }
   Vector6d scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLength, 1.0 / kLength, 1.0 / kLength;
-  const auto eigen = urban_nav_core::smallEigen<6>(scale.asDiagonal() * H * scale.asDiagonal());
-  const Vector6d scaled = scale.cwiseProduct(g);
+  const auto eigen = urban_nav_core::smallEigen<6>(scale.asDiagonal() * arrangement * scale.asDiagonal());
+  Matrix6d told = Matrix6d::Zero();  // projects onto these directions
+  for (int i = 0; i < 6; ++i)
+    if (eigen.values(i) > kLeastInformation * eigen.values(5))
+      told += eigen.vectors.col(i) * eigen.vectors.col(i).transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> along = J * scale.asDiagonal() * told,
+                                                 weighted = group.weights * along;
+  const Matrix6d information = along.transpose() * weighted;
+  const double filling = information.trace();  // of the other directions, where the solution is zero
   GroupFit fit;
-  Vector6d y = Vector6d::Zero();
-  Matrix6d kept = Matrix6d::Zero();
-  for (int i = 0; i < 6; ++i) {
-    const double value = eigen.values(i);
-    if (!(value > kLeastInformation * eigen.values(5))) continue;
-    const Vector6d direction = eigen.vectors.col(i);
-    y += direction.dot(scaled) / value * direction;
-    kept += value * direction * direction.transpose();
-  }
-  fit.x = scale.cwiseProduct(y);
-  fit.information = scale.cwiseInverse().asDiagonal() * kept * scale.cwiseInverse().asDiagonal();
+  fit.x = scale.cwiseProduct(
+      urban_nav_core::SmallCholesky<6>(Matrix6d(information + filling * (Matrix6d::Identity() - told)))
+          .solve(Vector6d(weighted.transpose() * r)));
+  fit.information = scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
   return fit;
 }
 
+/// Removes a pair and what was said of its errors.
+void removePair(PairGroup& group, std::size_t number) {
+  const auto at = static_cast<Eigen::Index>(3 * number), rest = group.weights.rows() - 3;
+  Eigen::VectorXi kept(rest);
+  for (Eigen::Index i = 0; i < rest; ++i) kept(i) = static_cast<int>(i < at ? i : i + 3);
+  const Matrix3d own = group.weights.block<3, 3>(at, at);
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> shared = group.weights(kept, Eigen::seqN(at, 3));
+  group.weights = Eigen::MatrixXd(group.weights(kept, kept) -
+                                  shared * urban_nav_core::SmallCholesky<3>(own).inverse() * shared.transpose());
+  group.pairs.erase(group.pairs.begin() + static_cast<std::ptrdiff_t>(number));
+}
+
 /// Leaves out pairs that contradict the others, the worst first; nullopt if too few remain.
-std::optional<GroupFit> fitAgreeing(std::vector<PlanePair>& pairs) {
-  const double least = std::max(static_cast<double>(kFewestPlanes), kLeastAgreeing * static_cast<double>(pairs.size()));
-  while (static_cast<double>(pairs.size()) >= least) {
-    const GroupFit fit = fitGroup(pairs);
-    const auto chi2 = [&](const PlanePair& pair) {
-      const Vector3d e = pair.r - pair.J * fit.x;
-      return e.cwiseProduct(e).cwiseQuotient(pair.variances).sum();
-    };
-    const auto worst = std::max_element(pairs.begin(), pairs.end(),
-                                        [&](const PlanePair& a, const PlanePair& b) { return chi2(a) < chi2(b); });
-    if (chi2(*worst) < kChi2) return fit;
-    pairs.erase(worst);
+std::optional<GroupFit> fitAgreeing(PairGroup& group) {
+  const double least =
+      std::max(static_cast<double>(kFewestPlanes), kLeastAgreeing * static_cast<double>(group.pairs.size()));
+  while (static_cast<double>(group.pairs.size()) >= least) {
+    const GroupFit fit = fitGroup(group);
+    Eigen::VectorXd residuals(group.weights.rows());
+    for (std::size_t i = 0; i < group.pairs.size(); ++i)
+      residuals.segment<3>(3 * static_cast<Eigen::Index>(i)) = group.pairs[i].r - group.pairs[i].J * fit.x;
+    const Eigen::VectorXd weighted = group.weights * residuals;
+    // With the inverse covariance W of all residuals e, the others predict those of a pair up to W_ii^-1 (W e)_i, whose
+    // covariance is W_ii^-1.
+    std::size_t worst = 0;
+    double worst_chi2 = -1.0;
+    for (std::size_t i = 0; i < group.pairs.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(3 * i);
+      const Vector3d part = weighted.segment<3>(at);
+      const double chi2 =
+          part.dot(urban_nav_core::SmallCholesky<3>(Matrix3d(group.weights.block<3, 3>(at, at))).solve(part));
+      if (!(chi2 <= worst_chi2)) {
+        worst = i;
+        worst_chi2 = chi2;
+      }
+    }
+    if (worst_chi2 < kChi2) return fit;
+    removePair(group, worst);
   }
   return std::nullopt;
 }
@@ -152,14 +201,48 @@ StampNs meanStamp(const std::vector<PlaceOfPair>& group, const PlanePatch* Place
   return since + std::llround(sum / static_cast<double>(group.size()));
 }
 
-std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, const Trajectory& T_map_a,
-                                         const Trajectory& T_map_b, double range_bias) {
+/// Returns the walk of a trajectory around its pose `reference` while it saw the patches of a group.
+StretchWalk walkDuring(const std::vector<PlaceOfPair>& group, const PlanePatch* PlaceOfPair::*patch,
+                       const PosesOfPass& pass, StampNs reference) {
+  StampNs begin = reference, end = reference;
+  for (const PlaceOfPair& of : group) {
+    const StampNs half = std::llround(1e9 * std::sqrt(3.0) * (of.*patch)->stamp_spread);
+    begin = std::min(begin, (of.*patch)->stamp - half);
+    end = std::max(end, (of.*patch)->stamp + half);
+  }
+  return StretchWalk(*pass.T_map_base, reference, begin, end, pass.drift);
+}
+
+/// Returns the inverse covariance of the rows of all pairs: noise and constant errors of the lasers, and the drift of
+/// both trajectories meanwhile; empty if it is not positive definite.
+Eigen::MatrixXd weighPairs(const std::vector<PlaceOfPair>& group, const std::vector<PlanePair>& pairs,
+                           const StretchWalk& walk_a, const StretchWalk& walk_b) {
+  const auto rows = static_cast<Eigen::Index>(3 * pairs.size());
+  Eigen::VectorXd variances(rows);
+  Eigen::MatrixXd by_walks(rows, walk_a.size() + walk_b.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    variances.segment<3>(at) = pairs[i].variances;
+    by_walks.middleRows<3>(at) << walk_a.rows(*group[i].a, pairs[i].axes), walk_b.rows(*group[i].b, pairs[i].axes);
+  }
+  if (by_walks.cols() == 0) return variances.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd covariance = by_walks * by_walks.transpose();
+  covariance.diagonal() += variances;
+  return urban_nav_core::invertPositiveDefinite(covariance).value_or(Eigen::MatrixXd());
+}
+
+std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, const PosesOfPass& pass_a,
+                                         const PosesOfPass& pass_b, double range_bias) {
   if (group.size() < kFewestPlanes) return std::nullopt;
+  const Trajectory &T_map_a = *pass_a.T_map_base, &T_map_b = *pass_b.T_map_base;
   const urban_nav_core::StampedPose& a = T_map_a[T_map_a.nearest(meanStamp(group, &PlaceOfPair::a))];
   const urban_nav_core::StampedPose& b = T_map_b[T_map_b.nearest(meanStamp(group, &PlaceOfPair::b))];
-  std::vector<PlanePair> pairs;
-  for (const PlaceOfPair& of : group) pairs.push_back(makePair(of, b.pose.t(), range_bias));
-  const std::optional<GroupFit> fit = fitAgreeing(pairs);
+  PairGroup fitted;
+  for (const PlaceOfPair& of : group) fitted.pairs.push_back(makePair(of, b.pose.t(), range_bias));
+  fitted.weights = weighPairs(group, fitted.pairs, walkDuring(group, &PlaceOfPair::a, pass_a, a.stamp),
+                              walkDuring(group, &PlaceOfPair::b, pass_b, b.stamp));
+  if (fitted.weights.size() == 0) return std::nullopt;
+  const std::optional<GroupFit> fit = fitAgreeing(fitted);
   if (!fit) return std::nullopt;
   Matrix6d common = Matrix6d::Zero();  // two lasers
   common.topLeftCorner<3, 3>().diagonal().setConstant(2.0 * range_bias * range_bias);
@@ -171,7 +254,7 @@ std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, 
   PlaneConstraint made;
   made.stamp_a = a.stamp;
   made.stamp_b = b.stamp;
-  made.planes = pairs.size();
+  made.planes = fitted.pairs.size();
   made.measured.T_a_b = urban_nav_core::boxPlus(a.pose.inverse() * b.pose, x);
   made.measured.information = turn * information * turn.transpose();
   if (!made.measured.information.allFinite() || !x.allFinite()) return std::nullopt;
@@ -181,7 +264,8 @@ std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, 
 }  // namespace
 
 std::vector<PlaneConstraint> findPlaneConstraints(const std::vector<PlanePlace>& places,
-                                                  const std::vector<const Trajectory*>& T_map_base, double range_bias) {
+                                                  const std::vector<const Trajectory*>& T_map_base, double range_bias,
+                                                  const std::vector<const OdometryDrift*>& drifts) {
   std::map<GroupKey, std::vector<PlaceOfPair>> groups;
   for (const PlanePlace& place : places)
     for (const PlanePlace::Pair& pair : place.pairs) {
@@ -195,7 +279,8 @@ std::vector<PlaneConstraint> findPlaneConstraints(const std::vector<PlanePlace>&
   std::vector<PlaneConstraint> made;
   for (const auto& [key, group] : groups) {
     const std::size_t a = std::get<0>(key), b = std::get<2>(key);
-    std::optional<PlaneConstraint> constraint = constrain(group, *T_map_base[a], *T_map_base[b], range_bias);
+    std::optional<PlaneConstraint> constraint =
+        constrain(group, {T_map_base[a], drifts[a]}, {T_map_base[b], drifts[b]}, range_bias);
     if (!constraint) continue;
     constraint->session_a = a;
     constraint->session_b = b;

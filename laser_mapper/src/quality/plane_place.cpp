@@ -52,9 +52,12 @@ std::optional<PatchFit> fitPatch(std::uint16_t pass, const std::vector<PlacedCel
     squares += w * t * t;
   }
   fit.patch.centre /= weight;
+  const double mean = seconds / weight;
   for (const PlacedCell& placed : cells) {
     const Vector3d d = placed.p - fit.patch.centre;
-    fit.patch.scatter += static_cast<double>(std::min(placed.cell->count, kMostBeams)) / weight * d * d.transpose();
+    const double share = static_cast<double>(std::min(placed.cell->count, kMostBeams)) / weight;
+    fit.patch.scatter += share * d * d.transpose();
+    fit.patch.sweep += share * (urban_nav_core::secondsBetween(since, placed.cell->stamp) - mean) * d;
   }
   const auto eigen = urban_nav_core::smallEigen<3>(fit.patch.scatter);
   fit.patch.normal = eigen.vectors.col(0);
@@ -64,8 +67,8 @@ std::optional<PatchFit> fitPatch(std::uint16_t pass, const std::vector<PlacedCel
   fit.patch.pass = pass;
   fit.patch.cells = cells.size();
   fit.patch.session = cells.front().cell->session;
-  fit.patch.stamp = since + std::llround(1e9 * seconds / weight);
-  fit.patch.stamp_spread = std::sqrt(std::max(0.0, squares / weight - seconds / weight * (seconds / weight)));
+  fit.patch.stamp = since + std::llround(1e9 * mean);
+  fit.patch.stamp_spread = std::sqrt(std::max(0.0, squares / weight - mean * mean));
   return fit;
 }
 

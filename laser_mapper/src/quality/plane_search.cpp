@@ -70,6 +70,7 @@ void copyScans(Store& from, Store& to, const SessionId& session, const std::set<
 
 std::vector<PlaneConstraint> searchPlaneConstraints(const Parameters& parameters, Store& store,
                                                     const std::vector<MappedSession>& sessions,
+                                                    const std::vector<const OdometryDrift*>& drifts,
                                                     const std::string& scratch_path) {
   std::vector<const Trajectory*> T_map_base;
   for (const MappedSession& session : sessions) T_map_base.push_back(session.T_map_base);
@@ -85,7 +86,7 @@ std::vector<PlaneConstraint> searchPlaneConstraints(const Parameters& parameters
   for_planes.ghosts = for_planes.stereo = false;
   LaserMap map(for_planes, *scratch, mapped);
   map.render();
-  return findPlaneConstraints(MapQuality(map).places(), T_map_base, parameters.range_bias);
+  return findPlaneConstraints(MapQuality(map).places(), T_map_base, parameters.range_bias, drifts);
 }
 
 }  // namespace laser_mapper

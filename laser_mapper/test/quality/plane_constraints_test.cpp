@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/drifting_pass.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 
@@ -70,7 +72,7 @@ class PlaneConstraintTest : public ::testing::Test {
     }
     return place;
   }
-  std::vector<PlaneConstraint> find() const { return findPlaneConstraints(places_, {&trajectory_}, kBias); }
+  std::vector<PlaneConstraint> find() const { return findPlaneConstraints(places_, {&trajectory_}, kBias, {nullptr}); }
   /// Error of a measured transform, by the axes of pose a.
   Vector6d errorOf(const PlaneConstraint& constraint, std::size_t a = 0, std::size_t b = 1) const {
     return urban_nav_core::boxMinus(constraint.measured.T_a_b, truth_[a].inverse() * truth_[b]);
@@ -140,7 +142,7 @@ TEST_F(PlaneConstraintTest, FewPlanesAndSmearedOnesGiveNothing) {
   places_ = all;
   for (PlanePlace& place : places_) place.patches[0].stamp_spread = 5.0;
   EXPECT_TRUE(find().empty()) << "seen twice in one pass, from poses far apart";
-  EXPECT_TRUE(findPlaneConstraints({}, {&trajectory_}, kBias).empty());
+  EXPECT_TRUE(findPlaneConstraints({}, {&trajectory_}, kBias, {nullptr}).empty());
 }
 
 TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
@@ -161,6 +163,79 @@ TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
   EXPECT_LT(1.0 / two(2, 2), 2.0 * kBias * kBias + kBias * kBias);
   for (const PlaneConstraint& constraint : constraints)
     EXPECT_NEAR(heightVariance(constraint.measured.information), 2.0 * heightVariance(two), 0.2 * heightVariance(two));
+}
+
+/// Constraint from two passes along ground and a wall, with an odometry that drifts meanwhile.
+struct DriftTrial {
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d error = Vector6d::Zero();
+};
+
+DriftTrial tryDrift(std::mt19937& random, double range_bias, bool is_stated) {
+  const testing_drift::DriftingPass first(kFirstPose, testing_drift::walkRate(), random);
+  const testing_drift::DriftingPass second(kFirstPose + kPassTime, testing_drift::walkRate(), random);
+  std::vector<Plane> planes;
+  for (const double x : {0.7, 1.4, 2.0, 2.6, 3.3}) {
+    for (const double y : {-4.0, -2.0, 2.0, 4.0}) planes.push_back({{x, y, 0.0}, Vector3d::UnitZ()});
+    for (const double z : {1.0, 3.0}) planes.push_back({{x, 6.0, z}, -Vector3d::UnitY()});
+  }
+  std::vector<PlanePlace> places;
+  for (const Plane& plane : planes) {
+    PlanePlace place;
+    place.patches = {first.see(plane.p, plane.normal), second.see(plane.p, plane.normal)};
+    place.patches[1].session = place.patches[1].pass = 1;
+    place.pairs.push_back({0, 1, 0.0, 0.0});
+    places.push_back(place);
+  }
+  const OdometryDrift none;
+  const auto constraints = findPlaneConstraints(places, {&first.mapped, &second.mapped}, range_bias,
+                                                {is_stated ? &first.drift : &none, is_stated ? &second.drift : &none});
+  DriftTrial trial;
+  EXPECT_EQ(constraints.size(), 1U);
+  if (constraints.empty()) return trial;
+  const auto at = [](const Trajectory& trajectory, StampNs stamp) {
+    return trajectory[trajectory.nearest(stamp)].pose;
+  };
+  trial.information = constraints[0].measured.information;
+  trial.error =
+      urban_nav_core::boxMinus(constraints[0].measured.T_a_b, at(first.truth, constraints[0].stamp_a).inverse() *
+                                                                  at(second.truth, constraints[0].stamp_b));
+  return trial;
+}
+
+/// Means over walks: normalised squared errors of all coordinates and of the pitch; standard deviation of the pitch,
+/// rad.
+struct DriftErrors {
+  double nees = 0.0, pitch = 0.0, pitch_sigma = 0.0;
+};
+
+DriftErrors meanErrors(int trials, double range_bias, bool is_stated) {
+  std::mt19937 random(17);
+  DriftErrors errors;
+  for (int i = 0; i < trials; ++i) {
+    const DriftTrial trial = tryDrift(random, range_bias, is_stated);
+    const double variance = urban_nav_core::pseudoInverse(trial.information, 1e-9).value()(4, 4);
+    errors.nees += trial.error.dot(trial.information * trial.error) / trials;
+    errors.pitch += trial.error(4) * trial.error(4) / variance / trials;
+    errors.pitch_sigma += std::sqrt(variance) / trials;
+  }
+  return errors;
+}
+
+TEST(PlaneConstraintDrift, ErrorsAreThoseStatedWhereOdometryStatesItsDrift) {
+  constexpr int kTrials = 200;
+  const DriftErrors errors = meanErrors(kTrials, 1e-5, true);  // nothing but drift
+  const double limit = 3.5 * std::sqrt(2.0 / kTrials);
+  EXPECT_NEAR(errors.nees / 5.0, 1.0, limit / std::sqrt(5.0)) << "rank 5: nothing is told along the path";
+  EXPECT_NEAR(errors.pitch, 1.0, limit);
+  EXPECT_GT(errors.pitch_sigma, 0.001);
+  EXPECT_LT(errors.pitch_sigma, 0.006) << "what the drift of both passes makes of 4 s";
+}
+
+TEST(PlaneConstraintDrift, NoiseOfTheLasersDoesNotExplainIt) {
+  const DriftErrors errors = meanErrors(50, kBias, false);
+  EXPECT_LT(errors.pitch_sigma, 0.001);
+  EXPECT_GT(errors.pitch, 6.0) << "where odometry states no drift";
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class PlaneSearch : public ::testing::Test {
     urban_nav_store::removeStore(path_);
   }
   std::vector<PlaneConstraint> search(const Trajectory& T_map_base) {
-    return searchPlaneConstraints({}, *store_, {{kSearchSession, &T_map_base, nullptr}}, path_ + ".planes");
+    return searchPlaneConstraints({}, *store_, {{kSearchSession, &T_map_base, nullptr}}, {nullptr}, path_ + ".planes");
   }
   Pose trueRelative(const PlaneConstraint& constraint) const {
     return truth_[truth_.nearest(constraint.stamp_a)].pose.inverse() * truth_[truth_.nearest(constraint.stamp_b)].pose;

@@ -27,6 +27,7 @@ struct PlanePatch {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m, in the map: mean of the cells
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit, towards the laser
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();   ///< m^2, mean about the centre
+  Eigen::Vector3d sweep = Eigen::Vector3d::Zero();     ///< m s, covariance of the cells and their stamps
   double thickness = 0.0;                              ///< m, standard deviation of the cells about the plane
   double angle_sigma = 0.0, displacement_sigma = 0.0;  ///< rad; m, along the normal
 };

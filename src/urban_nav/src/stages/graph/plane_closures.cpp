@@ -47,6 +47,17 @@ pose_graph::Closure toClosure(const PlaneConstraint& constraint, const std::stri
   return closure;
 }
 
+/// What odometry states of its drift along a session, as much larger as the closures of the graph show it to be.
+laser_mapper::OdometryDrift readDrift(const pose_graph::PoseGraph& graph, const std::string& session) {
+  laser_mapper::OdometryDrift drift;
+  for (std::size_t t = 0; t < graph.tracks().size(); ++t) {
+    if (graph.tracks()[t].session != session) continue;
+    for (std::size_t pose = 1; pose < graph.tracks()[t].stamps.size(); ++pose)
+      if (const urban_nav_core::RelativePose* step = graph.stepTo(t, pose)) drift.add(*step, graph.odometryVariance());
+  }
+  return drift;
+}
+
 }  // namespace
 
 PlaneClosures findPlaneClosures(const laser_mapper::Parameters& parameters, urban_nav_store::Store& store,
@@ -54,21 +65,25 @@ PlaneClosures findPlaneClosures(const laser_mapper::Parameters& parameters, urba
                                 double cloud_half_length) {
   std::map<std::size_t, std::vector<std::size_t>> sessions_of_map;
   std::vector<Trajectory> trajectories;
+  std::vector<laser_mapper::OdometryDrift> drift_of_session;
   for (std::size_t s = 0; s < run.sessions.size(); ++s) {
     trajectories.push_back(run.trajectory(s));
+    drift_of_session.push_back(readDrift(run.graph, run.sessions[s]));
     if (!trajectories[s].empty() && !store.scans().lasers(ids[s]).empty()) sessions_of_map[run.findMap(s)].push_back(s);
   }
   PlaneClosures found;
   for (const auto& [map, sessions] : sessions_of_map) {
     std::vector<laser_mapper::MappedSession> mapped;
     std::vector<const Trajectory*> T_map_base;
+    std::vector<const laser_mapper::OdometryDrift*> drifts;
     for (const std::size_t s : sessions) {
       mapped.push_back({ids[s], &trajectories[s], nullptr});
       T_map_base.push_back(&trajectories[s]);
+      drifts.push_back(&drift_of_session[s]);
     }
     const laser_mapper::SharedBeams by_icp(T_map_base, acceptedByIcp(run, sessions), cloud_half_length);
-    for (const PlaneConstraint& constraint :
-         by_icp.discount(laser_mapper::searchPlaneConstraints(parameters, store, mapped, store.path() + ".planes"))) {
+    for (const PlaneConstraint& constraint : by_icp.discount(
+             laser_mapper::searchPlaneConstraints(parameters, store, mapped, drifts, store.path() + ".planes"))) {
       if (constraint.is_shared) ++found.shared;
       if (constraint.measured.information.isZero(0.0)) continue;
       found.closures.push_back(toClosure(constraint, run.sessions[sessions[constraint.session_a]],
