@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processor time of place recognition on one core: describing a panorama, likelihoods of all places by the inverted
-// index, the second look, a whole match, and keyframes of a stored map for localization. Places are drawn at random
-// with word frequencies as in text (Zipf).
+// index, the second look, a whole match, places of a store, and keyframes of a stored map for localization. Places are
+// drawn at random with word frequencies as in text (Zipf).
 //
 //   fabmap_node-bench-speed [-o FILE.json]
 #include <malloc.h>
@@ -19,12 +19,14 @@
 #include <string>
 #include <vector>
 
+#include "fabmap_node/fab_map.hpp"
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "fabmap_node/recognition/place_describer.hpp"
 #include "fabmap_node/recognition/place_matcher.hpp"
 #include "fabmap_node/retrieval/keyframe_places.hpp"
 #include "fabmap_node/store/place_rows.hpp"
+#include "fabmap_node/store/place_sessions.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/processor_time.hpp"
@@ -190,6 +192,37 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
   return memory;
 }
 
+/// What the nodelet does when it starts with a store: all places are read and indexed.
+void addStoredPlaces(const PlaceModel& model, const std::vector<PlaceDescription>& descriptions, BenchTable& table) {
+  constexpr std::size_t count = 10000;
+  std::string folder = (std::filesystem::temp_directory_path() / "places_speed_XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) return;
+  {
+    PlaceSession session{{"s", "day", "", "", 0, true}, {}};
+    for (std::size_t i = 0; i < count; ++i)
+      session.places.push_back({static_cast<urban_nav_core::StampNs>(i + 1), descriptions[i % descriptions.size()]});
+    urban_nav_store::Store store(folder + "/places.db", urban_nav_store::Access::Write);
+    writePlaces(store, {session}, std::string(defaultModelBytes()));
+    store.commit();
+  }
+  {
+    const std::string hash = modelHash(defaultModelBytes());
+    const double before = heapKb(), begin = threadMs();
+    urban_nav_store::Store store(folder + "/places.db", urban_nav_store::Access::Read);
+    FabMap map(model, {});
+    for (const PlaceSession& session : readPlaces(store, hash, model.vocabulary.size()).sessions) {
+      map.beginSession(session.session.id);
+      for (const MapPlace& place : session.places) map.addPlace(place.stamp, place.description, place.travelled);
+    }
+    const double ms = threadMs() - begin;
+    table.add({"places of a store read and indexed, live",
+               std::to_string(map.places()) + ", " + cell((heapKb() - before) / static_cast<double>(map.places()), 0) +
+                   " kB of memory each",
+               cell(ms, 0)});
+  }
+  std::filesystem::remove_all(folder);
+}
+
 /// Maps of panoramas whose descriptors are read back one by one, as from a store, but for the time of the disk.
 void addLargeMaps(const PlaceModel& model, const std::vector<PlaceDescription>& descriptions, BenchTable& table) {
   const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);
@@ -236,6 +269,7 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};
   table.add({"match of a panorama, all in one", std::to_string(map_places) + " places",
              cell(medianMs(15, [&] { matcher.match(query, [](std::size_t) { return true; }); }), 1)});
+  addStoredPlaces(model, descriptions, table);
   addLargeMaps(model, descriptions, table);
 }
 

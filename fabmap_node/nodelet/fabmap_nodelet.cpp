@@ -3,11 +3,14 @@
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/PlaceBelief.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
+#include <visualization_msgs/MarkerArray.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <tuple>
 #include <variant>
 
+#include "belief_markers.hpp"
+#include "live/belief_trail.hpp"
 #include "live/live_places.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "urban_nav_live/time_jump.hpp"
@@ -26,7 +29,6 @@ using urban_nav_ros::RecordedImage;
 
 namespace {
 
-constexpr const char* belief_topic = "places/belief";
 constexpr double image_timeout = 2.0;     // s
 constexpr double odometry_timeout = 5.0;  // s
 // Writes of some 25 kB that wait for a commit, beside those that LivePlaces holds while the disk takes none.
@@ -36,6 +38,11 @@ constexpr std::size_t waiting_places = 1000;
 struct CameraImage {
   std::size_t camera = 0;
   RecordedImage image;
+};
+
+struct OdometryPose {
+  urban_nav_core::StampedPose T_odom_base;
+  std::string odom_frame;
 };
 
 urban_nav_live::StoreWriterLink::Options storeOptions() {
@@ -60,12 +67,13 @@ urban_nav_msgs::PlaceBelief toMessage(const PlaceBelief& belief) {
 
 }  // namespace
 
-/// Place recognition on topics: panoramas and odometry in, places/belief and places/closure out.
+/// Place recognition on topics: panoramas and odometry in, places/belief and places/closure out; places/markers while
+/// it has a subscriber.
 class FabmapStage {
  public:
   static constexpr const char* name = "fabmap_node";
   static constexpr const char* topic = "place recognition";
-  using Input = std::variant<CameraImage, urban_nav_core::StampedPose>;
+  using Input = std::variant<CameraImage, OdometryPose>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit FabmapStage(Node& node);
@@ -85,14 +93,19 @@ class FabmapStage {
   void startFeed();
   void processPanoramas();
   void process(const Panorama& panorama);
+  void addOdometry(const OdometryPose& pose);
+  void publishMarkers();
 
   Node& node_;
   NodeletParameters nodelet_;
   Parameters parameters_;
-  ros::Publisher belief_, closure_;
+  ros::Publisher belief_, closure_, markers_;
   std::unique_ptr<PanoramaFeed> feed_;
   urban_nav_live::TimeJumpDetector image_time_;
   std::unique_ptr<LivePlaces> places_;
+  BeliefTrail trail_;
+  std::string odom_frame_;
+  std::size_t drawn_ = 0;  // count of the trail when it was drawn
 };
 
 FabmapStage::FabmapStage(Node& node) : node_(node) {
@@ -102,8 +115,9 @@ FabmapStage::FabmapStage(Node& node) : node_(node) {
                                          nodelet_.store, storeOptions());
   loadMap();
   startFeed();
-  belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(belief_topic, 100);
+  belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(urban_nav_ros::topics::place_belief, 100);
   closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::place_closure, 1000);
+  markers_ = node.nh().advertise<visualization_msgs::MarkerArray>(urban_nav_ros::topics::place_markers, 1, true);
   advertiseFiles();
   subscribeOdometry();
   if (nodelet_.compressed) subscribeCameras<sensor_msgs::CompressedImage>();
@@ -132,10 +146,10 @@ void FabmapStage::subscribeOdometry() {
   options.is_paused = false;
   node_.subscribeInput<nav_msgs::Odometry>(
       urban_nav_ros::topics::vo_odometry, options,
-      [](const nav_msgs::OdometryConstPtr& message) -> std::optional<urban_nav_core::StampedPose> {
+      [](const nav_msgs::OdometryConstPtr& message) -> std::optional<OdometryPose> {
         const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose);
         if (!T_odom_base) return std::nullopt;
-        return urban_nav_core::StampedPose{urban_nav_ros::toStampNs(message->header.stamp), *T_odom_base};
+        return OdometryPose{{urban_nav_ros::toStampNs(message->header.stamp), *T_odom_base}, message->header.frame_id};
       });
 }
 
@@ -162,7 +176,7 @@ void FabmapStage::startFeed() {
 }
 
 void FabmapStage::handle(Input& input) {
-  if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) return places_->addOdometry(*pose);
+  if (const auto* pose = std::get_if<OdometryPose>(&input)) return addOdometry(*pose);
   const CameraImage& image = std::get<CameraImage>(input);
   if (image_time_.add(image.image.stamp())) {  // the recording begins again
     feed_->finish();
@@ -171,6 +185,12 @@ void FabmapStage::handle(Input& input) {
   }
   feed_->add(image.camera, image.image);
   processPanoramas();
+}
+
+void FabmapStage::addOdometry(const OdometryPose& pose) {
+  places_->addOdometry(pose.T_odom_base);
+  trail_.addOdometry(pose.T_odom_base);
+  odom_frame_ = pose.odom_frame;
 }
 
 void FabmapStage::processPanoramas() {
@@ -187,13 +207,22 @@ void FabmapStage::process(const Panorama& panorama) {
     views.push_back(urban_nav_ros::toView(grey.back()));
   }
   const PlaceOutput output = places_->process(panorama.stamp, views);
+  trail_.add(output.belief);
   belief_.publish(toMessage(output.belief));
   for (const auto& closure : output.closures) closure_.publish(urban_nav_ros::toTopologicalClosureMessage(closure));
+}
+
+/// Draws a trail that has grown.
+void FabmapStage::publishMarkers() {
+  if (markers_.getNumSubscribers() == 0 || trail_.count() == drawn_ || trail_.points().empty()) return;
+  markers_.publish(toMarkers(trail_, odom_frame_));
+  drawn_ = trail_.count();
 }
 
 bool FabmapStage::idle() {
   places_->syncStore();
   node_.followStore(places_->storeState());
+  publishMarkers();
   const urban_nav_live::StageReport report = places_->report();
   node_.publishStatus(report.status, report.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
   return false;
@@ -203,6 +232,7 @@ std::string FabmapStage::reset() {
   places_->reset();
   loadMap();
   image_time_.reset();
+  trail_.clear();
   startFeed();
   return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +
          "are forgotten, the next panorama begins a new session";

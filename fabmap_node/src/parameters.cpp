@@ -36,16 +36,16 @@ const Table<Parameters>& table() {
            "paper 3.2"},
           {"second_look", &P::second_look, "", true, false, false, {},
            "Compare the likeliest places descriptor by descriptor.",
-           "fabmap_node/README.md, accuracy"},
+           "docs/results/fabmap_node.md"},
           {"sequence", &P::sequence, "", true, false, false, {},
            "The observations before an observation count as evidence for places of other sessions.",
            "paper 3.2"},
           {"panorama_features", &P::panorama_features, "", std::int64_t{250}, std::int64_t{50}, std::int64_t{5000}, {},
            "Largest number of features of each image of a panorama.",
-           "fabmap_node/README.md, method"},
+           "docs/methods/fabmap_node.md"},
           {"image_features", &P::image_features, "", std::int64_t{500}, std::int64_t{50}, std::int64_t{5000}, {},
            "Largest number of features of a single image.",
-           "fabmap_node/README.md, method"},
+           "docs/methods/fabmap_node.md"},
       });
   return rows;
 }

@@ -98,7 +98,7 @@ class BagLaunch(LaunchCase):
         self.assertTrue(self.listener.odometry)
 
     def test_rviz_shows_what_is_there(self):
-        self.play(loop="true")
+        self.play(loop="true", recognise_places="true")
         self.look_at(rviz_file("urban_nav"))
 
 

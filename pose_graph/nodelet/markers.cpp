@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "markers.hpp"
 
-#include "urban_nav_ros/line_markers.hpp"
+#include "urban_nav_ros/marker_builder.hpp"
 
 namespace pose_graph {
 
@@ -37,7 +37,7 @@ const std::vector<Drawing>& drawings() {
 
 visualization_msgs::MarkerArray toMarkers(const std::vector<ClosureMarker>& closures, const std::vector<PoseRun>& runs,
                                           urban_nav_core::StampNs stamp, const std::string& map_frame) {
-  urban_nav_ros::LineMarkers markers(map_frame, stamp);
+  urban_nav_ros::MarkerBuilder markers(map_frame, stamp);
   for (const Drawing& drawing : drawings()) {
     std::vector<Eigen::Vector3d> points;
     for (const ClosureMarker& closure : closures)

@@ -29,7 +29,7 @@ std::size_t countPlaces(const std::vector<PlaceSession>& sessions) {
 
 MapPlace toMapPlace(const DescribedPlace& place, double travelled) {
   MapPlace made{place.stamp, {}, travelled};
-  made.description.cameras = unpackLook(place.look, "place of the map").cameras;
+  made.description.cameras = checkLook(place.look, "place of the map");
   made.description.words = place.words;
   made.description.look = place.look;
   return made;

@@ -57,12 +57,17 @@ std::string packLook(const LookFeatures& look) {
   return bytes;
 }
 
-LookFeatures unpackLook(std::string_view bytes, const std::string& name) {
-  LookFeatures look;
+std::uint8_t checkLook(std::string_view bytes, const std::string& name) {
   const std::size_t count = bytes.size() < look_header ? 0 : read16(bytes, 1);
   if (bytes.size() != look_header + count * look_entry || bytes.front() == 0)
     throw urban_nav_core::DataError(name, "descriptors of a place that are truncated or damaged", "");
-  look.cameras = static_cast<std::uint8_t>(bytes.front());
+  return static_cast<std::uint8_t>(bytes.front());
+}
+
+LookFeatures unpackLook(std::string_view bytes, const std::string& name) {
+  LookFeatures look;
+  look.cameras = checkLook(bytes, name);
+  const std::size_t count = read16(bytes, 1);
   look.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
   look.directions.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {

@@ -64,7 +64,7 @@ PlaceDescription toPlaceDescription(const StoredPlace& row, std::size_t vocabula
   description.missing = static_cast<std::uint8_t>(row.missing);
   description.words = *words;
   description.look = row.descriptors;
-  if (description.status == ObservationStatus::Used) unpackLook(description.look, name);  // checks it
+  if (description.status == ObservationStatus::Used) checkLook(description.look, name);
   return description;
 }
 

@@ -33,13 +33,15 @@ TEST(WordPostings, AddsTheWeightsOfTheWordsOfEachPlaceAtEverySize) {
   const std::vector<WordSet> places = drawPlaces(9000);
   const std::vector<WeightedWord> rare = {{1, 0.5}, {2, -1.0}}, frequent = {{30, 0.25}, {39, 2.0}},
                                   both = {{0, 3.0}, {4, 0.125}, {5, 1.0}, {20, -0.3}, {38, 7.0}};
+  std::vector<WeightedWord> most;
+  for (Word q = 1; q < posting_words; q += 2) most.push_back({q, 0.1 * q - 2.0});
   WordPostings postings(posting_words);
   std::vector<double> sums;
   for (std::size_t i = 0; i < places.size(); ++i) {
     postings.add(places[i]);
     ASSERT_EQ(postings.size(), i + 1);
     if (i % 2000 != 0 && i + 1 != places.size() && i != 4094 && i != 4095) continue;
-    for (const auto& weighted : {rare, frequent, both, std::vector<WeightedWord>()}) {
+    for (const auto& weighted : {rare, frequent, both, most, std::vector<WeightedWord>()}) {
       sums.assign(postings.size(), 1.0);
       postings.addWeights(weighted, sums);
       for (std::size_t k = 0; k <= i; ++k) ASSERT_NEAR(sums[k], 1.0 + sumWeights(places[k], weighted), 1e-12) << k;

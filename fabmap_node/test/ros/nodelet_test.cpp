@@ -9,12 +9,15 @@
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/PlaceBelief.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
+#include <visualization_msgs/MarkerArray.h>
 #include <xmlrpcpp/XmlRpc.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include "../support/square_images.hpp"
 #include "../support/temporary_folder.hpp"
@@ -77,6 +80,8 @@ class Head {
         "places/belief", 100, [this](const urban_nav_msgs::PlaceBeliefConstPtr& m) { beliefs.push_back(*m); });
     closure_ = nh_.subscribe<urban_nav_msgs::TopologicalClosure>(
         "places/closure", 100, [this](const urban_nav_msgs::TopologicalClosureConstPtr& m) { closures.push_back(*m); });
+    marker_ = nh_.subscribe<visualization_msgs::MarkerArray>(
+        "places/markers", 100, [this](const visualization_msgs::MarkerArrayConstPtr& m) { markers = m->markers; });
   }
   static bool until(const std::function<bool()>& isDone) {
     for (int i = 0; i < 6000 && ros::ok() && !isDone(); ++i) {
@@ -90,7 +95,7 @@ class Head {
       for (const ros::Publisher& image : images_)
         if (image.getNumSubscribers() == 0) return false;
       if (odometry_.getNumSubscribers() == 0) return false;
-      return belief_.getNumPublishers() > 0 && closure_.getNumPublishers() > 0;
+      return belief_.getNumPublishers() > 0 && closure_.getNumPublishers() > 0 && marker_.getNumPublishers() > 0;
     });
   }
   void show(unsigned place, StampNs stamp, int without_camera = -1) {
@@ -101,18 +106,33 @@ class Head {
       images_[static_cast<std::size_t>(camera)].publish(message);
     }
   }
+  /// Shows a place and waits for its belief: images of topics that overtake each other would seem to go back in time.
+  bool observe(unsigned place, StampNs stamp) {
+    const std::size_t before = beliefs.size();
+    show(place, stamp);
+    return until([&] { return beliefs.size() > before; });
+  }
   bool disconnected() {
     return until([this] { return odometry_.getNumSubscribers() == 0 && images_.back().getNumSubscribers() == 0; });
   }
-  void drive(StampNs stamp) {
+  void drive(StampNs stamp, double x = 0.0) {
     nav_msgs::Odometry message;
     message.header.stamp = urban_nav_ros::toRosTime(stamp);
+    message.header.frame_id = "odom";
+    message.pose.pose.position.x = x;
     message.pose.pose.orientation.w = 1.0;
     odometry_.publish(message);
   }
+  /// Resets the nodelet, and forgets what it has published.
   bool reset() {
     std_srvs::Trigger call;
-    return ros::service::call("fabmap_node/reset", call) && call.response.success;
+    const bool done = ros::service::call("fabmap_node/reset", call) && call.response.success;
+    ros::WallDuration(0.1).sleep();
+    ros::spinOnce();
+    beliefs.clear();
+    closures.clear();
+    markers.clear();
+    return done;
   }
   static urban_nav_msgs::FileCommand::Response command(const std::string& service, const std::string& path) {
     urban_nav_msgs::FileCommand call;
@@ -123,18 +143,35 @@ class Head {
 
   std::vector<urban_nav_msgs::PlaceBelief> beliefs;
   std::vector<urban_nav_msgs::TopologicalClosure> closures;
+  std::vector<visualization_msgs::Marker> markers;  // the last ones
 
  private:
   ros::NodeHandle nh_;
   std::vector<ros::Publisher> images_;
   ros::Publisher odometry_;
-  ros::Subscriber belief_, closure_;
+  ros::Subscriber belief_, closure_, marker_;
 };
 
-TEST(FabmapNodelet, recognisesARevisitAndProposesIt) {
-  Head head;
-  ASSERT_TRUE(head.connected());
-  for (unsigned place = 0; place < 5; ++place) head.show(place, first_stamp + place * half_second);
+/// One head for all tests: topics that are advertised anew may lose messages.
+class FabmapNodelet : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { shared_ = std::make_unique<Head>(); }
+  static void TearDownTestSuite() { shared_.reset(); }
+  void SetUp() override {
+    ASSERT_TRUE(head.connected());
+    ASSERT_TRUE(head.reset());
+  }
+
+ private:
+  static std::unique_ptr<Head> shared_;
+
+ protected:
+  Head& head = *shared_;
+};
+std::unique_ptr<Head> FabmapNodelet::shared_;
+
+TEST_F(FabmapNodelet, recognisesARevisitAndProposesIt) {
+  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(place, first_stamp + place * half_second));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
   for (const auto& belief : head.beliefs) EXPECT_TRUE(belief.places.empty()) << "nothing is older than the mask";
   head.show(3, first_stamp + 60 * half_second);
@@ -147,23 +184,17 @@ TEST(FabmapNodelet, recognisesARevisitAndProposesIt) {
   EXPECT_NEAR(belief.p_new + belief.probabilities[0], 1.0, 1e-9);
 }
 
-TEST(FabmapNodelet, forgetsOnResetAndContinuesWithFourCameras) {
-  Head head;
-  ASSERT_TRUE(head.connected());
-  ASSERT_TRUE(head.reset());
+TEST_F(FabmapNodelet, forgetsOnResetAndContinuesWithFourCameras) {
   for (unsigned place = 10; place < 15; ++place) head.show(place, first_stamp + place * half_second, 2);
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() >= 3; })) << "the others may still be completed";
   for (const auto& belief : head.beliefs) EXPECT_EQ(belief.observation, "used");
 }
 
-TEST(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
+TEST_F(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
   const TemporaryFolder folder;
   const std::string path = folder.file("places.db");
-  Head head;
-  ASSERT_TRUE(head.connected());
-  ASSERT_TRUE(head.reset());
   EXPECT_FALSE(Head::command("save", path).success) << "there are no places yet";
-  for (unsigned place = 20; place < 25; ++place) head.show(place, first_stamp + place * half_second);
+  for (unsigned place = 20; place < 25; ++place) ASSERT_TRUE(head.observe(place, first_stamp + place * half_second));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
   const auto saved = Head::command("save", path);
   EXPECT_TRUE(saved.success) << saved.message;
@@ -173,22 +204,41 @@ TEST(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
   const auto loaded = Head::command("load", path);
   EXPECT_TRUE(loaded.success) << loaded.message;
   head.show(22, first_stamp + 10'000 * half_second);
-  ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 6; }));
+  ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 1; }));
   const auto& belief = head.beliefs.back();
   ASSERT_FALSE(belief.places.empty());
   EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), first_stamp + 22 * half_second);
   EXPECT_EQ(belief.places[0].session.size(), 20U) << "the id of an earlier session";
 }
 
-TEST(FabmapNodelet, knowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
+TEST_F(FabmapNodelet, drawsItsBeliefAlongThePathOfOdometry) {
+  const StampNs start = first_stamp + 15'000 * half_second;
+  head.drive(start);
+  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(40 + place, start + place * half_second));
+  ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
+  head.drive(start + 10 * half_second, 10.0);
+  head.drive(start + 50 * half_second, 11.0);
+  head.show(43, start + 60 * half_second);
+  head.drive(start + 60 * half_second, 20.0);
+  const auto isMatch = [](const visualization_msgs::Marker& marker) { return marker.ns == "match"; };
+  ASSERT_TRUE(Head::until([&] { return std::any_of(head.markers.begin(), head.markers.end(), isMatch); }));
+  const auto match = std::find_if(head.markers.begin(), head.markers.end(), isMatch);
+  EXPECT_EQ(match->header.frame_id, "odom");
+  ASSERT_EQ(match->points.size(), 2U);
+  EXPECT_DOUBLE_EQ(match->points[0].x, 20.0) << "where the robot is";
+  EXPECT_DOUBLE_EQ(match->points[1].x, 3.0) << "where it was when it saw this before";
+  std::size_t beliefs = 0;
+  for (const auto& marker : head.markers)
+    if (marker.ns == "KNOWN" || marker.ns == "UNSURE" || marker.ns == "NEW") beliefs += marker.points.size();
+  EXPECT_EQ(beliefs, 6U);
+}
+
+TEST_F(FabmapNodelet, knowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
   std::string store;
   ASSERT_TRUE(ros::param::get("fabmap_node/store", store));
-  Head head;
-  ASSERT_TRUE(head.connected());
-  ASSERT_TRUE(head.reset());
   const StampNs start = first_stamp + 20'000 * half_second;
   head.drive(start);
-  for (unsigned place = 30; place < 35; ++place) head.show(place, start + place * half_second);
+  for (unsigned place = 30; place < 35; ++place) ASSERT_TRUE(head.observe(place, start + place * half_second));
   ASSERT_TRUE(Head::until([&] { return countPlaces(store, start) == 5; })) << "committed without a request";
   const pid_t process = findProcess("/fabmap_node");
   ASSERT_GT(process, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,7 @@ namespace fabmap_node {
 std::string packLook(const LookFeatures& look);
 /// Returns the features of packLook(), rounded as stored. Throws DataError with `name` if the bytes are damaged.
 LookFeatures unpackLook(std::string_view bytes, const std::string& name);
+/// Returns LookFeatures::cameras of packLook() without unpacking the features. Throws as unpackLook().
+std::uint8_t checkLook(std::string_view bytes, const std::string& name);
 
 }  // namespace fabmap_node

@@ -78,6 +78,13 @@ class Reliability(FolderCase):
         self.assertAlmostEqual(places_reliability.calibration_error(bins), (0.4 + 2.84 - 2) / 4)
 
 
+    def test_a_table_is_pooled_over_its_rows_with_all_evidence(self):
+        table = {"columns": places.COLUMNS, "rows": [
+            ["quad", "two days", "words alone", "9", "9", "9", "", "1", "1", "1", "1", "1", "1"], ["quad", "two days", "+ second look", "9", "9", "9", "", "5", "4", "0", "0", "20", "7"],
+            ["quad", "strangers", "+ second look", "9", "0", "0", "", "1", "0", "0", "0", "3", "0"], ["all", "", "+ second look", "18", "9", "9", "", "6", "4", "0", "0", "23", "7"]]}
+        self.assertEqual(places_reliability.tabled(table), [(0.05, 0.9, 23, 7), (0.99, 1.0, 6, 4)])
+
+
 class Strangers(FolderCase):
     def test_only_closures_between_sites_count(self):
         path = self.folder / "closures.csv"

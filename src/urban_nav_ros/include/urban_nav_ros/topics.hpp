@@ -33,6 +33,10 @@ constexpr const char* stereo_points = "stereo/points2";
 constexpr const char* ground_plane = "stereo/ground_plane";
 constexpr const char* obstacles = "stereo/obstacles";
 
+// Place recognition.
+constexpr const char* place_belief = "places/belief";
+constexpr const char* place_markers = "places/markers";
+
 // Loop closures.
 constexpr const char* place_closure = "places/closure";
 constexpr const char* metric_closure = "loops/metric";

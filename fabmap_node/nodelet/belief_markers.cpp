@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "belief_markers.hpp"
+
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include "urban_nav_ros/marker_builder.hpp"
+
+namespace fabmap_node {
+
+using urban_nav_ros::toColour;
+
+namespace {
+
+constexpr double dot = 0.25, certain_place = 1.2, line_width = 0.08, text_height = 0.5;  // m
+const Eigen::Vector3d above_robot(0.0, 0.0, 2.0);                                        // m
+
+std_msgs::ColorRGBA knowledgeColour(PlaceKnowledge knowledge, double alpha = 1.0) {
+  if (knowledge == PlaceKnowledge::Known) return toColour(0.2, 0.8, 0.3, alpha);
+  if (knowledge == PlaceKnowledge::Unsure) return toColour(1.0, 0.6, 0.1, alpha);
+  return toColour(0.35, 0.55, 0.95, alpha);
+}
+
+std::string printBelief(const BeliefTrail::Point& point) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%s, known place: %.3f", toString(point.knowledge), 1.0 - point.p_new);
+  std::string printed = text.data();
+  if (point.likeliest && !point.likeliest->at.session.empty()) printed += "\nof session " + point.likeliest->at.session;
+  return printed;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray toMarkers(const BeliefTrail& trail, const std::string& odom_frame) {
+  const BeliefTrail::Point& last = trail.points().back();
+  urban_nav_ros::MarkerBuilder markers(odom_frame, last.stamp);
+  for (const auto knowledge : {PlaceKnowledge::Known, PlaceKnowledge::Unsure, PlaceKnowledge::New}) {
+    std::vector<Eigen::Vector3d> points;
+    for (const BeliefTrail::Point& point : trail.points())
+      if (point.knowledge == knowledge) points.push_back(point.p_odom);
+    markers.addSpheres(toString(knowledge), points, dot, knowledgeColour(knowledge));
+  }
+  markers.addText("belief", printBelief(last), last.p_odom + above_robot, text_height, knowledgeColour(last.knowledge));
+  if (!last.likeliest || !last.likeliest->at.session.empty()) return markers.message();
+  const BeliefTrail::Point* place = trail.find(last.likeliest->at.stamp);
+  if (place == nullptr) return markers.message();
+  markers.addSpheres("likeliest place", {place->p_odom}, dot + certain_place * last.likeliest->probability,
+                     knowledgeColour(last.knowledge, 0.5));
+  markers.addLines("match", {last.p_odom, place->p_odom}, line_width, knowledgeColour(last.knowledge));
+  return markers.message();
+}
+
+}  // namespace fabmap_node
