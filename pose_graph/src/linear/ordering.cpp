@@ -43,17 +43,16 @@ std::vector<int> byNestedDissection(const Adjacency& graph) {
   return done ? order : std::vector<int>();
 }
 
-// Multiplications of a factorisation by blocks: what the orders are compared by.
-double work(const EliminationTree& tree) {
-  return std::accumulate(tree.count.begin(), tree.count.end(), 0.0,
-                         [](double sum, int count) { return sum + (count + 1.0) * (count + 1.0); });
-}
-
 // Nested dissection costs some microseconds a node, a block of 6x6 multiplied less than a tenth of one: from so many
 // multiplications a node on, an order that halves them pays within one factorisation.
 constexpr double kWorkWorthDissecting = 400.0;
 
 }  // namespace
+
+double factorWork(const EliminationTree& tree) {
+  return std::accumulate(tree.count.begin(), tree.count.end(), 0.0,
+                         [](double sum, int count) { return sum + (count + 1.0) * (count + 1.0); });
+}
 
 std::vector<int> minimumDegreeOrder(const Adjacency& graph) {
   if (graph.size() == 0) return {};
@@ -70,10 +69,10 @@ std::vector<int> minimumDegreeOrder(const Adjacency& graph) {
 std::vector<int> eliminationOrder(const Adjacency& graph) {
   if (graph.size() == 0) return {};
   std::vector<int> order = minimumDegreeOrder(graph);
-  const double expected = work(eliminationTree(graph, order));
+  const double expected = factorWork(eliminationTree(graph, order));
   if (expected < kWorkWorthDissecting * graph.size()) return order;
   std::vector<int> dissected = byNestedDissection(graph);
-  if (!dissected.empty() && work(eliminationTree(graph, dissected)) < expected) return dissected;
+  if (!dissected.empty() && factorWork(eliminationTree(graph, dissected)) < expected) return dissected;
   return order;
 }
 

@@ -21,5 +21,7 @@ struct EliminationTree {
   std::vector<int> count;
 };
 EliminationTree eliminationTree(const Adjacency& graph, const std::vector<int>& order);
+/// Multiplications of a factorisation, by blocks: what orders are compared by.
+double factorWork(const EliminationTree& tree);
 
 }  // namespace pose_graph

@@ -88,6 +88,7 @@ Symbolic analyse(const Adjacency& graph, const std::vector<int>& order) {
   EliminationTree tree = eliminationTree(graph, order);
   const std::vector<int> post = postorder(tree.parent);
   Symbolic made;
+  made.work = factorWork(tree);
   made.node.resize(n);
   made.place.resize(n);
   std::vector<int> renamed(n);

@@ -21,6 +21,7 @@ struct Symbolic {
   std::vector<int> rows;
   std::vector<int> parent;     ///< of each supernode, -1 for a root
   std::vector<int> supernode;  ///< of each place
+  double work = 0.0;           ///< factorWork() (ordering.hpp)
 
   int size() const { return static_cast<int>(begin.size()) - 1; }
   int columns(int s) const { return begin[static_cast<std::size_t>(s) + 1] - begin[static_cast<std::size_t>(s)]; }

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
 #include "linear/ordering.hpp"
+#include "marginals/selected_inverse.hpp"
 #include "start/chordal_start.hpp"
 
 namespace pose_graph {
@@ -15,23 +18,51 @@ namespace {
 // Of the largest entry of the diagonal, growing until the factorisation holds.
 constexpr double kSettleDamping = 1e-12, kMostDamping = 1e-3, kGrowth = 100.0;
 
+// Of the edges: so many fewer are left out by their weight. Finding an order anew costs as much as some factorisations.
+constexpr double kGone = 0.05;
+
 constexpr int kSettleSteps = 10;  // steps: on public graphs a way that leads there has taken six at most
 
 }  // namespace
 
 template <int D>
 void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<double>& weights) {
-  weights_.clear();
-  for (std::size_t e = 0; e < in.size() && !weights.empty(); ++e)
-    if (in[e]) weights_.push_back(weights[e]);
-  if (equations_ && in == in_) return;
+  if (!canKeepPattern(in)) {
+    pattern_ = in;
+    part_.edges.clear();
+    for (std::size_t e = 0; e < in.size(); ++e)
+      if (in[e]) part_.edges.push_back(problem_->edges[e]);
+    part_.poses = problem_->poses;
+    equations_ = std::make_unique<NormalEquations<D>>(part_, equations_.get());
+    cholesky_ = std::make_unique<BlockCholesky<N>>(equations_->symbolic());
+  }
   in_ = in;
-  part_.edges.clear();
+  weights_.clear();
+  if (weights.empty() && in_ == pattern_) return;
   for (std::size_t e = 0; e < in.size(); ++e)
-    if (in[e]) part_.edges.push_back(problem_->edges[e]);
-  part_.poses = problem_->poses;
-  equations_ = std::make_unique<NormalEquations<D>>(part_);
-  cholesky_ = std::make_unique<BlockCholesky<N>>(equations_->symbolic());
+    if (pattern_[e]) weights_.push_back(!in[e] ? 0.0 : weights.empty() ? 1.0 : weights[e]);
+}
+
+template <int D>
+bool AcceptedGraph<D>::canKeepPattern(const std::vector<char>& in) const {
+  if (!equations_) return false;
+  if (in == pattern_) return true;
+  std::size_t gone = 0;
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (in[e] && !pattern_[e]) return false;
+    gone += in[e] != pattern_[e];
+  }
+  if (static_cast<double>(gone) > kGone * static_cast<double>(part_.edges.size())) return false;
+  std::vector<int> above(problem_->poses.size());
+  std::iota(above.begin(), above.end(), 0);
+  int components = static_cast<int>(above.size());
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (!in[e]) continue;
+    const int a = findRoot(above, problem_->edges[e].from), b = findRoot(above, problem_->edges[e].to);
+    components -= a != b;
+    above[sz(std::max(a, b))] = std::min(a, b);
+  }
+  return components == equations_->unknowns().components;
 }
 
 template <int D>
@@ -94,6 +125,30 @@ bool AcceptedGraph<D>::factor(const std::vector<Rigid<D>>& poses) {
     if (cholesky_->factor(equations_->H(), equations_->pattern())) return true;
   }
   return false;
+}
+
+template <int D>
+typename AcceptedGraph<D>::Share AcceptedGraph<D>::share(const std::vector<Rigid<D>>& poses,
+                                                         const std::vector<char>& some) {
+  std::vector<double> weights;
+  weights.reserve(part_.edges.size());
+  bool any = false;
+  for (std::size_t e = 0; e < in_.size(); ++e) {
+    if (!pattern_[e]) continue;
+    const double weight = weights_.empty() ? 1.0 : weights_[weights.size()];
+    weights.push_back(some[e] ? weight : 0.0);
+    any |= weights.back() > 0.0;
+  }
+  Share made;
+  if (!any || unknowns() == 0) return made;
+  const BlockMatrix<N> inverse = selectedInverse(*cholesky_, equations_->pattern());
+  made.cost = equations_->linearise(Objective::Geodesic, poses, weights);
+  const BlockMatrix<N>& H = equations_->H();
+  for (std::size_t k = 0; k < H.diagonal.size(); ++k)
+    made.unknowns += H.diagonal[k].cwiseProduct(inverse.diagonal[k]).sum();
+  for (std::size_t k = 0; k < H.lower.size(); ++k)
+    made.unknowns += 2.0 * H.lower[k].cwiseProduct(inverse.lower[k]).sum();
+  return made;
 }
 
 template <int D>

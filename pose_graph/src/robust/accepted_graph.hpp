@@ -9,8 +9,8 @@
 
 namespace pose_graph {
 
-/// The part of a graph that is accepted for the moment, and its linear system. Only these edges are in the pattern:
-/// false ones between far places would make the factor dense.
+/// The part of a graph that is accepted for the moment, and its linear system. Only these edges are in the pattern, and
+/// few that were shortly before: false ones between far places would make the factor dense.
 template <int D>
 class AcceptedGraph {
  public:
@@ -45,6 +45,12 @@ class AcceptedGraph {
   bool factor(const std::vector<Rigid<D>>& poses);
   /// Of H, after factor().
   double logDeterminant() const { return cholesky_->logDeterminant(); }
+  /// What some of the edges inside (by edge of the whole problem) have of the cost, and of the unknowns: the trace of
+  /// their part of H times H^-1. After factor() at these poses.
+  struct Share {
+    double cost = 0.0, unknowns = 0.0;
+  };
+  Share share(const std::vector<Rigid<D>>& poses, const std::vector<char>& some);
   /// X becomes H^-1 X after factor(): eight right-hand sides that lie side by side, 8 N numbers a place.
   void solveEight(double* X) const { cholesky_->solveEight(X); }
   int unknowns() const { return static_cast<int>(equations_->unknowns().pose.size()); }
@@ -54,10 +60,13 @@ class AcceptedGraph {
   int component(int pose) const { return equations_->unknowns().component[static_cast<std::size_t>(pose)]; }
 
  private:
+  // Whether these edges are hardly fewer than those of the pattern, and hold together what they do.
+  bool canKeepPattern(const std::vector<char>& in) const;
+
   const Problem<D>* problem_;
-  Problem<D> part_;
-  std::vector<char> in_;
-  std::vector<double> weights_;
+  Problem<D> part_;  // of the pattern
+  std::vector<char> in_, pattern_;
+  std::vector<double> weights_;  // of the edges of the pattern; empty: ones
   std::unique_ptr<NormalEquations<D>> equations_;
   std::unique_ptr<BlockCholesky<N>> cholesky_;
 };

@@ -28,6 +28,10 @@ constexpr double kDoubt = 1.58;
 /// do not see; the true groups of MIT and kitti_02 lie at up to four times.
 constexpr double kArc = 10.0;
 
+/// Times the work of factoring the closures that another one confirms: beyond, the others are false, or so many of them
+/// that all together are not worth a trial.
+constexpr double kWork = 4.0;
+
 /// Groups whose test costs a relaxation, at most so many at a time.
 constexpr std::size_t kTries = 10;
 

@@ -13,11 +13,11 @@ namespace {
 
 // Trying costs what a graph without false closures costs, and far more where false ones between any places make the
 // factor dense. It is tried where odometry contradicts no more than this share of them and one by chance, or so many
-// loops of near closures close, if all take at most so much more work than those that another one confirms. Where
+// loops of near closures close, if all take at most kWork times the work of those that another one confirms. Where
 // trying is cheap, at most so many multiplications of blocks a pose and an edge, it is tried anyway: over a long way
 // odometry's covariance is that of a straight line while its errors lie on an arc, so that true ones are contradicted
 // too.
-constexpr double kContradicted = 1e-3, kClosing = 0.97, kWork = 4.0, kCheap = 30.0;
+constexpr double kContradicted = 1e-3, kClosing = 0.97, kCheap = 30.0;
 // Where so many loops are known to close and this share of all does not, there are false ones, whatever odometry says.
 constexpr double kTelling = 30.0, kOpen = 0.9;
 // Baarda's test finds single outliers among many right ones. Beyond this share it starts from the wrong side.

@@ -29,9 +29,13 @@ class PoseSample {
   double logDensity(const Rigid<D>& at, double volume = 0.0, const Own& own = {}) const;
 
  private:
-  std::vector<Rigid<D>> poses_;
-  std::vector<std::pair<int, int>> ends_;
-  double shift_ = 1.0, turn_ = 1.0;  // root mean squares of one coordinate, metres and radians
+  // How many lie between the poses in question, more or less.
+  std::size_t count(const Own& own) const;
+
+  std::vector<Rigid<D>> poses_;                      // in the order of axis_
+  std::vector<std::pair<int, int>> ends_, by_ends_;  // of each of them; sorted
+  Eigen::Index axis_ = 0;                            // along which they are spread widest
+  double shift_ = 1.0, turn_ = 1.0;                  // root mean squares of one coordinate, metres and radians
   double even_ = 1.0;
 };
 

@@ -75,25 +75,24 @@ DeadReckoning<D>::DeadReckoning(const Problem<D>& problem, const std::vector<Edg
   }
   extent = std::max(kLeastExtent, 2.0 * std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, n))));
   Q.assign(n, TangentMatrix<D>::Zero());
+  const Edge<D>* last = nullptr;  // many steps state the same
+  TangentMatrix<D> covariance;
   for (std::size_t i = 1; i < n; ++i) {
     if (!step[i]) continue;
-    Q[i] = boundedCovariance<D>(step[i]->information, extent);
-    if (step[i]->from > step[i]->to) {
-      const TangentMatrix<D> turn = adjoint<D>(step[i]->Z);
-      Q[i] = turn * Q[i] * turn.transpose();
-    }
+    if (!last || step[i]->information != last->information)
+      covariance = boundedCovariance<D>(step[i]->information, extent);
+    last = step[i];
+    const TangentMatrix<D> turn = adjoint<D>(step[i]->from < step[i]->to ? pose[i] : pose[i] * step[i]->Z);
+    Q[i].noalias() = turn * covariance * turn.transpose();
   }
 }
 
 template <int D>
 TangentMatrix<D> DeadReckoning<D>::covariance(int a, int b) const {
   TangentMatrix<D> sum = TangentMatrix<D>::Zero();
-  const Rigid<D> T_a_0 = pose[sz(a)].inverse();
-  for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
-    const TangentMatrix<D> turn = adjoint<D>(T_a_0 * pose[sz(k)]);
-    sum.noalias() += turn * Q[sz(k)] * turn.transpose();
-  }
-  return sum;
+  for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) sum += Q[sz(k)];
+  const TangentMatrix<D> turn = adjoint<D>(pose[sz(a)].inverse());
+  return turn * sum * turn.transpose();
 }
 
 template TangentMatrix<2> adjoint<2>(const Rigid<2>&);

@@ -14,7 +14,7 @@ struct DeadReckoning {
   std::vector<int> of_pose;         ///< which chain
   std::vector<Rigid<D>> pose;       ///< in its chain's frame
   std::vector<double> way;          ///< metres from its chain's first pose
-  std::vector<TangentMatrix<D>> Q;  ///< covariance of the step from the pose before, in that step's child
+  std::vector<TangentMatrix<D>> Q;  ///< covariance of the step from the pose before, in its chain's frame
   double extent = 0.0;              ///< twice the radius of gyration of the chains about their middles, metres
 
   DeadReckoning(const Problem<D>& problem, const std::vector<EdgeRole>& roles);

@@ -42,9 +42,7 @@ Eight<D> disturbances(std::size_t edge, int first) {
 template <int D>
 ClosureEvaluator<D>::ClosureEvaluator(const Problem<D>& problem, const std::vector<int>& candidates,
                                       const DeadReckoning<D>& chains)
-    : problem_(&problem), candidates_(candidates) {
-  edges_.reserve(problem.edges.size());
-  for (const Edge<D>& edge : problem.edges) edges_.push_back(whitened(edge));
+    : problem_(&problem), candidates_(candidates), edges_(whitened(problem.edges)) {
   false_log_.reserve(candidates.size());
   for (int e : candidates) {
     const WhitenedEdge<D>& edge = edges_[sz(e)];

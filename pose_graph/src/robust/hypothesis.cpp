@@ -11,7 +11,6 @@
 
 #include "linear/index.hpp"
 #include "manifold/rotation.hpp"
-#include "robust/accepted_graph.hpp"
 #include "robust/chance_density.hpp"
 #include "robust/variance_components.hpp"
 #include "start/along_edges.hpp"
@@ -122,9 +121,23 @@ bool areNear(const Edge<D>& a, const Edge<D>& b) {
 template <int D>
 HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
     : problem_(problem), roles_(roles), reckoning_(problem, roles) {
-  for (std::size_t e = 0; e < roles.size(); ++e)
-    if (roles[e] == EdgeRole::Candidate) candidates_.push_back(static_cast<int>(e));
-  for (Edge<D>& edge : problem_.edges) boundInformation<D>(reckoning_.extent, edge.information);
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    is_candidate_.push_back(roles[e] == EdgeRole::Candidate);
+    if (is_candidate_.back()) candidates_.push_back(static_cast<int>(e));
+  }
+  TangentMatrix<D> given = TangentMatrix<D>::Zero(), bounded = given;  // many edges state the same
+  std::pair<double, int> determinant;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    TangentMatrix<D>& information = problem_.edges[e].information;
+    if (e == 0 || information != given) {
+      bounded = given = information;
+      boundInformation<D>(reckoning_.extent, bounded);
+      determinant = logDeterminant<D>(bounded);
+    }
+    information = bounded;
+    log_information_.push_back(determinant.first);
+    rank_.push_back(determinant.second);
+  }
   largest_odometry_ = boundOdometryFactor(problem, roles);
   assertions_ = stateTheSame(problem, candidates_);
   constexpr int N = tangent_size<D>, R = rotation_size<D>;
@@ -181,9 +194,6 @@ double HypothesisJudge<D>::chance(const Hypothesis<D>& hypothesis) const {
   return sum;
 }
 
-// By how much closures inside agree by chance rather on the map of the hypothesis than on that of odometry: closures
-// are found where two places are alike, so that the density of one that is true is relative to how often two poses of
-// the map lie as it says, over the volume within which the set as a whole predicts it.
 template <int D>
 double HypothesisJudge<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
   std::vector<int> inside;
@@ -203,6 +213,26 @@ double HypothesisJudge<D>::gainByContraction(const Hypothesis<D>& hypothesis) co
   return sum / asked * static_cast<double>(inside.size());
 }
 
+// Sums of squares over redundancy (Förstner 1979), translation and rotation together.
+template <int D>
+VarianceFactors HypothesisJudge<D>::estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const {
+  const double cost = graph.cost(hypothesis.poses);
+  const typename AcceptedGraph<D>::Share closures = graph.share(hypothesis.poses, is_candidate_);
+  double ranks[2] = {0.0, 0.0};
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    if (hypothesis.in[e]) ranks[roles_[e] == EdgeRole::Candidate] += rank_[e];
+  const double unknowns = graph.unknowns() * tangent_size<D>;
+  const auto factor = [](double squares, double redundancy) {
+    return likeliestFactor({squares, std::max(0.0, redundancy)});
+  };
+  VarianceFactors made;
+  made.odometry =
+      std::min(factor((cost - closures.cost) * hypothesis.factors.odometry, ranks[0] - (unknowns - closures.unknowns)),
+               largest_odometry_);
+  if (!assertions_) made.closures = factor(closures.cost * hypothesis.factors.closures, ranks[1] - closures.unknowns);
+  return made;
+}
+
 template <int D>
 void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
   constexpr int N = tangent_size<D>;
@@ -220,13 +250,9 @@ void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
     graph.take(hypothesis.in, weights);
     graph.relax(hypothesis.poses, kHypothesisSteps, kHypothesisShare, false);
     if (round == kComponentRounds) break;
-    const VarianceComponents components = varianceComponents(problem_, roles_, weights, hypothesis.poses);
-    const auto factor = [&](int group) {
-      const VarianceComponent &shift = components.of[group][0], &turn = components.of[group][1];
-      return likeliestFactor({shift.squares + turn.squares, shift.redundancy + turn.redundancy});
-    };
+    if (!graph.factor(hypothesis.poses)) break;
     const VarianceFactors last = hypothesis.factors;
-    hypothesis.factors = {std::min(factor(0), largest_odometry_), assertions_ ? 1.0 : factor(1)};
+    hypothesis.factors = estimateFactors(graph, hypothesis);
     const double steps[2] = {std::log(hypothesis.factors.odometry / last.odometry),
                              std::log(hypothesis.factors.closures / last.closures)};
     if (std::abs(steps[0]) < kComponentsSettled && std::abs(steps[1]) < kComponentsSettled) {
@@ -244,14 +270,12 @@ void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
   double sum = -0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ + 0.5 * unknowns * N * kLogTwoPiHypothesis -
                0.5 * graph.logDeterminant();
   for (const int e : edges) {
-    const auto [log_determinant, rank] = logDeterminant<D>(problem_.edges[sz(e)].information);
-    sum += 0.5 * log_determinant - 0.5 * rank * (kLogTwoPiHypothesis + std::log(factorOf(e)));
+    sum += 0.5 * log_information_[sz(e)] - 0.5 * rank_[sz(e)] * (kLogTwoPiHypothesis + std::log(factorOf(e)));
   }
   sum += logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
   if (!std::isfinite(sum)) return;
   hypothesis.log_inside = sum;
   hypothesis.log_evidence = sum + chance(hypothesis);
-  hypothesis.by_contraction = gainByContraction(hypothesis);
 }
 
 template <int D>

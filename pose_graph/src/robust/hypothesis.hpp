@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pose_graph/robust.hpp"
+#include "robust/accepted_graph.hpp"
 #include "robust/closure_loops.hpp"
 #include "robust/information_scale.hpp"
 
@@ -23,7 +24,7 @@ struct Hypothesis {
   VarianceFactors factors;
   double log_inside = 0.0;      ///< the part of the evidence that is of the edges inside
   double log_evidence = 0.0;    ///< all of it
-  double by_contraction = 0.0;  ///< what of it any closures would have on the map of this set, beyond that of odometry
+  double by_contraction = 0.0;  ///< HypothesisJudge::gainByContraction()
 };
 
 /// Judges hypotheses of one graph by their evidence: the density of all measurements, with the poses integrated out
@@ -48,6 +49,12 @@ class HypothesisJudge {
   /// one of all, times 100 for errors that are not independent, and 100 at least.
   double largestOdometryFactor() const { return largest_odometry_; }
 
+  /// By how much closures inside agree by chance rather on the map of the hypothesis than on that of odometry, which is
+  /// no evidence for them: closures are found where two places are alike, so that the density of one that is true is
+  /// relative to how often two poses of the map lie as it says, over the volume within which the set as a whole
+  /// predicts it. Of a judged one; not less than 0.
+  double gainByContraction(const Hypothesis<D>& hypothesis) const;
+
   /// Whether most closures state one and the same, as those do that say "the same place" and measure nothing. They
   /// agree with each other exactly, all the more the looser odometry is: variances that follow from them serve to judge
   /// one set, not to find another or to relax with.
@@ -61,12 +68,16 @@ class HypothesisJudge {
 
  private:
   double chance(const Hypothesis<D>& hypothesis) const;
-  double gainByContraction(const Hypothesis<D>& hypothesis) const;
+  // Estimates both factors anew where the graph is relaxed and factored.
+  VarianceFactors estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const;
 
   Problem<D> problem_;  // what an edge does not measure lies within the map
   const std::vector<EdgeRole>& roles_;
   DeadReckoning<D> reckoning_;
   std::vector<int> candidates_;
+  std::vector<char> is_candidate_;
+  std::vector<int> rank_;                ///< by edge, of its information
+  std::vector<double> log_information_;  ///< by edge, of the determinant of its information
   double largest_odometry_ = 1.0;
   bool assertions_ = false;
   double log_odometry_ = 0.0;      ///< log_inside of odometry alone

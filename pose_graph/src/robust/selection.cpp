@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "linear/index.hpp"
+#include "robust/admission_thresholds.hpp"
+#include "robust/consistent_groups.hpp"
 #include "robust/core_graph.hpp"
 #include "robust/hypothesis.hpp"
 #include "robust/judgement.hpp"
 #include "robust/session_links.hpp"
 #include "robust/slips.hpp"
+#include "robust/variance_components.hpp"
 
 namespace pose_graph {
 using urban_nav_core::ClosureVerdict;
@@ -24,8 +28,8 @@ constexpr double kDecisive = 7.0;
 constexpr double kEachDecisive = 2.0;
 // A selection is contested where more than this share of the closures is rejected, or their variances are beyond that.
 constexpr double kContestedShare = 0.02, kContestedFactor = 9.0;
-constexpr double kRegrowFactor = 1.7;  // of variances: less changes no verdict
-constexpr int kRegrows = 2;
+constexpr double kRegrowFactor = 1.4;  // of variances: less changes hardly a verdict
+constexpr int kRegrows = 3;
 constexpr double kHealedShare = 0.01;  // of a step's information that what takes its place has
 // Beyond so many poses what nothing contests is not judged, and beyond so many one selection is all that there is time
 // for, weighed where the chains of a graph leave a core that is no larger.
@@ -43,21 +47,24 @@ template <int D>
 UniqueEdges<D> uniqueEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   UniqueEdges<D> made;
   made.problem.poses = problem.poses;
-  std::map<std::pair<int, int>, std::vector<int>> between;
+  std::unordered_map<std::uint64_t, int> latest;  // between two poses, and for each the one before
+  std::vector<int> before;
+  latest.reserve(roles.size());
   for (std::size_t e = 0; e < roles.size(); ++e) {
     const Edge<D>& edge = problem.edges[e];
-    std::vector<int>& known = between[{edge.from, edge.to}];
-    const auto same = std::find_if(known.begin(), known.end(), [&](int k) {
-      const Edge<D>& other = made.problem.edges[sz(k)];
-      return other.Z.t == edge.Z.t && other.Z.R == edge.Z.R && other.information == edge.information;
-    });
-    if (same != known.end()) {
-      made.of_edge.push_back(*same);
-      if (roles[e] != EdgeRole::Candidate) made.roles[sz(*same)] = roles[e];
+    int& last = latest.emplace(std::uint64_t{sz(edge.from)} << 32 | sz(edge.to), -1).first->second;
+    int same = last;
+    for (; same >= 0; same = before[sz(same)]) {
+      const Edge<D>& other = made.problem.edges[sz(same)];
+      if (other.Z.t == edge.Z.t && other.Z.R == edge.Z.R && other.information == edge.information) break;
+    }
+    if (same >= 0) {
+      made.of_edge.push_back(same);
+      if (roles[e] != EdgeRole::Candidate) made.roles[sz(same)] = roles[e];
       continue;
     }
-    known.push_back(static_cast<int>(made.problem.edges.size()));
-    made.of_edge.push_back(known.back());
+    before.push_back(std::exchange(last, static_cast<int>(made.problem.edges.size())));
+    made.of_edge.push_back(last);
     made.problem.edges.push_back(edge);
     made.roles.push_back(roles[e]);
   }
@@ -72,6 +79,11 @@ Problem<D> withFactors(Problem<D> problem, const std::vector<EdgeRole>& roles, c
 }
 
 bool beyond(double factor, double limit) { return factor > limit || factor < 1.0 / limit; }
+
+// Whether no verdict depends on which of them it is.
+bool areAlike(const VarianceFactors& a, const VarianceFactors& b) {
+  return !beyond(a.odometry / b.odometry, kRegrowFactor) && !beyond(a.closures / b.closures, kRegrowFactor);
+}
 
 /// Proposes sets of edges, and keeps the best.
 template <int D>
@@ -96,7 +108,10 @@ class Selection {
     contested_ = isContested(best_.judgement) || between > 0;
     judge_ = std::make_unique<HypothesisJudge<D>>(problem_, roles_);
     odometry_ = judge_->judgeOdometry();
+    weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
     best_.hypothesis = hypothesisOver(best_.judgement, {});
+    judge_->judge(best_.hypothesis);
+    contract(best_.hypothesis);
     weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
     if (!contested_) return;
     if (between > 0) link();
@@ -132,6 +147,7 @@ class Selection {
     Judgement<D> judgement;
     Hypothesis<D> hypothesis;
     std::vector<Slip<D>> slips;
+    VarianceFactors grown_with;
   };
 
   double overOdometry(const Hypothesis<D>& hypothesis) const {
@@ -153,8 +169,12 @@ class Selection {
     for (std::size_t e = 0; e < roles_.size(); ++e) made.in.push_back(judged.edges[e].weight > 0.0);
     made.poses = judged.poses;
     made.factors = factors;
-    judge_->judge(made);
     return made;
+  }
+
+  // Takes off what is no evidence, where that decides anything.
+  void contract(Hypothesis<D>& hypothesis) const {
+    if (overOdometry(hypothesis) > 0.0) hypothesis.by_contraction = judge_->gainByContraction(hypothesis);
   }
 
   // Whether a set fits because variances were changed until it did: each row is then hardly likelier than chance.
@@ -202,6 +222,7 @@ class Selection {
   bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false) {
     Proposal made;
     made.slips = slips;
+    made.grown_with = factors;
     made.judgement = judgeProposed(factors);
     for (const Slip<D>& slip : slips) {
       EdgeAssessment& edge = made.judgement.edges[sz(slip.edge)];
@@ -210,9 +231,14 @@ class Selection {
       edge.reason = Reason::Slipped;
     }
     made.hypothesis = hypothesisOver(made.judgement, factors);
+    const bool known = std::any_of(weighed_.begin(), weighed_.end(),
+                                   [&](const auto& other) { return other.second == made.hypothesis.in; });
+    if (known && !forced) return false;
+    judge_->judge(made.hypothesis);
     weighed_.emplace_back(made.hypothesis.log_evidence, made.hypothesis.in);
-    const bool better = made.hypothesis.log_evidence > best_.hypothesis.log_evidence && !isInflated(made.hypothesis);
-    if (!better && !forced) return false;
+    const bool likelier = made.hypothesis.log_evidence > best_.hypothesis.log_evidence;
+    if (likelier || forced) contract(made.hypothesis);
+    if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
     best_ = std::move(made);
     return true;
   }
@@ -241,6 +267,7 @@ class Selection {
     judge_->judge(made);
     best_.hypothesis = std::move(made);
     odometry_.log_evidence = log_evidence;
+    contract(best_.hypothesis);
   }
 
   // Joins parts that enough closures agree on, and bars all closures between others.
@@ -269,9 +296,29 @@ class Selection {
     if (!links.empty() || wrongly_joined) propose({}, {}, wrongly_joined);
   }
 
+  // The closures inside, and those outside that agree with another one near them.
+  std::vector<char> considerWitnessed(const Problem<D>& scaled) const {
+    std::vector<int> candidates;
+    for (std::size_t e = 0; e < proposed_roles_.size(); ++e)
+      if (proposed_roles_[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
+    const DeadReckoning<D> reckoning(scaled, proposed_roles_);
+    const std::vector<int> group = consistentGroups(scaled.edges.size(), ClosureLoops<D>(scaled, candidates, reckoning),
+                                                    1.0, Thresholds(candidates.size(), tangent_size<D>));
+    std::vector<int> members(scaled.edges.size(), 0);
+    for (const int e : candidates) ++members[sz(group[sz(e)])];
+    std::vector<char> considered = best_.hypothesis.in;
+    considered.resize(proposed_roles_.size(), 1);
+    for (const int e : candidates) considered[sz(e)] |= members[sz(group[sz(e)])] > 1;
+    return considered;
+  }
+
   void heal() {
-    slips_ =
-        findSlips(withFactors(proposed_, proposed_roles_, best_.hypothesis.factors), proposed_roles_, odometry_.poses);
+    const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
+    std::vector<char> considered = considerWitnessed(scaled), all(scaled.edges.size(), 1);
+    const AcceptedGraph<D> graph(scaled);
+    if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
+    else if (!maySlip(scaled, proposed_roles_, best_.hypothesis.in, considered, best_.hypothesis.poses)) return;
+    slips_ = findSlips(scaled, proposed_roles_, considered, odometry_.poses);
     slips_.erase(std::remove_if(slips_.begin(), slips_.end(),
                                 [&](const Slip<D>& slip) { return slip.edge >= static_cast<int>(roles_.size()); }),
                  slips_.end());
@@ -291,16 +338,36 @@ class Selection {
     if (!isContested(best_.judgement) && !beyond(found.odometry, kContestedFactor) &&
         !beyond(found.closures, kContestedFactor))
       return;
+    regrow();
+    if (isConsistent()) return;
     constexpr double far = 100.0;
     for (const VarianceFactors& factors : {VarianceFactors{far, far}, {far, 1.0}, {1.0, far}, {1.0 / far, 1.0 / far}})
       if (!takesNearlyAll() && factors.odometry <= judge_->largestOdometryFactor()) propose(factors, slips_);
-    VarianceFactors last;
-    for (int i = 0; i < kRegrows; ++i) {
+    regrow();
+  }
+
+  // Whether the best set was found with the variances that follow from it, or none better was.
+  bool isSettled() const {
+    const VarianceFactors& now = best_.hypothesis.factors;
+    return areAlike(now, best_.grown_with) || areAlike(now, regrown_with_);
+  }
+
+  // And so many closures tell them that none of other variances will do better. Where information boasts far more than
+  // that, the set it began with may be a wrong one.
+  bool isConsistent() const {
+    const VarianceFactors& now = best_.hypothesis.factors;
+    if (std::max(now.odometry, now.closures) > kContestedFactor) return false;
+    std::size_t inside = 0;
+    for (std::size_t e = 0; e < roles_.size(); ++e)
+      inside += roles_[e] == EdgeRole::Candidate && best_.hypothesis.in[e];
+    return isSettled() && inside >= kClosuresToTell && evidence() >= kDecisive;
+  }
+
+  void regrow() {
+    for (int i = 0; i < kRegrows && !isSettled(); ++i) {
       const VarianceFactors now = best_.hypothesis.factors;
-      if (!beyond(now.odometry / last.odometry, kRegrowFactor) && !beyond(now.closures / last.closures, kRegrowFactor))
-        break;
-      propose(now, slips_);
-      last = now;
+      regrown_with_ = now;
+      if (!propose(now, slips_)) return;
     }
   }
 
@@ -316,6 +383,7 @@ class Selection {
   std::unique_ptr<HypothesisJudge<D>> judge_;
   Hypothesis<D> odometry_;
   Proposal best_;
+  VarianceFactors regrown_with_;
   std::vector<std::pair<double, std::vector<char>>> weighed_;  // evidence of each set, and what is in it
   std::vector<Slip<D>> slips_;
 };

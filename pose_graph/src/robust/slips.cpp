@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "linear/index.hpp"
@@ -25,6 +26,7 @@ constexpr std::size_t kMostSlips = 20;
 // other step that would explain the slip as well are from that one.
 constexpr std::size_t kAlike = 3;
 constexpr double kStandsOut = 4.0;  // of squares
+constexpr int kRefuting = 2;        // closures: one alone refutes no step
 constexpr double kBelieved = 0.5;   // weight under Cauchy's kernel
 constexpr int kSlipReach = 200;     // poses: so far from where it shows a slip is looked for
 
@@ -114,27 +116,61 @@ class Steps {
   std::vector<std::uint64_t> spanned_;  // by the end of a step, sum without carry of the closures that span it
 };
 
+// Chi-square over its degrees of freedom.
+template <int D>
+double squareOver(const WhitenedEdge<D>& edge, const std::vector<Rigid<D>>& poses) {
+  return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm() / std::max(1, edge.rank);
+}
+
+// From which a step has slipped.
+template <int D>
+double slipLimit(const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& edges,
+                 const std::vector<Rigid<D>>& poses) {
+  std::vector<double> squares;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (roles[e] == EdgeRole::Trusted && edges[e].rank > 0) squares.push_back(squareOver(edges[e], poses));
+  if (squares.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return kSlipSquare * std::max(1.0, *middle);
+}
+
 }  // namespace
 
 template <int D>
+bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+             const std::vector<char>& considered, const std::vector<Rigid<D>>& poses) {
+  const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
+  const double limit = slipLimit(roles, edges, poses);
+  std::vector<int> against(problem.poses.size() + 1, 0);  // by pose: of those that span the step from it to the next
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (roles[e] == EdgeRole::Trusted && squareOver(edges[e], poses) > limit) return true;
+    if (roles[e] != EdgeRole::Candidate || !considered[e]) continue;
+    const auto [first, last] = std::minmax(edges[e].from, edges[e].to);
+    against[sz(first)] += in[e] ? -1 : 1;
+    against[sz(last)] -= in[e] ? -1 : 1;
+  }
+  for (std::size_t i = 1; i < against.size(); ++i) against[i] += against[i - 1];
+  return std::any_of(against.begin(), against.end(), [](int more) { return more >= kRefuting; });
+}
+
+template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<Rigid<D>>& odometry) {
-  std::vector<WhitenedEdge<D>> edges;
-  for (const Edge<D>& edge : problem.edges) edges.push_back(whitened(edge));
+                               const std::vector<char>& considered, const std::vector<Rigid<D>>& odometry) {
+  const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
   std::vector<char> in;
-  for (const WhitenedEdge<D>& edge : edges) in.push_back(edge.rank > 0);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    in.push_back(edges[e].rank > 0 && (roles[e] != EdgeRole::Candidate || considered[e]));
   std::vector<Rigid<D>> poses = odometry;
   std::vector<double> weights(edges.size(), 1.0);
   AcceptedGraph<D> graph(problem);
-  const auto squareOver = [&](std::size_t e) {
-    const WhitenedEdge<D>& edge = edges[e];
-    return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm() / std::max(1, edge.rank);
-  };
   double last = 0.0;
   for (int round = 0; round < kCauchyRounds; ++round) {
     double cost = 0.0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const double square = squareOver(e);
+      weights[e] = 0.0;
+      if (!in[e]) continue;
+      const double square = squareOver(edges[e], poses);
       weights[e] = 1.0 / (1.0 + square);
       cost += std::log1p(square);
     }
@@ -143,17 +179,11 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
     graph.take(in, weights);
     graph.relax(poses, 1, 0.0, false);
   }
-  std::vector<double> squares;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if (roles[e] == EdgeRole::Trusted && edges[e].rank > 0) squares.push_back(squareOver(e));
   std::vector<Slip<D>> made;
-  if (squares.empty()) return made;
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  const double limit = kSlipSquare * std::max(1.0, *middle);
+  const double limit = slipLimit(roles, edges, poses);
   const Steps<D> steps(problem, roles, edges, weights);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (roles[e] != EdgeRole::Trusted || !(squareOver(e) > limit)) continue;
+    if (roles[e] != EdgeRole::Trusted || !(squareOver(edges[e], poses) > limit)) continue;
     const int likeliest = steps.mostUnlike(static_cast<int>(e));
     if (std::any_of(made.begin(), made.end(), [&](const Slip<D>& slip) { return slip.edge == likeliest; })) continue;
     made.push_back({likeliest, steps.motionInstead(likeliest, static_cast<int>(e), poses)});
@@ -162,9 +192,13 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   return made;
 }
 
-template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                         const std::vector<char>&, const std::vector<Rigid<2>>&);
+template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                         const std::vector<char>&, const std::vector<Rigid<3>>&);
+template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                                            const std::vector<Rigid<2>>&);
-template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                                            const std::vector<Rigid<3>>&);
 
 }  // namespace pose_graph

@@ -14,17 +14,19 @@ struct Slip {
   Rigid<D> T_from_to;
 };
 
-/// Steps of odometry that are likely false: all edges are relaxed under Cauchy's kernel, from where odometry puts the
-/// poses, and a step that ends far outside its covariance, and much farther than others do, has slipped. Which of
-/// several it was, where the same closures span them, is for their measurements to tell: the one that is like no other
-/// step. Steps that no closure spans cannot be refuted.
+/// Whether a step of odometry may have slipped, as a set of edges that is relaxed shows it: it is far outside its
+/// covariance there, or more of the closures that span it are outside the set than inside. Only those of `considered`
+/// count.
+template <int D>
+bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+             const std::vector<char>& considered, const std::vector<Rigid<D>>& poses);
+
+/// Steps of odometry that are likely false: all edges but closures that are not `considered` are relaxed under Cauchy's
+/// kernel, from where odometry puts the poses, and a step that ends far outside its covariance, and much farther than
+/// others do, has slipped. Which of several it was, where the same closures span them, is for their measurements to
+/// tell: the one that is like no other step. Steps that no closure spans cannot be refuted.
 template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<Rigid<D>>& odometry);
-
-extern template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&,
-                                                  const std::vector<Rigid<2>>&);
-extern template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&,
-                                                  const std::vector<Rigid<3>>&);
+                               const std::vector<char>& considered, const std::vector<Rigid<D>>& odometry);
 
 }  // namespace pose_graph

@@ -43,6 +43,23 @@ WhitenedEdge<D> whitened(const Edge<D>& edge) {
 }
 
 template <int D>
+std::vector<WhitenedEdge<D>> whitened(const std::vector<Edge<D>>& edges) {
+  std::vector<WhitenedEdge<D>> made;
+  made.reserve(edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (e == 0 || edges[e].information != edges[e - 1].information) {
+      made.push_back(whitened(edges[e]));
+      continue;
+    }
+    made.push_back(made.back());
+    made.back().from = edges[e].from;
+    made.back().to = edges[e].to;
+    made.back().Z = edges[e].Z;
+  }
+  return made;
+}
+
+template <int D>
 Tangent<D> whitenedError(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
   const Rotation<D> A = from.R * edge.Z.R;
   Tangent<D> e;
@@ -74,6 +91,8 @@ WhitenedJacobians<D> whitenedJacobians(const WhitenedEdge<D>& edge, const Rigid<
 
 template WhitenedEdge<2> whitened<2>(const Edge<2>&);
 template WhitenedEdge<3> whitened<3>(const Edge<3>&);
+template std::vector<WhitenedEdge<2>> whitened<2>(const std::vector<Edge<2>>&);
+template std::vector<WhitenedEdge<3>> whitened<3>(const std::vector<Edge<3>>&);
 template Tangent<2> whitenedError<2>(const WhitenedEdge<2>&, const Rigid<2>&, const Rigid<2>&);
 template Tangent<3> whitenedError<3>(const WhitenedEdge<3>&, const Rigid<3>&, const Rigid<3>&);
 template WhitenedJacobians<2> whitenedJacobians<2>(const WhitenedEdge<2>&, const Rigid<2>&, const Rigid<2>&);

@@ -19,6 +19,9 @@ struct WhitenedEdge {
 };
 template <int D>
 WhitenedEdge<D> whitened(const Edge<D>& edge);
+/// All of them; the root of what successive edges have in common is taken once.
+template <int D>
+std::vector<WhitenedEdge<D>> whitened(const std::vector<Edge<D>>& edges);
 
 /// W e, with e as in Edge: its square is the edge's cost.
 template <int D>

@@ -149,7 +149,8 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
     }
     if (ratio > 0.75 && step.refused == 0) damping = damping > kLeastDamping ? damping / 10.0 : 0.0;
     else if (ratio < 0.25) damping = std::max(4.0 * damping, kFirstDamping);
-    equations.linearise(options.objective, poses, weights);
+    if (static_cast<int>(made.iterations.size()) < options.iterations)
+      equations.linearise(options.objective, poses, weights);
   }
   return made;
 }

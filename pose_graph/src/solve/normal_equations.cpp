@@ -35,6 +35,7 @@ TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, rotation_size<D>
   return made;
 }
 
+constexpr double kHardlyMore = 1.25;      // times the work of a factorisation
 constexpr std::size_t kEdgeGrain = 4096;  // edges summed by one thread at a time: fewer are not worth waking one
 
 }  // namespace
@@ -65,10 +66,23 @@ Unknowns makeUnknowns(const Problem<D>& problem) {
 }
 
 template <int D>
-NormalEquations<D>::NormalEquations(const Problem<D>& problem)
+Symbolic NormalEquations<D>::analyseAfter(const NormalEquations* before) {
+  // What was left out may be what made the factor of the graph before expensive.
+  if (before && before->unknowns_.pose == unknowns_.pose && graph_.neighbours.size() >= before->ordered_.neighbours) {
+    ordered_ = before->ordered_;
+    Symbolic made = analyse(graph_, before->symbolic_.node);
+    if (made.work <= kHardlyMore * ordered_.work) return made;
+  }
+  Symbolic made = analyse(graph_);
+  ordered_ = {graph_.neighbours.size(), made.work};
+  return made;
+}
+
+template <int D>
+NormalEquations<D>::NormalEquations(const Problem<D>& problem, const NormalEquations* before)
     : unknowns_(makeUnknowns(problem)),
       graph_(adjacencyOfUnknowns(problem, unknowns_)),
-      symbolic_(analyse(graph_)),
+      symbolic_(analyseAfter(before)),
       pattern_(graph_, symbolic_) {
   terms_.reserve(problem.edges.size());
   places_.reserve(problem.edges.size());

@@ -25,7 +25,9 @@ class NormalEquations {
  public:
   static constexpr int N = tangent_size<D>;
 
-  explicit NormalEquations(const Problem<D>& problem);
+  /// In the order of elimination of `before` where the same poses are free, no edges are gone, and a factorisation
+  /// takes hardly longer than the one that order was found for: finding it anew costs as much as several of them.
+  explicit NormalEquations(const Problem<D>& problem, const NormalEquations* before = nullptr);
   NormalEquations(const NormalEquations&) = delete;
   NormalEquations& operator=(const NormalEquations&) = delete;
 
@@ -59,8 +61,14 @@ class NormalEquations {
   template <Objective objective>
   double costAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const;
 
+  Symbolic analyseAfter(const NormalEquations* before);
+
   Unknowns unknowns_;
   Adjacency graph_;
+  struct {
+    std::size_t neighbours = 0;
+    double work = 0.0;
+  } ordered_;  // the graph that the order was found for
   Symbolic symbolic_;
   BlockPattern pattern_;
   std::vector<EdgeTerm<D>> terms_;

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "robust/variance_components.hpp"
 #include "support/drawn.hpp"
 
 namespace pose_graph {
@@ -34,6 +35,36 @@ void settlesWhereTheSolverDoes() {
 }
 TEST(AcceptedGraph, SettlesWhereTheSolverDoesInThePlane) { settlesWhereTheSolverDoes<2>(); }
 TEST(AcceptedGraph, SettlesWhereTheSolverDoesInSpace) { settlesWhereTheSolverDoes<3>(); }
+
+// The marginals of all pairs that an edge joins yield the same, edge by edge.
+template <int D>
+void sharesUnknownsAsMarginalsDo() {
+  Dice dice(10 + D);
+  const Problem<D> problem = test::drawProblem<D>(dice, 40, 25, 0.05, 0.02);
+  const std::vector<Rigid<D>> poses = solve(problem, {}).poses;
+  const std::vector<EdgeRole> roles = rolesByNumbers(problem);
+  std::vector<char> in, is_closure;
+  std::vector<double> weights;
+  double ranks = 0.0;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    in.push_back(e % 11 != 10 || roles[e] != EdgeRole::Candidate);
+    is_closure.push_back(roles[e] == EdgeRole::Candidate);
+    weights.push_back(in[e] ? is_closure[e] ? 0.5 : 2.0 : 0.0);
+    ranks += in[e] && is_closure[e] ? tangent_size<D> : 0;
+  }
+  AcceptedGraph<D> accepted(problem);
+  accepted.take(in, weights);
+  ASSERT_TRUE(accepted.factor(poses));
+  const auto closures = accepted.share(poses, is_closure);
+  const VarianceComponents components = varianceComponents(problem, roles, weights, poses);
+  const VarianceComponent &shift = components.of[1][0], &turn = components.of[1][1];
+  EXPECT_NEAR(closures.cost, 0.5 * (shift.squares + turn.squares), 1e-6 * closures.cost);
+  EXPECT_NEAR(ranks - closures.unknowns, shift.redundancy + turn.redundancy, 0.01 * ranks);
+  ASSERT_TRUE(accepted.factor(poses));
+  EXPECT_NEAR(accepted.share(poses, in).unknowns, tangent_size<D> * accepted.unknowns(), 1e-6);
+}
+TEST(AcceptedGraph, SharesUnknownsAsMarginalsDoInThePlane) { sharesUnknownsAsMarginalsDo<2>(); }
+TEST(AcceptedGraph, SharesUnknownsAsMarginalsDoInSpace) { sharesUnknownsAsMarginalsDo<3>(); }
 
 TEST(AcceptedGraph, GoesOnOnlyWhereTheCostIsInReach) {
   const auto graph =

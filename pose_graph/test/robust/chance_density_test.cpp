@@ -37,6 +37,24 @@ TEST(ChanceDensity, OfASpreadInSpaceIsOneOverItsVolume) {
   EXPECT_NEAR(PoseSample<3>(poses, 10.0).logDensity({}), -std::log(8000.0 * width * width * width), std::log(2.5));
 }
 
+// The pair in question is there a thousand times: only what else lies there is chance.
+TEST(ChanceDensity, OfTheOwnPairIsWithoutIt) {
+  test::Dice dice(5);
+  std::vector<Rigid<2>> poses;
+  std::vector<std::pair<int, int>> ends;
+  for (int i = 0; i < 2000; ++i) {
+    const bool own = i % 2 == 1;
+    poses.push_back(
+        {expRotation(RotationVector<2>(own ? 0.0 : dice.uniform(-M_PI, M_PI))),
+         own ? Eigen::Vector2d(2.0, 0.0) : Eigen::Vector2d(dice.uniform(-10.0, 10.0), dice.uniform(-10.0, 10.0))});
+    ends.emplace_back(own ? 50 + i % 5 : 200 + i, own ? 90 - i % 5 : 5000 + i);
+  }
+  const PoseSample<2> sample(poses, 10.0, ends);
+  const Rigid<2> at{Eigen::Matrix2d::Identity(), Eigen::Vector2d(2.0, 0.0)};
+  EXPECT_NEAR(sample.logDensity(at, 0.0, {52, 88, 5}), -std::log(400.0 * 2.0 * M_PI), std::log(2.0));
+  EXPECT_GT(sample.logDensity(at, 0.0, {500, 88, 5}), 0.0);
+}
+
 TEST(ChanceDensity, FarFromEverySampleIsNotZero) {
   const std::vector<Rigid<2>> poses(100);
   const double far = PoseSample<2>(poses, 5.0).logDensity({Eigen::Matrix2d::Identity(), Eigen::Vector2d(1e4, 0.0)});

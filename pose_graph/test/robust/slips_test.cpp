@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/slips.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/drawn.hpp"
+
+namespace pose_graph {
+namespace {
+
+using test::Dice;
+
+// A chain of 40 poses and closures over ten steps each, all exact but for one step.
+struct SlippedChain {
+  Problem<2> problem;
+  std::vector<EdgeRole> roles;
+  std::vector<char> all, none;
+  std::vector<Rigid<2>> odometry, truth;
+
+  explicit SlippedChain(double metres) {
+    Dice dice(3);
+    truth.emplace_back();
+    for (int i = 1; i < 40; ++i)
+      truth.push_back(truth.back() *
+                      moved(Rigid<2>(), Tangent<2>(1.0 + 0.3 * dice.normal(), 0.0, 0.3 * dice.normal())));
+    const auto measure = [&](std::size_t from, std::size_t to) {
+      problem.edges.push_back({static_cast<int>(from), static_cast<int>(to), truth[from].inverse() * truth[to],
+                               TangentMatrix<2>::Identity() * 1e2});
+    };
+    for (std::size_t i = 1; i < truth.size(); ++i) measure(i - 1, i);
+    for (std::size_t i = 0; i + 10 < truth.size(); ++i) measure(i, i + 10);
+    problem.edges[20].Z.t[0] += metres;
+    odometry.emplace_back();
+    for (std::size_t i = 1; i < truth.size(); ++i) odometry.push_back(odometry.back() * problem.edges[i - 1].Z);
+    problem.poses = odometry;
+    roles = rolesByNumbers(problem);
+    all.assign(roles.size(), 1);
+    for (const EdgeRole role : roles) none.push_back(role != EdgeRole::Candidate);
+  }
+};
+
+TEST(Slips, AStepThatAllClosuresContradictIsFound) {
+  const SlippedChain chain(2.0);
+  const auto slips = findSlips(chain.problem, chain.roles, chain.all, chain.odometry);
+  ASSERT_EQ(slips.size(), 1u);
+  EXPECT_EQ(slips[0].edge, 20);
+  EXPECT_LT((slips[0].T_from_to.t - (chain.truth[20].inverse() * chain.truth[21]).t).norm(), 0.05);
+  EXPECT_TRUE(findSlips(chain.problem, chain.roles, chain.none, chain.odometry).empty());
+}
+
+TEST(Slips, AStepMayHaveSlippedWhereClosuresAreOutsideOrItIsFarOff) {
+  const SlippedChain slipped(2.0), right(0.0);
+  const auto may = [](const SlippedChain& chain, const std::vector<char>& in, const std::vector<char>& considered,
+                      const std::vector<Rigid<2>>& poses) {
+    return maySlip(chain.problem, chain.roles, in, considered, poses);
+  };
+  EXPECT_TRUE(may(slipped, slipped.none, slipped.all, slipped.odometry));    // all that span it are outside
+  EXPECT_FALSE(may(slipped, slipped.none, slipped.none, slipped.odometry));  // and not considered
+  EXPECT_TRUE(may(slipped, slipped.all, slipped.all, slipped.truth));
+  EXPECT_FALSE(may(right, right.all, right.all, right.truth));
+}
+
+}  // namespace
+}  // namespace pose_graph
