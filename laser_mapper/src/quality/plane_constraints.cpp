@@ -140,13 +140,18 @@ GroupFit fitGroup(const PairGroup& group) {
 
 /// Removes a pair and what was said of its errors.
 void removePair(PairGroup& group, std::size_t number) {
-  const auto at = static_cast<Eigen::Index>(3 * number), rest = group.weights.rows() - 3;
-  Eigen::VectorXi kept(rest);
-  for (Eigen::Index i = 0; i < rest; ++i) kept(i) = static_cast<int>(i < at ? i : i + 3);
-  const Matrix3d own = group.weights.block<3, 3>(at, at);
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> shared = group.weights(kept, Eigen::seqN(at, 3));
-  group.weights = Eigen::MatrixXd(group.weights(kept, kept) -
-                                  shared * urban_nav_core::SmallCholesky<3>(own).inverse() * shared.transpose());
+  const Eigen::MatrixXd& all = group.weights;
+  const auto at = static_cast<Eigen::Index>(3 * number), rest = all.rows() - 3, after = rest - at;
+  Eigen::MatrixXd kept(rest, rest);
+  kept.topLeftCorner(at, at) = all.topLeftCorner(at, at);
+  kept.topRightCorner(at, after) = all.topRightCorner(at, after);
+  kept.bottomLeftCorner(after, at) = all.bottomLeftCorner(after, at);
+  kept.bottomRightCorner(after, after) = all.bottomRightCorner(after, after);
+  Eigen::Matrix<double, Eigen::Dynamic, 3> shared(rest, 3);
+  shared.topRows(at) = all.block(0, at, at, 3);
+  shared.bottomRows(after) = all.block(at + 3, at, after, 3);
+  const Matrix3d own = all.block<3, 3>(at, at);
+  group.weights = kept - shared * urban_nav_core::SmallCholesky<3>(own).inverse() * shared.transpose();
   group.pairs.erase(group.pairs.begin() + static_cast<std::ptrdiff_t>(number));
 }
 
