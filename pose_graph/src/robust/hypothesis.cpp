@@ -199,7 +199,7 @@ double HypothesisJudge<D>::gainByContraction(const Hypothesis<D>& hypothesis) co
   std::vector<int> inside;
   for (const int e : candidates_)
     if (hypothesis.in[sz(e)]) inside.push_back(e);
-  if (inside.empty()) return 0.0;
+  if (inside.empty() || assertions_) return 0.0;
   ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
   const double log_predicted =
       (hypothesis.log_inside - log_odometry_) / static_cast<double>(inside.size());  // density of each, on average

@@ -52,7 +52,8 @@ class HypothesisJudge {
   /// By how much closures inside agree by chance rather on the map of the hypothesis than on that of odometry, which is
   /// no evidence for them: closures are found where two places are alike, so that the density of one that is true is
   /// relative to how often two poses of the map lie as it says, over the volume within which the set as a whole
-  /// predicts it. Of a judged one; not less than 0.
+  /// predicts it. Of a judged one; not less than 0. None where closures are assertions: they are found with odometry as
+  /// tight as it says, which draws no map together.
   double gainByContraction(const Hypothesis<D>& hypothesis) const;
 
   /// Whether most closures state one and the same, as those do that say "the same place" and measure nothing. They
