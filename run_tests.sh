@@ -44,7 +44,7 @@ step() {
 build_all() (
   lock
   configure "$ws" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_BENCH=ON -DURBAN_NAV_WERROR=ON -DURBAN_NAV_SANITIZED_READERS=ON \
-    -DURBAN_NAV_UNITY_TESTS=ON -DURBAN_NAV_TEST_SHARDS="$(nproc)"
+    -DURBAN_NAV_TEST_SHARDS="$(nproc)"
   : >"$ws/command.started"
   compile "$ws" "Building" all tests urban_nav_benches || return 1
   mv "$ws/command.started" "$ws/command.built"
