@@ -15,7 +15,6 @@
 #include "robust/judgement.hpp"
 #include "robust/session_links.hpp"
 #include "robust/slips.hpp"
-#include "robust/variance_components.hpp"
 
 namespace pose_graph {
 using urban_nav_core::ClosureVerdict;
@@ -338,8 +337,6 @@ class Selection {
     if (!isContested(best_.judgement) && !beyond(found.odometry, kContestedFactor) &&
         !beyond(found.closures, kContestedFactor))
       return;
-    regrow();
-    if (isConsistent()) return;
     constexpr double far = 100.0;
     for (const VarianceFactors& factors : {VarianceFactors{far, far}, {far, 1.0}, {1.0, far}, {1.0 / far, 1.0 / far}})
       if (!takesNearlyAll() && factors.odometry <= judge_->largestOdometryFactor()) propose(factors, slips_);
@@ -350,17 +347,6 @@ class Selection {
   bool isSettled() const {
     const VarianceFactors& now = best_.hypothesis.factors;
     return areAlike(now, best_.grown_with) || areAlike(now, regrown_with_);
-  }
-
-  // And so many closures tell them that none of other variances will do better. Where information boasts far more than
-  // that, the set it began with may be a wrong one.
-  bool isConsistent() const {
-    const VarianceFactors& now = best_.hypothesis.factors;
-    if (std::max(now.odometry, now.closures) > kContestedFactor) return false;
-    std::size_t inside = 0;
-    for (std::size_t e = 0; e < roles_.size(); ++e)
-      inside += roles_[e] == EdgeRole::Candidate && best_.hypothesis.in[e];
-    return isSettled() && inside >= kClosuresToTell && evidence() >= kDecisive;
   }
 
   void regrow() {

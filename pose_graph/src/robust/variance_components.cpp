@@ -16,6 +16,7 @@ namespace {
 
 const double kDeviationPrior = std::log(3.0);
 constexpr double kSmallestFactor = 1e-8, kLargestFactor = 1e8;
+constexpr std::size_t kClosuresToTell = 100;
 
 }  // namespace
 

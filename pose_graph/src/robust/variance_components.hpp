@@ -16,9 +16,6 @@ struct VarianceComponents {
   VarianceComponent of[2][2];
 };
 
-/// So many closures tell their variances.
-constexpr std::size_t kClosuresToTell = 100;
-
 /// `weights`: of each edge, the inverse of the factor that its group has so far; 0 leaves it out. Where translation and
 /// rotation are correlated, what they share counts in both.
 template <int D>
