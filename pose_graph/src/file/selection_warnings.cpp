@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
+#include <set>
 #include <utility>
+
+#include "linear/disjoint_sets.hpp"
+#include "robust/session_links.hpp"
 
 namespace pose_graph {
 
@@ -28,6 +33,35 @@ Rejections count(const std::vector<int>& edges, const FileProblem<D>& file, cons
     made.rejected += robust.edges[static_cast<std::size_t>(edge)].verdict == ClosureVerdict::Rejected;
   }
   return made;
+}
+
+// Parts that only closures could have joined, and whose closures are all rejected.
+template <int D>
+void addUnjoined(const FileProblem<D>& file, const RobustSolution<D>& robust, std::vector<std::string>& warnings) {
+  const std::vector<int> parts = sessionParts(file.problem, file.roles);
+  std::vector<int> above(parts.empty() ? 0 : sz(*std::max_element(parts.begin(), parts.end())) + 1);
+  std::iota(above.begin(), above.end(), 0);
+  const auto visit = [&](ClosureVerdict verdict, const auto& use) {
+    for (std::size_t e = 0; e < file.roles.size(); ++e) {
+      const auto& edge = file.problem.edges[e];
+      if (file.roles[e] != EdgeRole::Candidate ||
+          (robust.edges[e].verdict == ClosureVerdict::Rejected) != (verdict == ClosureVerdict::Rejected))
+        continue;
+      use(findRoot(above, parts[sz(edge.from)]), findRoot(above, parts[sz(edge.to)]));
+    }
+  };
+  visit(ClosureVerdict::Accepted, [&](int a, int b) { above[sz(a)] = b; });
+  std::set<int> apart;
+  std::size_t rejected = 0;
+  visit(ClosureVerdict::Rejected, [&](int a, int b) {
+    if (a == b) return;
+    apart.insert({a, b});
+    ++rejected;
+  });
+  if (rejected > 0)
+    warnings.push_back(std::to_string(apart.size()) +
+                       " parts of the graph that odometry does not join stay apart: all " + std::to_string(rejected) +
+                       " closures between them are rejected");
 }
 
 // The poses around a slip up to the next ends of accepted closures: in between nothing tells which step it was.
@@ -73,6 +107,7 @@ std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const Rob
   else if (2 * closures.rejected > closures.all)
     warnings.push_back(std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +
                        " closures are rejected: more than half");
+  if (!robust.selection.undecided) addUnjoined(file, robust, warnings);
   if (robust.selection.unweighed)
     warnings.push_back("the graph is too large for sets of closures to be weighed against odometry alone: " +
                        std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/selection_warnings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace pose_graph {
+namespace {
+
+// Two chains of four poses, one closure within the first, and two between them.
+struct TwoChains {
+  FileProblem<2> file;
+  RobustSolution<2> robust;
+
+  TwoChains() {
+    for (const auto& [from, to] : {std::pair{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}, {6, 7}, {0, 3}, {1, 4}, {2, 6}}) {
+      Edge<2> edge;
+      edge.from = from;
+      edge.to = to;
+      file.problem.edges.push_back(edge);
+      file.roles.push_back(to == from + 1 ? EdgeRole::Trusted : EdgeRole::Candidate);
+      file.edges.push_back(static_cast<int>(file.edges.size()));
+    }
+    file.problem.poses.resize(8);
+    file.ids = {0, 1, 2, 3, 4, 5, 6, 7};
+    robust.edges.resize(file.roles.size());
+    for (EdgeAssessment& edge : robust.edges) edge.verdict = urban_nav_core::ClosureVerdict::Accepted;
+  }
+  void reject(int from, int to) {
+    for (std::size_t e = 0; e < file.roles.size(); ++e)
+      if (file.problem.edges[e].from == from && file.problem.edges[e].to == to)
+        robust.edges[e].verdict = urban_nav_core::ClosureVerdict::Rejected;
+  }
+  bool warns(const std::string& words) const {
+    const auto warnings = selectionWarnings(file, robust, {});
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+  }
+};
+
+TEST(SelectionWarnings, NameTheClosuresWithoutWhichPartsStayApart) {
+  TwoChains graph;
+  EXPECT_FALSE(graph.warns("apart"));
+  graph.reject(0, 3);  // within a part
+  EXPECT_FALSE(graph.warns("apart"));
+  graph.reject(1, 4);
+  EXPECT_FALSE(graph.warns("apart")) << "the other one still joins them";
+  graph.reject(2, 6);
+  EXPECT_TRUE(graph.warns("2 parts of the graph that odometry does not join stay apart: all 2 closures between them"));
+}
+
+TEST(SelectionWarnings, SayNothingMoreWhereNothingCouldBeDecided) {
+  TwoChains graph;
+  graph.robust.selection.undecided = true;
+  for (const auto& [from, to] : {std::pair{0, 3}, {1, 4}, {2, 6}}) graph.reject(from, to);
+  EXPECT_TRUE(graph.warns("nothing could be decided"));
+  EXPECT_FALSE(graph.warns("apart"));
+}
+
+}  // namespace
+}  // namespace pose_graph
