@@ -9,7 +9,7 @@ import numpy as np
 import rosbag
 import rospy
 from sensor_msgs.msg import Image
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 from urban_nav_msgs.msg import GraphState, MetricClosure, StageStatus, TopologicalClosure
 
@@ -28,7 +28,7 @@ class LoopsLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
         # The way is short: views from further along it would be those of the turning point, for both moments.
-        for name, value in (("queue_size", 100000), ("candidate_timeout", 3.0), ("keyframe_search_distance", 1.5)):
+        for name, value in (("queue_size", 100000), ("candidate_timeout", 10.0), ("keyframe_search_distance", 1.5)):
             rospy.set_param(f"/loop_metric/{name}", value)
         rospy.set_param("/pose_graph/queue_size", 100000)
         there = Path(folder) / "there.bag"
@@ -98,7 +98,7 @@ class LoopsLaunch(LaunchCase):
         for a, b, _ in self.closures:
             places.publish(self.message(a, b))
         places.publish(self.message(self.closures[0][0] - rospy.Duration(1000), self.closures[0][1]))
-        subprocess.run(["rosservice", "call", "/player/pause_playback", "false"], check=True, stdout=subprocess.DEVNULL)
+        self.assertTrue(rospy.ServiceProxy("/player/pause_playback", SetBool)(False).success)  # at once: without odometry they wait by the clock
         self.expect(lambda: len(self.listener.odometry) == self.frames, lambda: f"{len(self.listener.odometry)} of {self.frames} frames")
         subprocess.run(["rosservice", "call", "/swf_vo/reset"], check=True, stdout=subprocess.DEVNULL)  # empties its window
         self.expect(lambda: len(closures) == len(self.closures) + 1, lambda: f"{len(closures)} verdicts")
