@@ -41,23 +41,22 @@ void addUnjoined(const FileProblem<D>& file, const RobustSolution<D>& robust, st
   const std::vector<int> parts = sessionParts(file.problem, file.roles);
   std::vector<int> above(parts.empty() ? 0 : sz(*std::max_element(parts.begin(), parts.end())) + 1);
   std::iota(above.begin(), above.end(), 0);
-  const auto visit = [&](ClosureVerdict verdict, const auto& use) {
-    for (std::size_t e = 0; e < file.roles.size(); ++e) {
-      const auto& edge = file.problem.edges[e];
-      if (file.roles[e] != EdgeRole::Candidate ||
-          (robust.edges[e].verdict == ClosureVerdict::Rejected) != (verdict == ClosureVerdict::Rejected))
-        continue;
-      use(findRoot(above, parts[sz(edge.from)]), findRoot(above, parts[sz(edge.to)]));
-    }
-  };
-  visit(ClosureVerdict::Accepted, [&](int a, int b) { above[sz(a)] = b; });
+  const auto findPart = [&](int pose) { return findRoot(above, parts[sz(pose)]); };
+  std::vector<const Edge<D>*> left_out;
+  for (std::size_t e = 0; e < file.roles.size(); ++e) {
+    const Edge<D>& edge = file.problem.edges[e];
+    if (file.roles[e] != EdgeRole::Candidate) continue;
+    if (robust.edges[e].verdict == ClosureVerdict::Rejected) left_out.push_back(&edge);
+    else above[sz(findPart(edge.from))] = findPart(edge.to);
+  }
   std::set<int> apart;
   std::size_t rejected = 0;
-  visit(ClosureVerdict::Rejected, [&](int a, int b) {
-    if (a == b) return;
+  for (const Edge<D>* edge : left_out) {
+    const int a = findPart(edge->from), b = findPart(edge->to);
+    if (a == b) continue;
     apart.insert({a, b});
     ++rejected;
-  });
+  }
   if (rejected > 0)
     warnings.push_back(std::to_string(apart.size()) +
                        " parts of the graph that odometry does not join stay apart: all " + std::to_string(rejected) +
