@@ -11,8 +11,8 @@
 namespace pose_graph {
 
 /// What a user should know of a selection, a sentence each: nothing could be decided, more than half of a kind of edge
-/// is rejected, parts that odometry does not join stay apart, odometry slipped, or the information is off by more than a
-/// factor of 3 in its deviations.
+/// is rejected, parts that odometry does not join stay apart, odometry slipped, or the information is off by more than
+/// a factor of 3 in its deviations.
 template <int D>
 std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,
                                            const DeviationScales& scales);
