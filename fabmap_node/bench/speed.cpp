@@ -145,7 +145,7 @@ std::vector<urban_nav_registration::SearchedKeyframe> writeKeyframes(const std::
                                                                      std::size_t count) {
   const PlaceModel model = defaultModel();
   const std::string hash = modelHash(defaultModelBytes());
-  const PlaceDescriber describer(model.vocabulary, {}, keyframe_look_features);
+  const PlaceDescriber describer(model, {}, keyframe_look_features);
   std::vector<urban_nav_registration::SearchedKeyframe> keyframes;
   urban_nav_store::Store store(path, urban_nav_store::Access::Write);
   store.sessions().put(urban_nav_store::Session{"s", "day", "", "", 0, true});
@@ -248,7 +248,7 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const PlaceModel model = defaultModel();
   const MatcherOptions options;
   const FeatureExtractor extractor;
-  const PlaceDescriber describer(model.vocabulary, {}, options.look_features);
+  const PlaceDescriber describer(model, {}, options.look_features);
   const auto views = panorama(images, 0);
   table.add({"features of a panorama", "five images of 384x512 px",
              cell(medianMs(15, [&] { extractor.extract(views); }), 1)});

@@ -38,7 +38,7 @@ const PlaceModel& syntheticModel() {
 }
 
 PlaceDescription describeNumber(std::uint32_t number, std::uint32_t noise) {
-  return PlaceDescriber(syntheticModel().vocabulary, {}, 280).describe(syntheticPlace(number, noise));
+  return PlaceDescriber(syntheticModel(), {}, 280).describe(syntheticPlace(number, noise));
 }
 
 TEST(FabMap, GivesTheSameWithLooksThatAreReadBack) {

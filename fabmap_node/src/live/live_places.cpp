@@ -34,7 +34,7 @@ LivePlaces::LivePlaces(const Parameters& parameters, LiveSessionName name, const
       name_(std::move(name)),
       model_bytes_(readNamedModel(parameters)),
       model_(parseModel(model_bytes_, parameters.model)),
-      describer_(model_.vocabulary, featureOptions(parameters), MatcherOptions().look_features),
+      describer_(model_, featureOptions(parameters), MatcherOptions().look_features),
       store_(store, model_bytes_, model_.vocabulary.size(), std::move(store_options)),
       namer_(name_.robot) {
   reset();

@@ -19,7 +19,9 @@ using urban_nav_core::DataError;
 
 namespace {
 
-constexpr std::uint32_t oldest_version = 1, model_version = 2;  // 1: without sequences
+// 1: without sequences; 2: with upright features. Models of those are written as version 2 still, so that equal models
+// are equal bytes.
+constexpr std::uint32_t oldest_version = 1, upright_version = 2, model_version = 3;
 constexpr char model_name[] = "places model";
 constexpr std::size_t most_words = 1'000'000;
 
@@ -86,7 +88,15 @@ void archiveSequence(Archive& archive, std::optional<PlaceCalibration>& calibrat
   if (is_there) archiveCalibration(archive, *calibration, model_version);
 }
 
+void archiveFeatures(Archive& archive, FeatureKind& kind) {
+  auto number = static_cast<std::uint32_t>(kind);
+  archive(number);
+  archive.require(number < feature_kind_names.size(), "an unknown kind of features");
+  kind = static_cast<FeatureKind>(number);
+}
+
 void archiveModel(Archive& archive, PlaceModel& model, std::uint32_t version) {
+  if (version > upright_version) archiveFeatures(archive, model.features);
   archiveCentres(archive, model.vocabulary);
   const std::size_t words = model.vocabulary.size();
   archiveTree(archive, model.tree, words);
@@ -105,6 +115,13 @@ void archiveModel(Archive& archive, PlaceModel& model, std::uint32_t version) {
   if (version < 2) return;
   archiveSequence(archive, model.single_sequence);
   archiveSequence(archive, model.panorama_sequence);
+}
+
+std::string printVersion(const PlaceModel& model, std::uint32_t version) {
+  Archive archive;
+  PlaceModel copy = model;
+  archiveModel(archive, copy, version);
+  return archive.take();
 }
 
 PlaceModel parseVersion(std::string_view content, std::uint32_t version, const std::string& name) {
@@ -127,15 +144,11 @@ void roundToFile(ChowLiuTree& tree) {
     for (double& value : *values) value = static_cast<double>(static_cast<float>(value));
 }
 
-std::string printModelContent(const PlaceModel& model) {
-  Archive archive;
-  PlaceModel copy = model;
-  archiveModel(archive, copy, model_version);
-  return archive.take();
-}
+std::string printModelContent(const PlaceModel& model) { return printVersion(model, model_version); }
 
 std::string printModel(const PlaceModel& model) {
-  return urban_nav_core::seal(model_name, model_version, printModelContent(model));
+  const std::uint32_t version = model.features == FeatureKind::Upright ? upright_version : model_version;
+  return urban_nav_core::seal(model_name, version, printVersion(model, version));
 }
 
 PlaceModel parseModelContent(std::string_view content, const std::string& name) {

@@ -116,7 +116,7 @@ class KeyframePlaces::Search {
         model_hash_(model.hash),
         model_(parseModel(model.bytes, "model of places in " + store.path())),
         table_(model_.tree, model_.detector, Dependence::ChowLiu),
-        describer_(model_.vocabulary, featureOptions(Parameters()), keyframe_look_features),
+        describer_(model_, featureOptions(Parameters()), keyframe_look_features),
         index_(table_) {}
 
   /// Returns the stored row of a keyframe's image; nullopt if there is none of this model.

@@ -53,6 +53,35 @@ TEST(FeatureExtractor, EqualImagesGiveEqualFeatures) {
   for (std::size_t i = 0; i < a.features.size(); ++i) EXPECT_EQ(a.features[i].descriptor, b.features[i].descriptor);
 }
 
+TEST(FeatureExtractor, OpenCvFindsItsOwnFeaturesUpToTheLimit) {
+  const auto pixels = drawBlocks(5);
+  const ByteDescriptor upright =
+      FeatureExtractor({120, 60}).extract({viewOfBlocks(pixels)}).features.front().descriptor;
+  for (const FeatureKind kind : {FeatureKind::Sift, FeatureKind::Orb}) {
+    const FeatureExtractor extractor({120, 60, kind});
+    const PlaceObservation observation = extractor.extract({viewOfBlocks(pixels)});
+    EXPECT_GT(observation.features.size(), 40u);
+    EXPECT_LE(observation.features.size(), 120u);
+    const PlaceObservation again = extractor.extract({viewOfBlocks(pixels)});
+    ASSERT_EQ(observation.features.size(), again.features.size());
+    for (std::size_t i = 0; i < observation.features.size(); ++i) {
+      const PlaceFeature& feature = observation.features[i];
+      EXPECT_NE(feature.descriptor, upright);
+      EXPECT_EQ(feature.descriptor, again.features[i].descriptor);
+      EXPECT_GE(feature.u, 0.0F);
+      EXPECT_LE(feature.u, 1.0F);
+      EXPECT_GE(feature.v, 0.0F);
+      EXPECT_LE(feature.v, 1.0F);
+      int squares = 0;
+      for (const std::uint8_t x : feature.descriptor) squares += x * x;
+      EXPECT_GT(squares, 200 * 200);
+    }
+    const std::vector<std::uint8_t> blank(blocks_width * blocks_height, 128);
+    EXPECT_TRUE(extractor.extract({viewOfBlocks(blank)}).features.empty());
+    EXPECT_TRUE(extractor.extract({urban_nav_core::ImageView{}}).features.empty());
+  }
+}
+
 TEST(FeatureExtractor, PanoramaIsOneObservationAndContinuesWithoutOneCamera) {
   const auto first = drawBlocks(3), second = drawBlocks(4);
   const PlaceObservation observation =

@@ -43,7 +43,7 @@ const PlaceModel& suiteModel() {
 }
 
 PlaceDescription describePixels(const std::vector<std::uint8_t>& pixels) {
-  return PlaceDescriber(suiteModel().vocabulary, {}, 280).describe({viewOfPixels(pixels)});
+  return PlaceDescriber(suiteModel(), {}, 280).describe({viewOfPixels(pixels)});
 }
 
 TEST(PlaceDescriber, StatesWhyAnImageIsNotUsed) {
@@ -53,15 +53,14 @@ TEST(PlaceDescriber, StatesWhyAnImageIsNotUsed) {
   std::vector<std::uint8_t> ramp(static_cast<std::size_t>(side * side));
   for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::uint8_t>(i % side);
   EXPECT_EQ(describePixels(ramp).status, ObservationStatus::Blurred);
-  EXPECT_EQ(PlaceDescriber(suiteModel().vocabulary, {}, 280).describe({ImageView(), ImageView()}).status,
+  EXPECT_EQ(PlaceDescriber(suiteModel(), {}, 280).describe({ImageView(), ImageView()}).status,
             ObservationStatus::NoImage);
 }
 
 TEST(PlaceDescriber, ContinuesWithoutOneOfFiveCameras) {
   const std::vector<std::uint8_t> pixels = squares(2);
   const ImageView image = viewOfPixels(pixels);
-  const auto description =
-      PlaceDescriber(suiteModel().vocabulary, {}, 280).describe({image, image, ImageView(), image, image});
+  const auto description = PlaceDescriber(suiteModel(), {}, 280).describe({image, image, ImageView(), image, image});
   EXPECT_EQ(description.status, ObservationStatus::Used);
   EXPECT_EQ(description.cameras, 5);
   EXPECT_EQ(description.missing, 1);

@@ -84,7 +84,7 @@ class KeyframePlacesTest : public ::testing::Test {
   template <typename Row>
   void storeWords(const std::string& model_hash) {
     const PlaceModel model = defaultModel();
-    const PlaceDescriber describer(model.vocabulary, {}, keyframe_look_features);
+    const PlaceDescriber describer(model, {}, keyframe_look_features);
     for (const Keyframe& keyframe : keyframes_) {
       const cv::Mat pixels = urban_nav_registration::decodeJpeg(keyframe.image, {keyframe.width, keyframe.height});
       const urban_nav_core::ImageView view{pixels.data, pixels.cols, pixels.rows,

@@ -21,7 +21,7 @@ PlaceSession makeSession(const PlaceModel& model, const std::string& recording, 
   PlaceSession made;
   made.session = {
       urban_nav_store::makeSessionId({"lisa", recording, start, ""}), recording, "lisa", recording, start, false};
-  const PlaceDescriber describer(model.vocabulary, {}, 540);
+  const PlaceDescriber describer(model, {}, 540);
   for (std::uint32_t i = 0; i < 5; ++i)
     made.places.push_back({start + i * second, describer.describe(syntheticPlace(i, 0, 5)), 2.0 * i});
   return made;

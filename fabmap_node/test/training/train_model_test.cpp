@@ -39,7 +39,7 @@ const TrainedModel& trainedOnce() {
 }
 
 PlaceDescription describeSynthetic(const PlaceObservation& observation) {
-  return PlaceDescriber(trainedOnce().model.vocabulary, {}, 1000).describe(observation);
+  return PlaceDescriber(trainedOnce().model, {}, 1000).describe(observation);
 }
 
 TEST(TrainModel, HasBothKindsOfCalibrationSamples) {
@@ -105,6 +105,17 @@ TEST(PlaceModel, ReadsBackWhatWasPrinted) {
   EXPECT_EQ(read.sampled_places, trainedOnce().model.sampled_places);
   EXPECT_EQ(read.vocabulary.centres(), trainedOnce().model.vocabulary.centres());
   EXPECT_EQ(read.tree.p, trainedOnce().model.tree.p);
+}
+
+TEST(PlaceModel, KeepsTheKindOfItsFeatures) {
+  PlaceModel model = trainedOnce().model;
+  EXPECT_EQ(parseModel(printModel(model), "model").features, FeatureKind::Upright);
+  model.features = FeatureKind::Orb;
+  const PlaceModel read = parseModel(printModel(model), "model");
+  EXPECT_EQ(read.features, FeatureKind::Orb);
+  EXPECT_EQ(read.tree.p, model.tree.p);
+  model.features = static_cast<FeatureKind>(7);
+  EXPECT_THROW(parseModel(printModel(model), "model"), urban_nav_core::DataError);
 }
 
 TEST(PlaceModel, TruncatedAndDamagedFilesAreRefusedByName) {

@@ -127,21 +127,27 @@ def judged_images(found, positions, stamps):
     return claims
 
 
-def summary(name, claims):
+def peer_matches(path):
+    """Matches of another system: a CSV of query,match,score, images counted from 0."""
+    with path.open() as file:
+        return [Match(0, round(0.25e9 * int(r["match"])), 0, round(0.25e9 * int(r["query"])), float(r["score"])) for r in csv.DictReader(file)]
+
+
+def summary(name, claims, is_calibrated=True):
     wrong_most = max((claim.probability for claim in claims if claim.right is False), default=-1.0)
     revisits = [claim for claim in claims if claim.revisit]
     counts = []
-    for low, high in ((0.99, 1.0), (0.9, 0.99), (0.05, 0.9)):
+    for low, high in ((0.99, 1.0), (0.9, 0.99), (0.05, 0.9)) if is_calibrated else ():
         some = [claim.right for claim in claims if low < claim.probability <= high and claim.right is not None]
         counts += [str(len(some)), str(sum(some))]
     first = [claim for claim in revisits if claim.right]
     recall = f"{sum(claim.probability > wrong_most for claim in first) / len(revisits):.0%}" if revisits else ""
-    return [*name, str(len(claims)), str(len(revisits)), str(len(first)), recall, *counts]
+    return [*name, str(len(claims)), str(len(revisits)), str(len(first)), recall, *(counts or [""] * 6)]
 
 
 class Bench:
-    def __init__(self, model, folder):
-        self.model, self.folder = model, folder
+    def __init__(self, model, folder, models, peers):
+        self.model, self.folder, self.models, self.peers = model, folder, models, peers
         self.rows, self.claims = [], []  # claims: (world, drives, Claim) with all evidence
 
     def add(self, world, drives, inputs, judge, keep=lambda match: match.drive_a != match.drive_b, options=()):
@@ -198,6 +204,13 @@ class Bench:
         (images / "times.txt").write_text("".join(f"{stamp}\n" for stamp in stamps))
         positions = [float(row["position"]) for row in truth]
         self.add("streets, a car", "one day, single images", [images], lambda found: judged_images(found, positions, stamps), keep=lambda match: True)
+        for other in self.models:
+            name, model = other.split("=", 1)
+            found = matches(model, [images], self.folder / "matches.csv", ())
+            self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(found, positions, stamps)))
+        for peer in self.peers:
+            name, path = peer.split("=", 1)
+            self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(peer_matches(Path(path)), positions, stamps), is_calibrated=False))
 
     def write_claims(self):
         with (self.folder / "claims.csv").open("w", newline="") as file:
@@ -213,11 +226,13 @@ def main():
     parser.add_argument("folder", type=Path, help="for what is simulated; bags that are there already are taken")
     parser.add_argument("--kind", action="append", choices=KINDS, help="repeatable (default: all)")
     parser.add_argument("--model", default="default")
+    parser.add_argument("--other-model", action="append", default=[], metavar="NAME=MODEL", help="another model for the real images; repeatable")
+    parser.add_argument("--peer", action="append", default=[], metavar="NAME=FILE.csv", help="what another system says of the real images: query,match,score, images counted from 0; repeatable")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    bench = Bench(arguments.model, arguments.folder)
+    bench = Bench(arguments.model, arguments.folder, arguments.other_model, arguments.peer)
     for kind in arguments.kind or KINDS:
         getattr(bench, kind.replace(" ", "_"))()
     bench.write_claims()

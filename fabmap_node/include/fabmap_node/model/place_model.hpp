@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fabmap_node/features/feature_kind.hpp"
 #include "fabmap_node/model/likelihood.hpp"
 #include "fabmap_node/recognition/calibration.hpp"
 #include "fabmap_node/vocabulary/vocabulary.hpp"
@@ -16,6 +17,7 @@ namespace fabmap_node {
 /// the calibrations of probabilities for single images and for panoramas: of an observation alone, and with those
 /// before it. Plain data.
 struct PlaceModel {
+  FeatureKind features = FeatureKind::Upright;  ///< what the words were made of, and must be looked up with
   Vocabulary vocabulary;
   ChowLiuTree tree;  ///< probabilities in single precision, as the file has them
   Detector detector{0.39, 0.05};

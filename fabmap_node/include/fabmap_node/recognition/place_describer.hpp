@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fabmap_node/features/feature_extractor.hpp"
-#include "fabmap_node/vocabulary/vocabulary.hpp"
+#include "fabmap_node/model/place_model.hpp"
 
 namespace fabmap_node {
 
@@ -31,11 +31,15 @@ struct PlaceDescription {
   std::string look;  ///< packLook()
 };
 
-/// Describes observations in the words of a vocabulary. Thread-safe; the vocabulary must outlive it.
+/// Describes observations in the words of a model, with the kind of features that it was trained with. Thread-safe; the
+/// model must outlive it.
 class PlaceDescriber {
  public:
-  PlaceDescriber(const Vocabulary& vocabulary, const FeatureOptions& features, std::size_t look_features)
-      : vocabulary_(vocabulary), extractor_(features), look_features_(look_features) {}
+  /// Of `features`, the numbers count: the model says which kind.
+  PlaceDescriber(const PlaceModel& model, const FeatureOptions& features, std::size_t look_features)
+      : vocabulary_(model.vocabulary),
+        extractor_({features.single, features.panorama, model.features}),
+        look_features_(look_features) {}
 
   /// `images`: as FeatureExtractor::extract() takes them.
   PlaceDescription describe(const std::vector<urban_nav_core::ImageView>& images) const;

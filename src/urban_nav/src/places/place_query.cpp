@@ -49,9 +49,9 @@ PlaceQuery queryPlaces(const fabmap_node::PlaceModel& model, const std::vector<s
                        const std::vector<std::string>& topics, const fabmap_node::RecogniserOptions& options,
                        Console& console) {
   QueryRun run(model, options);
-  const fabmap_node::PlaceDescriber describer(model.vocabulary, {}, options.matcher.look_features);
+  const fabmap_node::PlaceDescriber describer(model, {}, options.matcher.look_features);
   readPlaceSessions(
-      inputs, topics, console, {&describer, false},
+      inputs, topics, console, {&describer, false, model.features},
       [&](std::size_t, const std::string& name) { run.beginSession(name); },
       [&](StampedObservation observation) { run.add(observation.stamp, observation.description); });
   PlaceQuery query = run.take();
@@ -64,9 +64,9 @@ PlaceRecording recordPlaces(const fabmap_node::PlaceModel& model, const std::vec
                             Console& console) {
   PlaceRecording recording;
   std::size_t unused = 0;
-  const fabmap_node::PlaceDescriber describer(model.vocabulary, {}, options.look_features);
+  const fabmap_node::PlaceDescriber describer(model, {}, options.look_features);
   readPlaceSessions(
-      inputs, topics, console, {&describer, true},
+      inputs, topics, console, {&describer, true, model.features},
       [&](std::size_t, const std::string& name) { recording.sessions.push_back(name); },
       [&](StampedObservation observation) {
         unused += observation.description.status != fabmap_node::ObservationStatus::Used ? 1u : 0u;

@@ -51,8 +51,7 @@ class PlacePairTest : public ::testing::Test {
     const std::string bytes(fabmap_node::defaultModelBytes());
     const std::string hash = fabmap_node::modelHash(bytes);
     TableStore<StoredModel>(store_).put({session, hash, "fabmap_node", bytes});
-    const auto description =
-        fabmap_node::PlaceDescriber(model_.vocabulary, {}, 540).describe({urban_nav_ros::toView(image)});
+    const auto description = fabmap_node::PlaceDescriber(model_, {}, 540).describe({urban_nav_ros::toView(image)});
     StoredPlace row = fabmap_node::toStoredPlace(session, seconds * pair_second, description, hash);
     row.thumbnail = fabmap_node::placeThumbnail({urban_nav_ros::toView(image)});
     TableStore<StoredPlace>(store_).put(row);

@@ -7,7 +7,9 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
+#include "fabmap_node/training/train_model.hpp"
 #include "places/place_evaluation.hpp"
+#include "places/place_sessions.hpp"
 #include "support/folders.hpp"
 #include "support/place_images.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -63,6 +65,27 @@ TEST_F(PlaceQueryTest, RevisitsOfAnotherSessionAreTheLikeliestEarlierPlaces) {
   }
   EXPECT_EQ(query.unused, 1u);
   EXPECT_EQ(query.rows[12].recognition.status, fabmap_node::ObservationStatus::Dark);
+}
+
+TEST_F(PlaceQueryTest, ModelsOfOpenCvFeaturesLookUpWithThem) {
+  for (const fabmap_node::FeatureKind kind : {fabmap_node::FeatureKind::Sift, fabmap_node::FeatureKind::Orb}) {
+    fabmap_node::TrainingOptions training;
+    training.features = kind;
+    training.k_means.words = 200;
+    std::vector<fabmap_node::TrainingDrive> drives;
+    readPlaceSessions(
+        {inputs_[0]}, {}, console_, {nullptr, false, kind},
+        [&](std::size_t, const std::string&) { drives.emplace_back(); },
+        [&](StampedObservation place) {
+          drives.back().push_back({place.stamp, std::move(place.observation)});
+        });
+    const fabmap_node::PlaceModel model = fabmap_node::trainModel(std::move(drives), training).model;
+    const PlaceQuery query = queryPlaces(model, inputs_, {}, options_, console_);
+    for (std::size_t i = 8; i < 11; ++i) {
+      ASSERT_TRUE(query.rows[i].recognition.match) << static_cast<int>(kind);
+      EXPECT_EQ(query.rows[i].matched_row, i - 4) << static_cast<int>(kind);
+    }
+  }
 }
 
 TEST_F(PlaceQueryTest, ARecordingGivesTheSameOnAnyNumberOfThreads) {

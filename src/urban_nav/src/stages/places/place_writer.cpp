@@ -45,7 +45,7 @@ PlaceWriter::PlaceWriter(std::shared_ptr<const LoadedPlaceModel> model, const fa
                          urban_nav_store::SessionId session, Kind kind, bool one_thread)
     : model_(std::move(model)),
       describer_(std::make_shared<fabmap_node::PlaceDescriber>(
-          model_->model.vocabulary, fabmap_node::featureOptions(parameters),
+          model_->model, fabmap_node::featureOptions(parameters),
           kind == Kind::Place ? fabmap_node::MatcherOptions().look_features : fabmap_node::keyframe_look_features)),
       session_(std::move(session)),
       kind_(kind),
