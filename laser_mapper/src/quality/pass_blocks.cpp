@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int kBlockCubes = 16;
+constexpr int kBlockCubes = kPlaceSpacing;
 static_assert(kTileCells % kBlockCubes == 0 && kBlockCubes == 1 << 4, "a tile consists of whole blocks");
 
 }  // namespace

@@ -33,6 +33,9 @@ constexpr double kLength = 10.0;        // m that weigh as much as a rad, where 
 // pass for knowledge along the plane.
 constexpr double kLeastInformation = 0.0025;
 
+// Patches are round and reach into the blocks beside theirs: so many of them have each beam.
+constexpr double kOverlap = 3.14159265358979 * kPlaceRadius * kPlaceRadius / (kPlaceSpacing * kPlaceSpacing);
+
 using PlaneJacobian = Eigen::Matrix<double, 3, 6>;
 
 /// One plane in two passes: J x = r + noise, with x = (rho, phi) the correction of pose b in the axes of the map:
@@ -63,12 +66,13 @@ struct PlaceOfPair {
   const PlanePatch *a = nullptr, *b = nullptr;
 };
 
-/// Variances of a patch along its normal, m^2, and of its tilt, rad^2: noise, and a constant error of the laser, which
-/// ends up in the displacement and, as far as it varies over the patch, in the tilt.
+/// Variances of a patch along its normal, m^2, and of its tilt, rad^2: noise, and what the surface adds to a range,
+/// which ends up in the displacement and, as far as it varies over the patch, in the tilt.
 Eigen::Vector2d patchVariances(const PlanePatch& patch, double range_bias) {
   const double extent = patch.displacement_sigma / patch.angle_sigma;
-  return {patch.displacement_sigma * patch.displacement_sigma + range_bias * range_bias,
-          patch.angle_sigma * patch.angle_sigma + range_bias * range_bias / (extent * extent)};
+  return kOverlap *
+         Eigen::Vector2d(patch.displacement_sigma * patch.displacement_sigma + range_bias * range_bias,
+                         patch.angle_sigma * patch.angle_sigma + range_bias * range_bias / (extent * extent));
 }
 
 /// Whether a patch can be said to hang on one pose.
@@ -185,13 +189,6 @@ std::optional<GroupFit> fitAgreeing(PairGroup& group) {
   return std::nullopt;
 }
 
-/// Information after an error of covariance `noise` that all of a group have in common; may be singular.
-Matrix6d addNoise(const Matrix6d& information, const Matrix6d& noise) {
-  const Matrix6d reduced =
-      information * urban_nav_core::inverseByLu<6>(Matrix6d(Matrix6d::Identity() + noise * information));
-  return 0.5 * (reduced + reduced.transpose());
-}
-
 /// Passes of which a group is made: sessions, and stretches of time in them.
 using GroupKey = std::tuple<std::size_t, StampNs, std::size_t, StampNs>;
 
@@ -218,40 +215,55 @@ StretchWalk walkDuring(const std::vector<PlaceOfPair>& group, const PlanePatch* 
   return StretchWalk(*pass.T_map_base, reference, begin, end, pass.drift);
 }
 
+/// Returns the linear map from the constant errors of the lasers, independent in both passes and with unit standard
+/// deviation, to the rows of all pairs. `bias`: standard deviation of such an error, m.
+Eigen::MatrixXd laserColumns(const std::vector<PlaceOfPair>& group, double bias) {
+  std::map<std::pair<bool, std::uint8_t>, Eigen::Index> columns;
+  for (const PlaceOfPair& of : group)
+    for (const bool is_b : {false, true})
+      columns.emplace(std::pair(is_b, (is_b ? of.b : of.a)->laser), static_cast<Eigen::Index>(columns.size()));
+  Eigen::MatrixXd by_lasers =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * group.size()), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(3 * i);
+    by_lasers(row, columns.at({false, group[i].a->laser})) = bias * group[i].a->facing;
+    by_lasers(row, columns.at({true, group[i].b->laser})) = -bias * group[i].b->facing;
+  }
+  return by_lasers;
+}
+
 /// Returns the inverse covariance of the rows of all pairs: noise and constant errors of the lasers, and the drift of
 /// both trajectories meanwhile; empty if it is not positive definite.
 Eigen::MatrixXd weighPairs(const std::vector<PlaceOfPair>& group, const std::vector<PlanePair>& pairs,
-                           const StretchWalk& walk_a, const StretchWalk& walk_b) {
+                           const StretchWalk& walk_a, const StretchWalk& walk_b, double bias) {
   const auto rows = static_cast<Eigen::Index>(3 * pairs.size());
   Eigen::VectorXd variances(rows);
+  const Eigen::MatrixXd by_lasers = laserColumns(group, bias);
   Eigen::MatrixXd by_walks(rows, walk_a.size() + walk_b.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(3 * i);
     variances.segment<3>(at) = pairs[i].variances;
     by_walks.middleRows<3>(at) << walk_a.rows(*group[i].a, pairs[i].axes), walk_b.rows(*group[i].b, pairs[i].axes);
   }
-  if (by_walks.cols() == 0) return variances.cwiseInverse().asDiagonal();
-  Eigen::MatrixXd covariance = by_walks * by_walks.transpose();
+  Eigen::MatrixXd covariance = by_walks * by_walks.transpose() + by_lasers * by_lasers.transpose();
   covariance.diagonal() += variances;
   return urban_nav_core::invertPositiveDefinite(covariance).value_or(Eigen::MatrixXd());
 }
 
+/// `groups`: between the two passes, whose lasers' constant errors all of them share.
 std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, const PosesOfPass& pass_a,
-                                         const PosesOfPass& pass_b, double range_bias) {
-  if (group.size() < kFewestPlanes) return std::nullopt;
+                                         const PosesOfPass& pass_b, double range_bias, std::size_t groups) {
   const Trajectory &T_map_a = *pass_a.T_map_base, &T_map_b = *pass_b.T_map_base;
   const urban_nav_core::StampedPose& a = T_map_a[T_map_a.nearest(meanStamp(group, &PlaceOfPair::a))];
   const urban_nav_core::StampedPose& b = T_map_b[T_map_b.nearest(meanStamp(group, &PlaceOfPair::b))];
   PairGroup fitted;
   for (const PlaceOfPair& of : group) fitted.pairs.push_back(makePair(of, b.pose.t(), range_bias));
   fitted.weights = weighPairs(group, fitted.pairs, walkDuring(group, &PlaceOfPair::a, pass_a, a.stamp),
-                              walkDuring(group, &PlaceOfPair::b, pass_b, b.stamp));
+                              walkDuring(group, &PlaceOfPair::b, pass_b, b.stamp),
+                              range_bias * std::sqrt(static_cast<double>(groups)));
   if (fitted.weights.size() == 0) return std::nullopt;
   const std::optional<GroupFit> fit = fitAgreeing(fitted);
   if (!fit) return std::nullopt;
-  Matrix6d common = Matrix6d::Zero();  // two lasers
-  common.topLeftCorner<3, 3>().diagonal().setConstant(2.0 * range_bias * range_bias);
-  const Matrix6d information = addNoise(fit->information, common);
   const Matrix3d R_a_map = a.pose.q().conjugate().toRotationMatrix();
   Matrix6d turn = Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = R_a_map;
@@ -261,7 +273,7 @@ std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, 
   made.stamp_b = b.stamp;
   made.planes = fitted.pairs.size();
   made.measured.T_a_b = urban_nav_core::boxPlus(a.pose.inverse() * b.pose, x);
-  made.measured.information = turn * information * turn.transpose();
+  made.measured.information = turn * fit->information * turn.transpose();
   if (!made.measured.information.allFinite() || !x.allFinite()) return std::nullopt;
   return made;
 }
@@ -281,11 +293,18 @@ std::vector<PlaneConstraint> findPlaneConstraints(const std::vector<PlanePlace>&
       groups[{a.session, stretchAt(T_map_a, a.stamp), b.session, stretchAt(T_map_b, b.stamp)}].push_back(
           {&place, &a, &b});
     }
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::size_t> shared;  // groups, by passes
+  const auto passes = [](const std::vector<PlaceOfPair>& group) {
+    return std::pair(group.front().a->pass, group.front().b->pass);
+  };
+  for (const auto& [key, group] : groups)
+    if (group.size() >= kFewestPlanes) ++shared[passes(group)];
   std::vector<PlaneConstraint> made;
   for (const auto& [key, group] : groups) {
+    if (group.size() < kFewestPlanes) continue;
     const std::size_t a = std::get<0>(key), b = std::get<2>(key);
     std::optional<PlaneConstraint> constraint =
-        constrain(group, {T_map_base[a], drifts[a]}, {T_map_base[b], drifts[b]}, range_bias);
+        constrain(group, {T_map_base[a], drifts[a]}, {T_map_base[b], drifts[b]}, range_bias, shared[passes(group)]);
     if (!constraint) continue;
     constraint->session_a = a;
     constraint->session_b = b;

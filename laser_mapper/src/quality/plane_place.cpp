@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "quality/pass_blocks.hpp"
@@ -40,13 +41,15 @@ std::optional<PatchFit> fitPatch(std::uint16_t pass, const std::vector<PlacedCel
   if (cells.size() < kFewestCells) return std::nullopt;
   PatchFit fit;
   Vector3d to_laser = Vector3d::Zero();
+  std::map<std::uint8_t, double> lasers;
   double weight = 0.0, seconds = 0.0, squares = 0.0;
   const StampNs since = cells.front().cell->stamp;
   for (const PlacedCell& placed : cells) {
     const double w = static_cast<double>(std::min(placed.cell->count, kMostBeams));
     weight += w;
     fit.patch.centre += w * placed.p;
-    to_laser += placed.cell->to_laser.cast<double>();
+    to_laser += w * placed.cell->to_laser.cast<double>();
+    lasers[placed.cell->laser] += w;
     const double t = urban_nav_core::secondsBetween(since, placed.cell->stamp);
     seconds += w * t;
     squares += w * t * t;
@@ -62,6 +65,10 @@ std::optional<PatchFit> fitPatch(std::uint16_t pass, const std::vector<PlacedCel
   const auto eigen = urban_nav_core::smallEigen<3>(fit.patch.scatter);
   fit.patch.normal = eigen.vectors.col(0);
   if (fit.patch.normal.dot(to_laser) < 0.0) fit.patch.normal = -fit.patch.normal;
+  fit.patch.facing = fit.patch.normal.dot(to_laser) / weight;
+  fit.patch.laser = std::max_element(lasers.begin(), lasers.end(), [](const auto& a, const auto& b) {
+                      return a.second < b.second;
+                    })->first;
   fit.patch.thickness = std::sqrt(std::max(0.0, eigen.values(0)));
   fit.extent = std::sqrt(std::max(0.0, eigen.values(1)));
   fit.patch.pass = pass;

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "support/drifting_pass.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
@@ -163,6 +165,37 @@ TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
   EXPECT_LT(1.0 / two(2, 2), 2.0 * kBias * kBias + kBias * kBias);
   for (const PlaneConstraint& constraint : constraints)
     EXPECT_NEAR(heightVariance(constraint.measured.information), 2.0 * heightVariance(two), 0.2 * heightVariance(two));
+}
+
+TEST_F(PlaneConstraintTest, LasersThatHaveChangedSidesTellTheRollAsWellAsTheirConstantErrorsAllow) {
+  stand({Vector6d::Zero(), Vector6d::Zero()});
+  for (int i = 0; i < 30; ++i)
+    for (const double y : {-4.0, 4.0}) places_.push_back(seen({{0.1 * i, y, 0.0}, Vector3d::UnitZ()}));
+  const std::vector<PlanePlace> exact = places_;
+  constexpr double kFacing = 0.4;
+  constexpr int kTrials = 100;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, kBias);
+  double ratio = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const std::array<double, 2> errors = {normal(random), normal(random)};
+    places_ = exact;
+    for (PlanePlace& place : places_)
+      for (PlanePatch& patch : place.patches) {
+        patch.laser = (patch.centre.y() > 0.0) == (patch.pass == 0) ? 0 : 1;  // the second pass drives back
+        patch.facing = kFacing;
+        patch.centre.z() -= kFacing * errors[patch.laser];
+      }
+    const auto constraints = find();
+    ASSERT_EQ(constraints.size(), 1U);
+    // About the direction that has the lasers to its left and right, in the axes of pose a.
+    const Vector3d ahead = mapped_[0].q().conjugate() * Vector3d::UnitX();
+    const Matrix6d covariance = urban_nav_core::pseudoInverse(constraints[0].measured.information, 1e-9).value();
+    const double roll = ahead.dot(errorOf(constraints[0]).tail<3>());
+    ratio += roll * roll / ahead.dot(covariance.bottomRightCorner<3, 3>() * ahead) / kTrials;
+  }
+  EXPECT_GT(ratio, 0.5);
+  EXPECT_LT(ratio, 2.5);  // twice as large where all errors add up; without the lasers' part it is 5
 }
 
 /// Constraint from two passes along ground and a wall, with an odometry that drifts meanwhile.

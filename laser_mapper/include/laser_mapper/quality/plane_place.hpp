@@ -22,6 +22,8 @@ struct PlanePatch {
   std::uint16_t pass = 0;
   std::uint16_t session = 0;                           ///< index, of the pass
   std::size_t cells = 0;                               ///< that it rests on
+  std::uint8_t laser = 0;                              ///< that most of them came from
+  double facing = 1.0;                                 ///< cosine of the angle between the normal and the beams, mean
   urban_nav_core::StampNs stamp = 0;                   ///< mean
   double stamp_spread = 0.0;                           ///< s, standard deviation of the stamps
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m, in the map: mean of the cells
@@ -52,6 +54,8 @@ struct PlanePlace {
 
 /// How far from its centre a place reaches, in cubes of the map.
 constexpr double kPlaceRadius = 12.0;
+/// Edge of the blocks of which each has at most one place, in cubes of the map.
+constexpr int kPlaceSpacing = 16;
 
 /// Returns the places of a tile, whose cells are given by pass. The first pass that measured a planar surface in a
 /// block of 16 cubes defines a place; other passes contribute the plane that most of their cells around its centre lie
