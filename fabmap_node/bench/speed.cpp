@@ -252,6 +252,11 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const auto views = panorama(images, 0);
   table.add({"features of a panorama", "five images of 384x512 px",
              cell(medianMs(15, [&] { extractor.extract(views); }), 1)});
+  for (const FeatureKind kind : {FeatureKind::Sift, FeatureKind::Orb}) {
+    const FeatureExtractor peer({FeatureOptions().single, FeatureOptions().panorama, kind});
+    table.add({std::string("features of a panorama by OpenCV: ") + feature_kind_names[static_cast<std::size_t>(kind)],
+               "five images of 384x512 px", cell(medianMs(7, [&] { peer.extract(views); }), 1)});
+  }
   table.add({"panorama to words and compact descriptors", std::to_string(model.vocabulary.size()) + " words",
              cell(medianMs(15, [&] { describer.describe(views); }), 1)});
   const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);
