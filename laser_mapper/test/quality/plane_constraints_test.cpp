@@ -160,9 +160,10 @@ TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
   see(kFloor);
   const auto constraints = find();
   ASSERT_EQ(constraints.size(), 6U);
-  // Heights: one pair of two passes against six of four, each before the error that a group has in common.
-  const auto heightVariance = [](const Matrix6d& information) { return 1.0 / information(2, 2) - 2.0 * kBias * kBias; };
-  EXPECT_LT(1.0 / two(2, 2), 2.0 * kBias * kBias + kBias * kBias);
+  // Heights: one pair of two passes against six of four, of which only three are independent.
+  const auto heightVariance = [](const Matrix6d& information) { return 1.0 / information(2, 2); };
+  EXPECT_GT(heightVariance(two), 2.0 * kBias * kBias) << "the lasers' errors do not average out over the planes";
+  EXPECT_LT(heightVariance(two), 4.0 * kBias * kBias);
   for (const PlaneConstraint& constraint : constraints)
     EXPECT_NEAR(heightVariance(constraint.measured.information), 2.0 * heightVariance(two), 0.2 * heightVariance(two));
 }
@@ -267,7 +268,7 @@ TEST(PlaneConstraintDrift, ErrorsAreThoseStatedWhereOdometryStatesItsDrift) {
 
 TEST(PlaneConstraintDrift, NoiseOfTheLasersDoesNotExplainIt) {
   const DriftErrors errors = meanErrors(50, kBias, false);
-  EXPECT_LT(errors.pitch_sigma, 0.001);
+  EXPECT_LT(errors.pitch_sigma, 0.0014) << "less than a third of what drift makes of it, overlap of patches included";
   EXPECT_GT(errors.pitch, 6.0) << "where odometry states no drift";
 }
 
