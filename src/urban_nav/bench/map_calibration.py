@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `urban_nav map --calibrate` finds of delays and mounting errors that were put into simulated sessions: along odometry's own trajectory, with
+nothing known but the stated calibration.
+
+lasers        the left one late by 30 ms, the right one turned by 1, -0.5 and 0.3 deg about its axes: route `return` of `quad`
+nothing       the same session without them: nothing may be adopted
+panoramas     late by 20 ms, the head turned by -1, 0.5 and 1.5 deg
+straight      a street straight on: what is not observable
+
+Truth is the error of the stated value. What is simulated and mapped stays in the folder.
+"""
+import argparse
+import json
+from pathlib import Path
+
+from support import SENSORS, commit, show, simulated_bag, urban_nav
+
+COLUMNS = ("session", "device", "term", "truth", "found", "error over sigma", "in the map")
+LASERS_WRONG = ("--lag", "laser_left:0.03", "--misplace", "laser_right:1,-0.5,0.3")
+HEAD_WRONG = ("--lag", "panorama:0.02", "--misplace", "ladybug:-1,0.5,1.5")
+# name: world, seed, route, seconds, sensors, what is put in, {(device, term): truth}
+CASES = {
+    "lasers": ("quad", 40, "return", 70, SENSORS, LASERS_WRONG,
+               {("laser_left", "delay_ms"): 30, ("laser_right", "turn_x_deg"): 1, ("laser_right", "turn_y_deg"): -.5, ("laser_right", "turn_z_deg"): .3}),
+    "nothing": ("quad", 40, "return", 70, SENSORS, (), {}),
+    "panoramas": ("quad", 41, "return", 12, f"{SENSORS},ladybug", HEAD_WRONG,
+                  {("ladybug", "delay_ms"): 20, ("ladybug", "turn_x_deg"): -1, ("ladybug", "turn_y_deg"): .5, ("ladybug", "turn_z_deg"): 1.5}),
+    "straight": ("street", 41, "straight300", 40, SENSORS, (), {}),
+}
+TERMS = {"delay_ms": ("delay", "ms"), "turn_x_deg": ("turn about x", "deg"), "turn_y_deg": ("turn about y", "deg"), "turn_z_deg": ("turn about z", "deg")}
+
+
+def term_row(session, device, key, term, truth):
+    name, unit = TERMS[key]
+    known = [session, device, name, f"{truth:g} {unit}"]
+    if not term["observable"]:
+        return [*known, "not observable", "-", "as stated"]
+    off = abs(term["found"] - truth) / term["sigma"]
+    return [*known, f"{term['found']:.3g} +- {term['sigma']:.2g} {unit}", f"{off:.1f}", f"{term['adopted']:.3g} {unit}" if term["adopted"] else "as stated"]
+
+
+def rows(folder, name):
+    world, seed, route, duration, sensors, wrong, truths = CASES[name]
+    bag = simulated_bag(folder / f"{name}.bag", world, seed, duration, "--route", route, "--sensors", sensors, *wrong)
+    out = folder / f"{name}_map"
+    stages = "vo,graph,lasers"
+    urban_nav("map", bag, "--out", out, "--overwrite", "--stages", stages, "--calibrate")
+    found = json.loads((out / "summary.json").read_text())["laser_mapper"]["calibration"][0]
+    session = f"{name}: {world}, {route}, {duration} s"
+    shown = found["devices"] if name != "panoramas" else {device: terms for device, terms in found["devices"].items() if device == "ladybug"}
+    return [term_row(session, device, key, terms[key], truths.get((device, key), 0)) for device, terms in shown.items() for key in TERMS]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; what is simulated already is taken")
+    parser.add_argument("--case", action="append", choices=CASES, help="repeatable (default: all)")
+    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    before = commit()
+    table = [row for name in arguments.case or CASES for row in rows(arguments.folder, name)]
+    show(COLUMNS, table, ["Turns are those of a laser about the axes of its frame, those of the panoramic head about the robot's."], before, arguments.output)
+
+
+if __name__ == "__main__":
+    main()
