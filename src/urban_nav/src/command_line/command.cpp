@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "command_line/console.hpp"
+#include "command_line/version.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -73,7 +74,7 @@ std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
       "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
       "trust both.\n\n"
-      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more)\n\n";
+      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more; urban_nav --version)\n\n";
   return text + summaryLines(commands) +
          "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
 }
@@ -227,6 +228,10 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
     if (name.empty() || isHelpWord(name)) {
       console.print(generalHelp(commands));
       return name.empty() ? 2 : 0;
+    }
+    if (name == "--version") {
+      console.print("urban_nav " + suiteVersion() + "\n");
+      return 0;
     }
     const Command& command = findCommand(commands, name, "urban_nav", "command");
     const int status = command.actions.empty() ? runCommand(command, argc - 1, argv + 1, console)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -48,6 +49,15 @@ TEST(CommandLine, givesWhatWasGiven) {
                              "--stages", "loops"}),
             0);
   EXPECT_TRUE(ran);
+}
+
+TEST(CommandLine, tellsItsVersion) {
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(call({}, {"--version"}), 0);
+  const std::string told = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(told.rfind("urban_nav ", 0), 0u) << told;
+  EXPECT_EQ(std::count(told.begin(), told.end(), '.'), 2) << told;
+  EXPECT_EQ(told.back(), '\n');
 }
 
 TEST(CommandLine, runsTheActionOfACommandThatHasActions) {
