@@ -54,10 +54,10 @@ TEST(CommandLine, givesWhatWasGiven) {
 TEST(CommandLine, tellsItsVersion) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(call({}, {"--version"}), 0);
-  const std::string told = ::testing::internal::GetCapturedStdout();
-  EXPECT_EQ(told.rfind("urban_nav ", 0), 0u) << told;
-  EXPECT_EQ(std::count(told.begin(), told.end(), '.'), 2) << told;
-  EXPECT_EQ(told.back(), '\n');
+  const std::string text = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(text.rfind("urban_nav ", 0), 0u) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '.'), 2) << text;
+  EXPECT_EQ(text.back(), '\n');
 }
 
 TEST(CommandLine, runsTheActionOfACommandThatHasActions) {
