@@ -73,7 +73,7 @@ configure() {
   mkdir -p "$folder/build" "$folder/devel/bin" "$folder/devel/lib/pkgconfig" "$folder/devel/lib/python3/dist-packages"
   rm -f "$folder/configured"
   # ccache compares files as a whole: with it, headers are not precompiled. -DURBAN_NAV_UNITY=ON compiles all sources in
-  # batches, which is quicker for a first build and slower for a changed file; -DURBAN_NAV_UNITY_TESTS=ON those of tests.
+  # batches, which is quicker for a first build and slower for a changed file; -DURBAN_NAV_UNITY_TESTS=ON those of tests alone.
   if command -v ccache >/dev/null; then
     set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
   else
@@ -133,10 +133,11 @@ lock() {
 }
 unlock() { exec 9>&-; }
 
-# configure_command: the workspace for the users' scripts, as it was configured before or with warnings as warnings.
+# configure_command: the workspace for the users' scripts, as it was configured before, or in batches and with warnings
+# as warnings.
 configure_command() {
   if [ -f "$ws/build/build.ninja" ] && [ "$(cut -d' ' -f1 "$ws/configured" 2>/dev/null)" = "$root" ]; then return; fi
-  configure "$ws" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_BENCH=ON -DURBAN_NAV_WERROR=OFF
+  configure "$ws" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_BENCH=ON -DURBAN_NAV_WERROR=OFF -DURBAN_NAV_UNITY="${URBAN_NAV_UNITY:-ON}"
 }
 
 program=$ws/devel/lib/urban_nav/urban_nav
