@@ -17,7 +17,6 @@ namespace {
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double kPlaceM = 0.3, kTurnRad = 10.0 * M_PI / 180.0;  // deviation of a false transform, each axis
-constexpr double kRightM = 1.0, kRightRad = 0.35;                // nearer than this one is right by chance
 
 template <int D>
 bool isClosure(const Edge<D>& edge) {

@@ -20,6 +20,8 @@ struct FalseKind {
 constexpr FalseKind kFalseKinds[] = {
     {"random", false, 1}, {"random, in tens", false, 10}, {"local", true, 1}, {"local, in tens", true, 10}};
 
+constexpr double kRightM = 1.0, kRightRad = 0.35;  // a drawn closure nearer than this to the optimum is right by chance
+
 /// Appends `count` false closures with the information of the graph's first closure.
 template <int D>
 void addFalse(Problem<D>& problem, const FalseKind& kind, std::size_t count, urban_nav_core::testing::Dice& dice);
