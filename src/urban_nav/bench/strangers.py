@@ -1,18 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sites that are not the same, mapped together: does `urban_nav map`, which proposes closures by appearance, join what does not belong together?
 
-Each case is WORLD:SEED:SECONDS, for each site one, driven with stereo and panoramas. Every closure between two sites is false.
+Each case is WORLD:SEED:SECONDS, for each site one, driven with stereo and panoramas in the same light, but stamped a day apart. Every closure between two sites is false.
 """
 import argparse
 import csv
 import json
 from pathlib import Path
 
+import rosbag
+
 from support import commit, show, simulated_bag, urban_nav
 
 COLUMNS = ("sites", "panoramas", "announced as KNOWN", "closures proposed between sites", "accepted by geometry and map", "sites in one map")
 CASES = ("street:930002:15,street:930005:15", "begbroke:930003:15,begbroke:930006:15", "quad:930001:15,quad:930004:15")
 SENSORS = "stereo,ladybug,imu,wheels"
+DAY_S = 86400
+
+
+def days_later(bag, days):
+    """A copy of a bag, stamped `days` later; what is there already is taken. Drives of one day of the simulator overlap, as no two drives of one robot do."""
+    copy = bag.with_name(f"{bag.stem}_{days}_days_later.bag")
+    if days == 0 or copy.exists():
+        return copy if days else bag
+    with rosbag.Bag(str(bag)) as source, rosbag.Bag(str(copy), "w") as target:
+        for topic, message, stamp in source.read_messages():
+            if hasattr(message, "header"):
+                message.header.stamp.secs += days * DAY_S
+            target.write(topic, message, type(stamp)(stamp.secs + days * DAY_S, stamp.nsecs))
+    return copy
 
 
 def between_sites(path):
@@ -23,7 +39,7 @@ def between_sites(path):
 
 def row_of(folder, case):
     sites = [each.split(":") for each in case.split(",")]
-    bags = [simulated_bag(folder / f"{world}_{seed}_{seconds}_stereo.bag", world, seed, seconds, "--sensors", SENSORS) for world, seed, seconds in sites]
+    bags = [days_later(simulated_bag(folder / f"{world}_{seed}_{seconds}_stereo.bag", world, seed, seconds, "--sensors", SENSORS), k) for k, (world, seed, seconds) in enumerate(sites)]
     out = folder / ("_".join(bag.stem for bag in bags) + "_map")
     urban_nav("map", *bags, "--stages", "vo,places,loops,graph", "--overwrite", "--out", out)
     summary = json.loads((out / "summary.json").read_text())

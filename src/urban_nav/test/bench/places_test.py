@@ -37,6 +37,10 @@ class Judged(FolderCase):
         self.assertEqual([claim.stretch for claim in claims], ["1:0", "1:0", "1:1", "1:2"])
         self.assertTrue(all(claim.revisit for claim in claims))
 
+    def test_a_query_revisits_the_first_day_whichever_day_it_matches(self):
+        claims = places.judged([Match(1, 1000 * SECOND, 1, 1025 * SECOND, 0.5)], self.bags, True)
+        self.assertEqual((claims[0].right, claims[0].revisit), (False, True))
+
     def test_opposite_directions_are_told_by_the_headings(self):
         there_and_back = [self.bags[0], self.bags[0]]
         found = [Match(0, 20 * SECOND, 1, 20 * SECOND, 0.5)]
@@ -76,13 +80,6 @@ class Reliability(FolderCase):
         self.assertEqual([(each.low, each.claims, each.right, each.stretches, each.stretches_right) for each in bins], [(0.5, 1, 1, 1, 1), (0.9, 4, 2, 3, 2)])
         self.assertAlmostEqual(bins[1].stated, (0.95 + 0.97 + 0.92) / 3)
         self.assertAlmostEqual(places_reliability.calibration_error(bins), (0.4 + 2.84 - 2) / 4)
-
-
-    def test_a_table_is_pooled_over_its_rows_with_all_evidence(self):
-        table = {"columns": places.COLUMNS, "rows": [
-            ["quad", "two days", "words alone", "9", "9", "9", "", "1", "1", "1", "1", "1", "1"], ["quad", "two days", "+ second look", "9", "9", "9", "", "5", "4", "0", "0", "20", "7"],
-            ["quad", "strangers", "+ second look", "9", "0", "0", "", "1", "0", "0", "0", "3", "0"], ["all", "", "+ second look", "18", "9", "9", "", "6", "4", "0", "0", "23", "7"]]}
-        self.assertEqual(places_reliability.tabled(table), [(0.05, 0.9, 23, 7), (0.99, 1.0, 6, 4)])
 
 
 class Strangers(FolderCase):
