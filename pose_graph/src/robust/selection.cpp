@@ -112,7 +112,11 @@ class Selection {
     judge_->judge(best_.hypothesis);
     contract(best_.hypothesis);
     weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
-    if (!contested_) return;
+    if (!contested_) {
+      // A short slip costs few closures; one alone refutes no step.
+      if (rejected(best_.judgement) > 1) heal();
+      return;
+    }
     if (between > 0) link();
     heal();
     if (!judge_->areAssertions()) rescale();
@@ -152,11 +156,12 @@ class Selection {
   double overOdometry(const Hypothesis<D>& hypothesis) const {
     return hypothesis.log_evidence - hypothesis.by_contraction - odometry_.log_evidence;
   }
+  std::ptrdiff_t rejected(const Judgement<D>& judged) const {
+    return std::count_if(judged.edges.begin(), judged.edges.end(),
+                         [](const EdgeAssessment& edge) { return edge.verdict == ClosureVerdict::Rejected; });
+  }
   bool rejectsMany(const Judgement<D>& judged) const {
-    const auto rejected = std::count_if(judged.edges.begin(), judged.edges.end(), [](const EdgeAssessment& edge) {
-      return edge.verdict == ClosureVerdict::Rejected;
-    });
-    return static_cast<double>(rejected) > kContestedShare * static_cast<double>(candidates_);
+    return static_cast<double>(rejected(judged)) > kContestedShare * static_cast<double>(candidates_);
   }
   bool isContested(const Judgement<D>& judged) const {
     return candidates_ > 0 && (rejectsMany(judged) || beyond(judged.variance, kContestedFactor));

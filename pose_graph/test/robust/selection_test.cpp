@@ -118,6 +118,22 @@ TEST(Selection, ASlippedStepIsFoundAndCostsNoClosure) {
   }
 }
 
+// Among many closures: two to six of a thousand would be rejected in place of the step.
+TEST(Selection, ASlippedStepThatCostsFewClosuresIsFound) {
+  for (const std::uint64_t seed : {1, 9}) {
+    const SimulatedGraph graph =
+        urban_nav_core::testing::manhattanGraph(1500, 20, 1.0, urban_nav_core::testing::evenNoise(0.1, 0.02), seed);
+    Problem<2> problem = simulatedProblem<2>(graph, graph.truth);
+    const std::size_t slipped = 500 + 37 * seed;
+    problem.edges[slipped].Z.t[0] += 2.0;
+    problem.edges[slipped].Z.R = problem.edges[slipped].Z.R * expRotation(RotationVector<2>(0.5));
+    const Selected<2> selected(problem);
+    EXPECT_EQ(selected.robust.edges[slipped].reason, Reason::Slipped) << seed;
+    EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), 0u) << seed;
+    expectNearTruth<2>(graph, selected.robust.solution.poses, 1.0);
+  }
+}
+
 TEST(Selection, AChainThatNothingRefutesIsNotTornApart) {
   SimulatedGraph graph = drawTown(2);
   graph.edges.resize(graph.truth.size() - 1);
