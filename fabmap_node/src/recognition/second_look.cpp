@@ -12,44 +12,82 @@ namespace {
 constexpr float vote_width = 0.08F;  // side of a cell of votes, shares of the image
 constexpr int vote_half = 13;        // cells on each side of zero: displacements of up to a whole image
 constexpr int vote_side = 2 * vote_half + 1;
-constexpr int headings_per_camera = 7;  // votes for a change of heading, about 10 deg each for five cameras
-constexpr float same_height = 0.12F;    // share of the image's height
-constexpr float still = 0.006F;         // share of the image: some 3 px
+constexpr int headings_per_camera = 7;    // votes for a change of heading, about 10 deg each for five cameras
+constexpr float same_height = 0.12F;      // share of the image's height
+constexpr float horizon = 0.45F;          // height in the image below which next to nothing is sky
+constexpr std::size_t fewest_below = 40;  // features below it that say something by themselves
+constexpr float still = 0.006F;           // share of the image: some 3 px
+
+/// Displacement of a match, and whether it lies below the horizon in both observations.
+struct Move {
+  Eigen::Vector2f by;
+  bool is_below = false;
+};
+
+/// Matches that agree, and those of them below the horizon.
+struct Agreeing {
+  int all = 0, below = 0;
+};
+
+/// Counts the moves for which `is_among` holds.
+template <class IsAmong>
+Agreeing countAmong(const std::vector<Move>& moves, const IsAmong& is_among) {
+  Agreeing agreeing;
+  for (const Move& move : moves)
+    if (is_among(move.by)) {
+      ++agreeing.all;
+      if (move.is_below) ++agreeing.below;
+    }
+  return agreeing;
+}
 
 /// Largest number of displacements in 3x3 neighbouring cells.
-int agreeingSingle(const std::vector<Eigen::Vector2f>& moves) {
+Agreeing agreeingSingle(const std::vector<Move>& moves) {
+  const auto cell = [](float move) { return static_cast<int>(std::lround(move / vote_width)); };
   std::vector<int> votes(static_cast<std::size_t>(vote_side * vote_side), 0);
-  for (const Eigen::Vector2f& move : moves) {
-    const int i = static_cast<int>(std::lround(move.x() / vote_width)),
-              j = static_cast<int>(std::lround(move.y() / vote_width));
+  for (const Move& move : moves) {
+    const int i = cell(move.by.x()), j = cell(move.by.y());
     if (std::abs(i) > vote_half || std::abs(j) > vote_half) continue;
     ++votes[static_cast<std::size_t>((j + vote_half) * vote_side + i + vote_half)];
   }
-  int best = 0;
+  int best = 0, best_i = 0, best_j = 0;
   for (int j = 1; j + 1 < vote_side; ++j)
     for (int i = 1; i + 1 < vote_side; ++i) {
       int sum = 0;
       for (int dj = -1; dj <= 1; ++dj)
         for (int di = -1; di <= 1; ++di) sum += votes[static_cast<std::size_t>((j + dj) * vote_side + i + di)];
-      best = std::max(best, sum);
+      if (sum <= best) continue;
+      best = sum;
+      best_i = i - vote_half;
+      best_j = j - vote_half;
     }
-  return best;
+  if (best == 0) return {};
+  return countAmong(moves, [&](const Eigen::Vector2f& by) {
+    return std::abs(cell(by.x()) - best_i) <= 1 && std::abs(cell(by.y()) - best_j) <= 1;
+  });
 }
 
 /// Largest number of changes of heading in three neighbouring bins, of matches at the same height.
-int agreeingPanorama(const std::vector<Eigen::Vector2f>& moves, int cameras) {
+Agreeing agreeingPanorama(const std::vector<Move>& moves, int cameras) {
   const int bins = headings_per_camera * cameras;
+  const auto bin = [bins](float turn) {
+    return (static_cast<int>(std::lround(turn * headings_per_camera)) % bins + bins) % bins;
+  };
   std::vector<int> votes(static_cast<std::size_t>(bins), 0);
-  for (const Eigen::Vector2f& move : moves) {
-    if (std::abs(move.y()) > same_height) continue;
-    const int bin = static_cast<int>(std::lround(move.x() * headings_per_camera)) % bins;
-    ++votes[static_cast<std::size_t>((bin + bins) % bins)];
+  for (const Move& move : moves)
+    if (std::abs(move.by.y()) <= same_height) ++votes[static_cast<std::size_t>(bin(move.by.x()))];
+  int best = 0, best_bin = 0;
+  for (int i = 0; i < bins; ++i) {
+    const int sum = votes[static_cast<std::size_t>(i)] + votes[static_cast<std::size_t>((i + 1) % bins)] +
+                    votes[static_cast<std::size_t>((i + 2) % bins)];
+    if (sum <= best) continue;
+    best = sum;
+    best_bin = i;
   }
-  int best = 0;
-  for (int i = 0; i < bins; ++i)
-    best = std::max(best, votes[static_cast<std::size_t>(i)] + votes[static_cast<std::size_t>((i + 1) % bins)] +
-                              votes[static_cast<std::size_t>((i + 2) % bins)]);
-  return best;
+  if (best == 0) return {};
+  return countAmong(moves, [&](const Eigen::Vector2f& by) {
+    return std::abs(by.y()) <= same_height && (bin(by.x()) - best_bin + bins) % bins <= 2;
+  });
 }
 
 /// Share of matches that agree by chance.
@@ -57,11 +95,24 @@ double chanceShare(int cameras) {
   return cameras > 1 ? 3.0 / (headings_per_camera * cameras) * 2.0 * static_cast<double>(same_height) : 9.0 * 0.0064;
 }
 
-std::vector<Eigen::Vector2f> computeMoves(const LookFeatures& a, const LookFeatures& b) {
-  std::vector<Eigen::Vector2f> moves;
+bool isBelowHorizon(const Eigen::Vector2f& direction) { return direction.y() > horizon; }
+
+std::vector<Move> computeMoves(const LookFeatures& a, const LookFeatures& b) {
+  std::vector<Move> moves;
   for (const auto& [i, j] : mutualMatches(a.descriptors, b.descriptors))
-    moves.push_back(b.directions[j] - a.directions[i]);
+    moves.push_back(
+        {b.directions[j] - a.directions[i], isBelowHorizon(a.directions[i]) && isBelowHorizon(b.directions[j])});
   return moves;
+}
+
+/// Share of `possible` features that agree beyond chance.
+double shareBeyondChance(int agreeing, std::size_t matches, int cameras, std::size_t possible) {
+  const double beyond = agreeing - chanceShare(cameras) * static_cast<double>(matches);
+  return std::clamp(beyond / static_cast<double>(possible), 0.0, 1.0);
+}
+
+std::size_t countBelow(const LookFeatures& look) {
+  return static_cast<std::size_t>(std::count_if(look.directions.begin(), look.directions.end(), isBelowHorizon));
 }
 
 }  // namespace
@@ -99,19 +150,24 @@ LookFeatures thinnedOut(const LookFeatures& look, std::size_t step) {
 LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {
   LookAgreement result;
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return result;
-  const std::vector<Eigen::Vector2f> moves = computeMoves(a, b);
+  const std::vector<Move> moves = computeMoves(a, b);
+  const Agreeing agreeing = a.cameras > 1 ? agreeingPanorama(moves, a.cameras) : agreeingSingle(moves);
   result.matches = static_cast<int>(moves.size());
-  result.agreeing = a.cameras > 1 ? agreeingPanorama(moves, a.cameras) : agreeingSingle(moves);
-  const double beyond = result.agreeing - chanceShare(a.cameras) * result.matches;
-  result.share = std::clamp(beyond / static_cast<double>(std::min(a.size(), b.size())), 0.0, 1.0);
+  result.agreeing = agreeing.all;
+  result.share = shareBeyondChance(agreeing.all, moves.size(), a.cameras, std::min(a.size(), b.size()));
+  const std::size_t below = std::min(countBelow(a), countBelow(b));
+  if (below < fewest_below) return result;
+  const auto matches_below = static_cast<std::size_t>(
+      std::count_if(moves.begin(), moves.end(), [](const Move& move) { return move.is_below; }));
+  result.share = std::min(result.share, shareBeyondChance(agreeing.below, matches_below, a.cameras, below));
   return result;
 }
 
 bool isStationary(const LookFeatures& a, const LookFeatures& b) {
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return false;
-  const std::vector<Eigen::Vector2f> moves = computeMoves(a, b);
-  const auto unmoved = std::count_if(moves.begin(), moves.end(), [](const Eigen::Vector2f& move) {
-    return std::abs(move.x()) < still && std::abs(move.y()) < still;
+  const std::vector<Move> moves = computeMoves(a, b);
+  const auto unmoved = std::count_if(moves.begin(), moves.end(), [](const Move& move) {
+    return std::abs(move.by.x()) < still && std::abs(move.by.y()) < still;
   });
   return 2 * static_cast<std::size_t>(unmoved) > std::min(a.size(), b.size());
 }

@@ -33,7 +33,9 @@ LookFeatures thinnedOut(const LookFeatures& look, std::size_t step);
 struct LookAgreement {
   int matches = 0;     ///< descriptors that are each other's nearest, clearly
   int agreeing = 0;    ///< of these, under one displacement (single image) or one change of heading (panorama)
-  double share = 0.0;  ///< agreeing beyond chance, per feature of the smaller set, 0 ... 1
+  /// Agreeing beyond chance, per feature of the smaller set, 0 ... 1: of all features or of those below the horizon,
+  /// whichever is less. Clouds look the same from everywhere for minutes.
+  double share = 0.0;
 };
 
 /// Returns the agreement of two observations. Observations of different numbers of cameras do not agree.
