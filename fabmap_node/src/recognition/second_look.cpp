@@ -154,12 +154,13 @@ LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {
   const Agreeing agreeing = a.cameras > 1 ? agreeingPanorama(moves, a.cameras) : agreeingSingle(moves);
   result.matches = static_cast<int>(moves.size());
   result.agreeing = agreeing.all;
-  result.share = shareBeyondChance(agreeing.all, moves.size(), a.cameras, std::min(a.size(), b.size()));
+  result.whole = shareBeyondChance(agreeing.all, moves.size(), a.cameras, std::min(a.size(), b.size()));
+  result.share = result.whole;
   const std::size_t below = std::min(countBelow(a), countBelow(b));
   if (below < fewest_below) return result;
   const auto matches_below = static_cast<std::size_t>(
       std::count_if(moves.begin(), moves.end(), [](const Move& move) { return move.is_below; }));
-  result.share = std::min(result.share, shareBeyondChance(agreeing.below, matches_below, a.cameras, below));
+  result.share = std::min(result.whole, shareBeyondChance(agreeing.below, matches_below, a.cameras, below));
   return result;
 }
 

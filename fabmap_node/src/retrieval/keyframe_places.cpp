@@ -186,11 +186,12 @@ class KeyframePlaces::Search {
     return row ? unpackLook(row->descriptors, "keyframe of the map") : LookFeatures();
   }
 
-  /// Compares every `step`-th descriptor, and puts those that agree most first.
+  /// Compares every `step`-th descriptor, and puts those that agree most first. What geometry decides about needs no
+  /// caution about the sky.
   static void compare(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) {
     urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
       Candidate& each = candidates[i];
-      each.share = secondLook(query, step > 1 ? thinnedOut(each.look, step) : each.look).share;
+      each.share = secondLook(query, step > 1 ? thinnedOut(each.look, step) : each.look).whole;
     });
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       if (a.share != b.share) return a.share > b.share;

@@ -29,6 +29,28 @@ TEST(SecondLook, PanoramasAgreeUnderAChangeOfHeading) {
   EXPECT_GT(secondLook(lookAt(4, 0, 5), lookFeatures(turned, every_feature)).share, 0.4);
 }
 
+/// Features above the horizon of two synthetic places together, and those below it of two others.
+PlaceObservation skyOver(std::uint32_t sky, std::uint32_t ground, std::uint32_t noise) {
+  PlaceObservation seen;
+  seen.cameras = 5;
+  for (const std::uint32_t more : {0u, 10u}) {
+    for (const PlaceFeature& feature : syntheticPlace(sky + more, noise, 5).features)
+      if (feature.v < 0.45F) seen.features.push_back(feature);
+    for (const PlaceFeature& feature : syntheticPlace(ground + more, noise, 5).features)
+      if (feature.v >= 0.45F) seen.features.push_back(feature);
+  }
+  return seen;
+}
+
+TEST(SecondLook, TheSameSkyOverAnotherPlaceIsNoAgreement) {
+  const LookFeatures here = lookFeatures(skyOver(4, 4, 0), every_feature);
+  const LookAgreement same = secondLook(here, lookFeatures(skyOver(4, 4, 1), every_feature)),
+                      elsewhere = secondLook(here, lookFeatures(skyOver(4, 6, 1), every_feature));
+  EXPECT_GT(same.share, 0.3);
+  EXPECT_GT(elsewhere.whole, 0.1);
+  EXPECT_LT(elsewhere.share, 0.05);
+}
+
 TEST(SecondLook, DirectionsThatScatterDoNotAgree) {
   PlaceObservation scattered = syntheticPlace(5, 0, 5);
   for (std::size_t i = 0; i < scattered.features.size(); ++i)
