@@ -34,8 +34,8 @@ struct LookAgreement {
   int matches = 0;     ///< descriptors that are each other's nearest, clearly
   int agreeing = 0;    ///< of these, under one displacement (single image) or one change of heading (panorama)
   double whole = 0.0;  ///< agreeing beyond chance, per feature of the smaller set, 0 ... 1
-  /// `whole` or the same of the features below the horizon, whichever is less: clouds look the same from everywhere, for
-  /// minutes.
+  /// `whole` or the same of the features below the horizon, whichever is less: clouds look the same from everywhere
+  /// for minutes.
   double share = 0.0;
 };
 
