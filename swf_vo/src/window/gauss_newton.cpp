@@ -24,6 +24,17 @@ constexpr double far_start = 2000.0;
 // A step that an old factor promises, and that is not so much smaller than the one before, is not taken: a new factor
 // is asked.
 constexpr double stalled = 0.5;
+// Contradictory measurements may want a pose or the offset anywhere: beyond these a step is as one that raises the
+// cost.
+constexpr double longest_move = 1e4;      // m, from where a pose was linearised
+constexpr double largest_offset = 100.0;  // px
+
+bool isSane(const State& state) {
+  if (!(std::abs(state.disparity_offset) < largest_offset)) return false;
+  for (const PoseBlock& pose : state.poses)
+    if (!((pose.estimate.t() - pose.linearised.t()).squaredNorm() < longest_move * longest_move)) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -62,7 +73,7 @@ bool GaussNewton::descend(double before, State& state, const Prior& prior, const
   double scale = 1.0;
   for (int h = 0; h <= halvings; ++h) {
     const double after = priorGradient(state, prior) + cost.value(state);
-    if (after <= before + cost_slack * (1.0 + std::abs(before))) return true;
+    if (isSane(state) && after <= before + cost_slack * (1.0 + std::abs(before))) return true;
     if (h == halvings) break;
     take(-0.5 * scale, state, prior);
     scale *= 0.5;

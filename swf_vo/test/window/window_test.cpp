@@ -201,6 +201,35 @@ TEST(Window, survivesNonsense) {
   }
 }
 
+// As where two recordings of different places are read as one: landmarks are seen here and there in turns, and next to
+// nothing says how far the camera went.
+TEST(Window, staysNearWhereMeasurementsContradictEachOther) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    urban_nav_core::testing::TrackOptions motion = makeTracks(80, 0.1, seed), other = makeTracks(80, 0.1, seed + 100);
+    motion.features = other.features = 60;
+    const auto here = simulateTracks(motion), there = simulateTracks(other);
+    WindowOptions options;
+    options.disparity_offset = 0.1;
+    Window window(options, here.camera);
+    window.start(0, Pose(), diagonalInformation(1e-3, 1e-4));
+    for (std::size_t i = 1; i < here.frames.size(); ++i) {
+      const auto frame = static_cast<FrameId>(i);
+      ProcessInput u;
+      u.information = diagonalInformation(30.0, 1.0);
+      window.addPose(frame, u);
+      window.removePoses();
+      for (const auto& sighting : (i / 2 % 2 == 0 ? here : there).frames[i].sightings)
+        window.observe({sighting.landmark, frame, sighting.z, pixelInformation(0.1)});
+      window.update();
+      const auto newest = window.newest();
+      ASSERT_TRUE(newest.pose.isFinite()) << seed << ", " << i;
+      ASSERT_LT(newest.pose.t().norm(), 1e5) << seed << ", " << i;
+      ASSERT_TRUE(newest.covariance.allFinite()) << seed << ", " << i;
+      ASSERT_LT(std::abs(window.disparityOffset()), 100.0) << seed << ", " << i;
+    }
+  }
+}
+
 TEST(Window, startsALandmarkOnlyFromAFullMeasurement) {
   const auto tracks = simulateTracks(makeTracks(3, 0.5));
   Window window(WindowOptions(), tracks.camera);
