@@ -14,6 +14,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
+constexpr std::size_t progress_every = 256;  // words that have joined
+
 /// Frequency shrunk away from 0 and 1, as openFABMAP has it; `total` may be 0.
 double smoothedFrequency(std::size_t count, std::size_t total) {
   return total == 0 ? 0.01 : 0.98 * static_cast<double>(count) / static_cast<double>(total) + 0.01;
@@ -78,7 +80,7 @@ float mutualInformation(std::size_t both, std::size_t first, std::size_t second,
                             term(both, p_first, p_second));
 }
 
-ChowLiuTree learnChowLiuTree(const WordSets& training) {
+ChowLiuTree learnChowLiuTree(const WordSets& training, const std::function<void(double)>& progress) {
   const std::size_t words = training.vocabulary_size, total = training.observations.size();
   if (total == 0 || words == 0) throw UserError("training", "no observations", "at least one");
   CoOccurrence pairs(training);
@@ -115,6 +117,9 @@ ChowLiuTree learnChowLiuTree(const WordSets& training) {
     outside[next] = outside.back();
     outside.pop_back();
     setConditionals(tree, joined, shared[joined], pairs.count(joined), pairs.count(tree.parent[joined]), total);
+    if (!progress || outside.size() % progress_every != 0) continue;
+    const double left = static_cast<double>(outside.size()) / static_cast<double>(words);
+    progress(1.0 - left * left);  // each word is compared with all that are outside
   }
   return tree;
 }

@@ -143,7 +143,7 @@ TrainedModel trainModel(std::vector<TrainingDrive> drives, const TrainingOptions
   for (const TrainingDrive& drive : drives)
     for (const DescribedPlace& place : described(drive, 0, model.vocabulary, 0))
       all.observations.push_back(place.words);
-  model.tree = learnChowLiuTree(all);
+  model.tree = learnChowLiuTree(all, [&step](double share) { step("Chow-Liu tree", share); });
   roundToFile(model.tree);
   const std::size_t samples = std::min(options.sampled_places, all.observations.size());
   for (std::size_t k = 0; k < samples; ++k)

@@ -86,6 +86,17 @@ TEST(ChowLiuTree, IsTheBestOfAllTreesOfSevenWords) {
   }
 }
 
+TEST(ChowLiuTree, ProgressGrowsToOneAndChangesNothing) {
+  WordSets training{1000, {}};
+  for (Word i = 0; i < 40; ++i) training.observations.push_back({i, 100 + 2 * i, 900 + i});
+  std::vector<double> shares;
+  const ChowLiuTree tree = learnChowLiuTree(training, [&shares](double share) { shares.push_back(share); });
+  EXPECT_EQ(tree.parent, learnChowLiuTree(training).parent);
+  ASSERT_GE(shares.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1.0);
+}
+
 TEST(ChowLiuTree, ConditionalsAreSmoothedFrequenciesAndTheRootHasItsMarginal) {
   // Word 1 is present in three of four observations with word 0, and in none of one without.
   const WordSets training{2, {{0, 1}, {0, 1}, {0, 1}, {0}, {}}};

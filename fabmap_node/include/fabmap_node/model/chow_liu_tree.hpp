@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ float mutualInformation(std::size_t both, std::size_t first, std::size_t second,
 /// condition never holds). The root is the most frequent word. Equal weights are resolved in favour of the word that
 /// joins first, then of the lower number, so the result is unique. Time: O(V^2 + sum of squared observation sizes);
 /// memory: O(V + size of the observations).
+/// `progress` is called now and then with the share of the time that has gone, and last with 1.
 /// Requires at least one observation and words below vocabulary_size. Throws UserError otherwise.
-ChowLiuTree learnChowLiuTree(const WordSets& training);
+ChowLiuTree learnChowLiuTree(const WordSets& training, const std::function<void(double share)>& progress = {});
 
 /// Sum of mutualInformation() over the edges of a tree, in nats.
 double totalInformation(const ChowLiuTree& tree, const WordSets& training);
