@@ -28,6 +28,19 @@ urban_nav_core::ImageView viewOfBlocks(const std::vector<std::uint8_t>& pixels) 
   return {pixels.data(), blocks_width, blocks_height, blocks_width};
 }
 
+void expectInside(const PlaceFeature& feature) {
+  EXPECT_GE(feature.u, 0.0F);
+  EXPECT_LE(feature.u, 1.0F);
+  EXPECT_GE(feature.v, 0.0F);
+  EXPECT_LE(feature.v, 1.0F);
+}
+
+int squaredLength(const PlaceFeature& feature) {
+  int squares = 0;
+  for (const std::uint8_t x : feature.descriptor) squares += x * x;
+  return squares;
+}
+
 TEST(FeatureExtractor, FindsFeaturesInsideTheImageUpToTheLimit) {
   const auto pixels = drawBlocks(1);
   const PlaceObservation observation = FeatureExtractor({120, 60}).extract({viewOfBlocks(pixels)});
@@ -35,13 +48,8 @@ TEST(FeatureExtractor, FindsFeaturesInsideTheImageUpToTheLimit) {
   EXPECT_GT(observation.features.size(), 60u);
   EXPECT_LE(observation.features.size(), 120u);
   for (const PlaceFeature& feature : observation.features) {
-    EXPECT_GE(feature.u, 0.0F);
-    EXPECT_LE(feature.u, 1.0F);
-    EXPECT_GE(feature.v, 0.0F);
-    EXPECT_LE(feature.v, 1.0F);
-    int squares = 0;
-    for (const std::uint8_t x : feature.descriptor) squares += x * x;
-    EXPECT_NEAR(squares, 512 * 512, 6000);
+    expectInside(feature);
+    EXPECT_NEAR(squaredLength(feature), 512 * 512, 6000);
   }
 }
 
@@ -68,13 +76,8 @@ TEST(FeatureExtractor, OpenCvFindsItsOwnFeaturesUpToTheLimit) {
       const PlaceFeature& feature = observation.features[i];
       EXPECT_NE(feature.descriptor, upright);
       EXPECT_EQ(feature.descriptor, again.features[i].descriptor);
-      EXPECT_GE(feature.u, 0.0F);
-      EXPECT_LE(feature.u, 1.0F);
-      EXPECT_GE(feature.v, 0.0F);
-      EXPECT_LE(feature.v, 1.0F);
-      int squares = 0;
-      for (const std::uint8_t x : feature.descriptor) squares += x * x;
-      EXPECT_GT(squares, 200 * 200);
+      expectInside(feature);
+      EXPECT_GT(squaredLength(feature), 200 * 200);
     }
     const std::vector<std::uint8_t> blank(blocks_width * blocks_height, 128);
     EXPECT_TRUE(extractor.extract({viewOfBlocks(blank)}).features.empty());
