@@ -15,6 +15,7 @@
 #include "support/program.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/false_closures.hpp"
+#include "urban_nav_core/testing/peak_memory.hpp"
 #include "urban_nav_core/testing/street_graph.hpp"
 
 namespace {
@@ -24,6 +25,7 @@ using namespace pose_graph::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::FalseClosures;
+using urban_nav_core::testing::measureMemory;
 using urban_nav_core::testing::SimulatedGraph;
 
 // Of city10000: deviations of its information, crossings a pose; of the bar: closures a pose.

@@ -15,6 +15,7 @@
 #include "support/problems.hpp"
 #include "support/program.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/testing/peak_memory.hpp"
 #include "urban_nav_core/testing/street_graph.hpp"
 
 namespace {
@@ -23,6 +24,7 @@ using namespace pose_graph;
 using namespace pose_graph::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
+using urban_nav_core::testing::measureMemory;
 using urban_nav_core::testing::SimulatedGraph;
 
 constexpr std::pair<int, int> kSizes[] = {{50000, 300}, {100000, 500}, {200000, 1000}, {500000, 2500}, {1000000, 5000}};

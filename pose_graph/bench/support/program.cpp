@@ -2,7 +2,6 @@
 #include "program.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 
 #include "urban_nav_core/io/numbers.hpp"
@@ -57,18 +56,6 @@ int complain(const std::exception& error) {
   return 2;
 }
 
-namespace {
-
-/// A line of /proc/self/status, bytes.
-double memory(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind(key + ":", 0) == 0) return 1024.0 * std::stod(line.substr(key.size() + 1));
-  return 0.0;
-}
-
-}  // namespace
-
 double measureSeconds(int runs, const std::function<void()>& work) {
   std::vector<double> seconds;
   for (int run = 0; run < runs; ++run) {
@@ -78,13 +65,6 @@ double measureSeconds(int runs, const std::function<void()>& work) {
   }
   std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
   return seconds[static_cast<std::size_t>(runs / 2)];
-}
-
-double measureMemory(const std::function<void()>& work) {
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew (Linux, proc(5))
-  const double before = memory("VmRSS");
-  work();
-  return std::max(0.0, memory("VmHWM") - before);
 }
 
 }  // namespace pose_graph::bench

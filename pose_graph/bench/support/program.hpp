@@ -33,7 +33,4 @@ int complain(const std::exception& error);
 /// median of `runs`.
 double measureSeconds(int runs, const std::function<void()>& work);
 
-/// By how much (bytes) the memory of the process grows while `work` runs, at its peak; 0 where the system does not say.
-double measureMemory(const std::function<void()>& work);
-
 }  // namespace pose_graph::bench

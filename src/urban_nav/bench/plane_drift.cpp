@@ -6,10 +6,6 @@
 //
 // The truth is read from BAG_STEM.truth/trajectory.tum. Closures are drawn: the truth with noise; with --icp, measured
 // by ICP of the scans.
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -23,14 +19,11 @@
 #include "laser_mapper/quality/map_quality.hpp"
 #include "stages/graph/plane_closures.hpp"
 #include "stages/loops/loops_run.hpp"
+#include "support/laser_sessions.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
-#include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
-#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_registration/parameters.hpp"
-#include "urban_nav_ros/extrinsics.hpp"
-#include "urban_nav_ros/laser_scan.hpp"
 
 namespace urban_nav::bench {
 
@@ -49,30 +42,6 @@ constexpr double kWalkM = 0.005, kWalkRad = 0.0003;
 constexpr double kRevisitM = 3.0, kRevisitS = 30.0;      // poses that are compared
 constexpr double kClosureM = 0.02, kClosureRad = 0.005;  // standard deviations of closures
 constexpr StampNs kClosurePeriod = 4'000'000'000;
-
-/// Puts the scans of a bag and the extrinsics of its lasers into a store.
-void readScans(const std::string& path, Store& store) {
-  store.sessions().put(urban_nav_store::Session{kBenchSession, "drive", "", "", 1, true});
-  rosbag::Bag bag(path, rosbag::bagmode::Read);
-  urban_nav_ros::StaticTransforms transforms;
-  rosbag::View statics(bag, rosbag::TopicQuery(std::string("/tf_static")));
-  for (const rosbag::MessageInstance& instance : statics) transforms.add(*instance.instantiate<tf2_msgs::TFMessage>());
-  for (const char* topic : {"/laser_left/scan", "/laser_right/scan"}) {
-    rosbag::View scans(bag, rosbag::TopicQuery(std::string(topic)));
-    bool is_placed = false;
-    for (const rosbag::MessageInstance& instance : scans) {
-      const auto message = instance.instantiate<sensor_msgs::LaserScan>();
-      const std::string& frame = message->header.frame_id;
-      if (!is_placed)
-        store.sessions().put(kBenchSession, urban_nav_store::Extrinsic{
-                                                frame, *transforms.lookup(urban_nav_core::frames::base_link, frame)});
-      is_placed = true;
-      if (const auto scan = urban_nav_ros::toPlanarScan(*message))
-        store.scans().put(kBenchSession, frame, urban_nav_core::toScan(*scan));
-    }
-  }
-  store.commit();
-}
 
 Trajectory atFrames(const Trajectory& truth) {
   Trajectory frames;
@@ -211,9 +180,8 @@ double compare(const std::string& bag, unsigned trials, bool by_icp, urban_nav_c
   urban_nav_store::removeStore(store_path);
   std::optional<Store> opened(std::in_place, store_path, urban_nav_store::Access::Write);
   Store& store = *opened;
-  readScans(bag, store);
-  const Trajectory truth = atFrames(
-      urban_nav_core::readTum((path.parent_path() / (path.stem().string() + ".truth") / "trajectory.tum").string()));
+  putLaserSession(bag, kBenchSession, "drive", store);
+  const Trajectory truth = atFrames(trueTrajectory(bag));
   const double half_length = urban_nav_registration::Parameters().cloud_half_length;
   const PlaneFinder find_planes = [&](const GraphRun& run) {
     return findPlaneClosures({}, store, {kBenchSession}, run, half_length);

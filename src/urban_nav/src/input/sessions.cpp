@@ -8,71 +8,21 @@
 #include <cmath>
 #include <filesystem>
 #include <list>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "input/bag_contents.hpp"
-#include "input/bag_order.hpp"
+#include "input/bag_extent.hpp"
 #include "input/bag_topics.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::DataError;
 
 namespace {
-
-struct Extent {
-  std::string path;
-  double begin = 0.0, end = 0.0;                // s: by the stamps of the images, else of receipt
-  urban_nav_core::StampNs first = 0, last = 0;  // receipts
-  bool by_stamps = false;
-};
-
-/// Sets the extent by stamps, which tell what belongs together also where bags were converted or written anew, all at
-/// the same time. Without effect where a topic has no stamps, or ends before it begins.
-void useStamps(rosbag::Bag& bag, Extent& extent) {
-  rosbag::View images(bag,
-                      rosbag::TypeQuery(std::vector<std::string>{"sensor_msgs/Image", "sensor_msgs/CompressedImage"}));
-  std::map<std::string, std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>> topics;
-  for (const rosbag::ConnectionInfo* connection : images.getConnections()) {
-    rosbag::View view(bag, rosbag::TopicQuery(connection->topic));
-    if (view.size() == 0) continue;
-    auto last = view.begin();
-    for (auto each = view.begin(); each != view.end(); ++each) last = each;
-    topics[connection->topic] = {readHeaderStamp(*view.begin()), readHeaderStamp(*last)};
-  }
-  std::optional<std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>> all;
-  for (const auto& [topic, stamps] : topics) {
-    if (stamps.first == 0 || stamps.second < stamps.first) return;
-    all = all ? std::make_pair(std::min(all->first, stamps.first), std::max(all->second, stamps.second)) : stamps;
-  }
-  if (!all) return;
-  extent.by_stamps = true;
-  extent.begin = 1e-9 * static_cast<double>(all->first);
-  extent.end = 1e-9 * static_cast<double>(all->second);
-}
-
-Extent computeExtent(const std::string& path) {
-  try {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
-    rosbag::View view(bag);
-    if (view.size() == 0) throw DataError(path, "holds no messages", "");
-    Extent extent{path, view.getBeginTime().toSec(), view.getEndTime().toSec(),
-                  urban_nav_ros::toStampNs(view.getBeginTime()), urban_nav_ros::toStampNs(view.getEndTime())};
-    useStamps(bag, extent);
-    return extent;
-  } catch (const rosbag::BagUnindexedException&) {
-    throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
-  } catch (const rosbag::BagException& error) {
-    throw DataError(path, std::string("cannot be read: ") + error.what(),
-                    "a whole bag (`rosbag reindex` mends one that was cut off)");
-  }
-}
 
 /// Returns the places at which the stamps of the stereo images of a recording step back.
 std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, const std::vector<std::string>& wishes) {
@@ -90,27 +40,28 @@ std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, co
 }
 
 /// Returns the bags of a session that hold messages of a part of it.
-std::vector<std::string> bagsWithin(const std::vector<Extent>& bags, const ReceiptRange& part) {
+std::vector<std::string> bagsWithin(const std::vector<BagExtent>& bags, const ReceiptRange& part) {
   std::vector<std::string> paths;
-  for (const Extent& bag : bags)
-    if (bag.last >= part.begin && (part.end == 0 || bag.first < part.end)) paths.push_back(bag.path);
+  for (const BagExtent& bag : bags)
+    if (bag.receipts.second >= part.begin && (part.end == 0 || bag.receipts.first < part.end))
+      paths.push_back(bag.path);
   return paths;
 }
 
 /// Appends the session of some bags, or several where a clock was set back.
-void appendSessions(const std::vector<Extent>& bags, const std::vector<std::string>& topics,
+void appendSessions(const std::vector<BagExtent>& bags, const std::vector<std::string>& topics,
                     std::vector<InputSession>& sessions) {
   std::vector<std::string> paths;
-  for (const Extent& bag : bags) paths.push_back(bag.path);
+  for (const BagExtent& bag : bags) paths.push_back(bag.path);
   const std::vector<ClockStep> steps = findStereoSteps(paths, topics);
   if (steps.empty()) {
-    sessions.push_back({paths, bags.front().first});
+    sessions.push_back({paths, bags.front().receipts.first});
     return;
   }
   for (std::size_t i = 0; i <= steps.size(); ++i) {
     InputSession session;
     session.part = {i == 0 ? 0 : steps[i - 1].receipt, i == steps.size() ? 0 : steps[i].receipt};
-    session.begin = i == 0 ? bags.front().first : session.part.begin;
+    session.begin = i == 0 ? bags.front().receipts.first : session.part.begin;
     session.paths = bagsWithin(bags, session.part);
     if (i > 0)
       session.note = "stamps step back by " +
@@ -124,32 +75,23 @@ void appendSessions(const std::vector<Extent>& bags, const std::vector<std::stri
 
 std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics) {
   std::vector<InputSession> sessions;
-  std::vector<Extent> bags;
+  std::vector<std::string> paths;
   for (const std::string& input : inputs) {
-    if (inputKind(input) == InputKind::Bag) {
-      bags.push_back(computeExtent(input));
-    } else {
-      sessions.push_back({{input}, 0});
-    }
+    if (inputKind(input) == InputKind::Bag) paths.push_back(input);
+    else sessions.push_back({{input}, 0});
   }
-  // Stamps and times of receipt cannot be compared: if one bag has to be placed by receipt, all are.
-  if (std::any_of(bags.begin(), bags.end(), [](const Extent& bag) { return !bag.by_stamps; }))
-    for (Extent& bag : bags) {
-      bag.begin = 1e-9 * static_cast<double>(bag.first);
-      bag.end = 1e-9 * static_cast<double>(bag.last);
-    }
-  std::stable_sort(bags.begin(), bags.end(), [](const Extent& a, const Extent& b) { return a.begin < b.begin; });
-  std::vector<Extent> recording;
-  double end = 0.0;
-  for (const Extent& bag : bags) {
-    if (!recording.empty() && bag.begin - end >= kLongestSplit) {
-      appendSessions(recording, topics, sessions);
-      recording.clear();
-    }
-    end = recording.empty() ? bag.end : std::max(end, bag.end);
-    recording.push_back(bag);
+  std::vector<BagExtent> earlier;
+  for (const std::vector<BagExtent>& recording : separateRecordings(findExtents(paths))) {
+    const std::size_t first = sessions.size();
+    appendSessions(recording, topics, sessions);
+    const auto simultaneous = std::find_if(earlier.begin(), earlier.end(), [&](const BagExtent& bag) {
+      return bag.span.second > recording.front().span.first;
+    });
+    if (simultaneous != earlier.end())
+      sessions[first].note =
+          "holds images of the same topics at the same time as " + simultaneous->path + ": a session of its own";
+    earlier.insert(earlier.end(), recording.begin(), recording.end());
   }
-  if (!recording.empty()) appendSessions(recording, topics, sessions);
   return sessions;
 }
 

@@ -20,8 +20,9 @@ struct InputSession {
 /// Parts of one recording are less than this apart.
 constexpr double kLongestSplit = 5.0;  // s
 
-/// Returns the sessions of inputs: each folder is one, bags less than 5 s apart are one (a split recording). Where the
-/// stamps of the stereo images step back, because a clock was set, the next session begins. `topics`: ROLE:=NAME, for
+/// Returns the sessions of inputs: each folder is one, bags less than 5 s apart are one (a split recording) unless they
+/// hold images of the same topic at the same time (separateRecordings()). Where the stamps of the stereo images step
+/// back, because a clock was set, the next session begins. `topics`: ROLE:=NAME, for
 /// bags. Throws UserError for an input of unknown kind, DataError for a bag that cannot be read.
 std::vector<InputSession> findSessions(const std::vector<std::string>& inputs,
                                        const std::vector<std::string>& topics = {});

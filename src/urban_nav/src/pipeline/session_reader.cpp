@@ -139,7 +139,8 @@ void SessionReader::read(const ProgressCallback& progress) {
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
   for (const Finding& finding : images.findings())
     faults.push_back(source_->info().name + ": " + finding.text + " (" + finding.remedy + ")");
-  if (const std::string& note = context_.sessions[session_].input.note; !note.empty()) faults.push_back(note);
+  if (const std::string& note = context_.sessions[session_].input.note; !note.empty())
+    faults.push_back(source_->info().name + ": " + note);
   const PassEnd end{faults, source_->forces()};
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) {

@@ -182,6 +182,37 @@ TEST(ForeignBags, ofTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
   EXPECT_EQ(findSessions({folder.file("day0.bag"), folder.file("day1.bag")}).size(), 2U);
 }
 
+TEST(ForeignBags, simultaneousImagesOfTheSameTopicsAreTwoSessions) {
+  const TemporaryFolder folder;
+  const double whole = kPeriod * kPairs;
+  for (const char* robot : {"a", "b"})
+    for (const int part : {0, 1})  // split, and begun a little apart
+      writeBag(folder.file(robot + std::to_string(part) + ".bag"), {},
+               kBegin + (*robot == 'b' ? 0.2 : 0.0) * whole + part * whole);
+  const std::vector<InputSession> sessions =
+      findSessions({folder.file("a0.bag"), folder.file("b0.bag"), folder.file("b1.bag"), folder.file("a1.bag")});
+  ASSERT_EQ(sessions.size(), 2U);
+  EXPECT_EQ(sessions[0].paths, (std::vector<std::string>{folder.file("a0.bag"), folder.file("a1.bag")}));
+  EXPECT_EQ(sessions[1].paths, (std::vector<std::string>{folder.file("b0.bag"), folder.file("b1.bag")}));
+  EXPECT_TRUE(sessions[0].note.empty());
+  EXPECT_NE(sessions[1].note.find("at the same time as " + folder.file("a0.bag")), std::string::npos)
+      << sessions[1].note;
+}
+
+TEST(ForeignBags, simultaneousBagsOfOtherTopicsAreOneSession) {
+  const TemporaryFolder folder;
+  writeBag(folder.file("stereo.bag"), {});
+  {
+    rosbag::Bag bag(folder.file("other.bag"), rosbag::bagmode::Write);
+    for (int i = 0; i < kPairs; ++i)
+      bag.write("/tilt/camera_info", ros::Time(kBegin + kPeriod * i), cameraInfo(kBegin + kPeriod * i, 0.0));
+  }
+  const std::vector<InputSession> sessions = findSessions({folder.file("stereo.bag"), folder.file("other.bag")});
+  ASSERT_EQ(sessions.size(), 1U);
+  EXPECT_EQ(sessions[0].paths.size(), 2U);
+  EXPECT_TRUE(sessions[0].note.empty());
+}
+
 TEST(PairDelay, isFoundWhereItIsConstant) {
   std::vector<StampNs> left, right, varying;
   for (StampNs i = 0; i < 20; ++i) {
