@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_store/bytes.hpp"
@@ -45,22 +46,26 @@ std::map<StampNs, MapChunk> ChunkStore::chunks() const {
   return all;
 }
 
-void ChunkStore::put(MapChunk header, const RenderedChunk& chunk, const MapChunk* old) {
+PackedPart packPart(const Tile& tile, const std::vector<MapCell>& cells) {
+  return {tile, static_cast<std::int64_t>(cells.size()), packCells(tile, cells)};
+}
+
+void ChunkStore::put(MapChunk header, std::vector<PackedPart> parts, const MapChunk* old) {
   if (old != nullptr) remove(*old);
   header.session = session_;
   header.revision = old != nullptr ? old->revision + 1 : 1;
   header.tiles.clear();
   header.cells = 0;
-  for (const RenderedChunk::Part& part : chunk.parts) {
+  for (PackedPart& part : parts) {
     header.tiles += (header.tiles.empty() ? "" : " ") + toString(part.tile);
-    header.cells += static_cast<std::int64_t>(part.cells.size());
-    putCells(part.tile, header.begin, part.cells);
+    header.cells += part.cells;
+    putCells(header.begin, std::move(part));
   }
   chunks_.put(header);
 }
 
-void ChunkStore::putCells(const Tile& tile, StampNs begin, const std::vector<MapCell>& cells) {
-  cells_.put({session_, toString(tile), begin, static_cast<std::int64_t>(cells.size()), packCells(tile, cells)});
+void ChunkStore::putCells(StampNs begin, PackedPart part) {
+  cells_.put({session_, toString(part.tile), begin, part.cells, std::move(part.data)});
 }
 
 void ChunkStore::remove(const MapChunk& chunk) {

@@ -14,6 +14,14 @@
 
 namespace laser_mapper {
 
+/// The cells of a chunk in a tile, as the store has them.
+struct PackedPart {
+  Tile tile;
+  std::int64_t cells = 0;
+  std::string data;
+};
+PackedPart packPart(const Tile& tile, const std::vector<MapCell>& cells);
+
 /// Chunks of one session in a store.
 class ChunkStore {
  public:
@@ -23,10 +31,10 @@ class ChunkStore {
   /// Returns all chunks by their beginnings.
   std::map<urban_nav_core::StampNs, urban_nav_store::MapChunk> chunks() const;
   /// Writes a chunk; `header` describes it. `old`: the stored chunk that it replaces, if any.
-  void put(urban_nav_store::MapChunk header, const RenderedChunk& chunk, const urban_nav_store::MapChunk* old);
+  void put(urban_nav_store::MapChunk header, std::vector<PackedPart> parts, const urban_nav_store::MapChunk* old);
   void remove(const urban_nav_store::MapChunk& chunk);
   /// Replaces the cells of a stored chunk in a tile by the same cells with other flags.
-  void putCells(const Tile& tile, urban_nav_core::StampNs begin, const std::vector<MapCell>& cells);
+  void putCells(urban_nav_core::StampNs begin, PackedPart part);
   /// Calls `take` for the chunks with cells in a tile, in order of time.
   void forEachInTile(const Tile& tile,
                      const std::function<void(urban_nav_core::StampNs begin, std::string data)>& take) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -106,10 +107,13 @@ void SessionChunks::readScans(Task& task) {
 
 void SessionChunks::renderTasks(std::vector<Task>& tasks, const Stored& stored) {
   urban_nav_core::forEach(tasks.size(), 1, [&](std::size_t i) {
-    tasks[i].chunk = renderChunk(parameters_, T_map_base_, tasks[i].lasers, tasks[i].stereo, tasks[i].begin);
+    Task& task = tasks[i];
+    const RenderedChunk chunk = renderChunk(parameters_, T_map_base_, task.lasers, task.stereo, task.begin);
+    task.beams = chunk.beams;
+    for (const RenderedChunk::Part& part : chunk.parts) task.parts.push_back(packPart(part.tile, part.cells));
   });
-  for (const Task& task : tasks) {
-    const BeamCounts& beams = task.chunk.beams;
+  for (Task& task : tasks) {
+    const BeamCounts& beams = task.beams;
     MapChunk header;
     header.begin = task.begin;
     header.end = task.begin + kChunkNs;
@@ -120,9 +124,9 @@ void SessionChunks::renderTasks(std::vector<Task>& tasks, const Stored& stored) 
     header.without_pose = static_cast<std::int64_t>(beams.without_pose);
     header.out_of_range = static_cast<std::int64_t>(beams.out_of_range);
     const auto old = stored.find(task.begin);
-    chunk_store_.put(header, task.chunk, old == stored.end() ? nullptr : &old->second);
+    for (const PackedPart& part : task.parts) tiles_.insert(part.tile);
+    chunk_store_.put(header, std::move(task.parts), old == stored.end() ? nullptr : &old->second);
     beams_ = beams_ + beams;
-    for (const RenderedChunk::Part& part : task.chunk.parts) tiles_.insert(part.tile);
   }
   rendered_ += tasks.size();
   tasks.clear();

@@ -40,7 +40,8 @@ class SessionChunks {
     std::vector<LaserInput> lasers;
     std::vector<StereoFrame> stereo;
     std::string settings;
-    RenderedChunk chunk;
+    BeamCounts beams;
+    std::vector<PackedPart> parts;
   };
   using Stored = std::map<urban_nav_core::StampNs, urban_nav_store::MapChunk>;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "session_chunks.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -15,6 +16,7 @@ namespace laser_mapper {
 
 using Eigen::Vector3d;
 using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
 using urban_nav_registration::keyBeside;
 using urban_nav_registration::toKey;
 
@@ -24,7 +26,7 @@ constexpr const char* kGhostState = "laser_mapper_ghosts";
 constexpr double kLongestSight = 20.0;     // m, from the path
 constexpr std::size_t kCachedChunks = 96;  // some 1 MB each
 constexpr StampNs kPathStep = 250'000'000;
-constexpr std::size_t kCandidatesPerTask = 256, kChunksPerRound = 16;
+constexpr std::size_t kCandidatesPerTask = 256, kChunksPerRound = 16, kTilesAtOnce = 8;
 
 /// First and last time at which a cube and those beside it had a beam.
 struct SeenTimes {
@@ -97,20 +99,24 @@ void GhostFinder::storeState() {
   store_.states().put(sessions_.front().id, kGhostState, bytes);
 }
 
-std::vector<GhostFinder::Row> GhostFinder::readRows(const Tile& tile, const std::vector<std::size_t>& holders) const {
-  std::vector<Row> rows;
+void GhostFinder::readRows(TileTask& task) const {
   for (std::size_t s = 0; s < sessions_.size(); ++s)
-    ChunkStore(store_, sessions_[s].id).forEachInTile(tile, [&](StampNs begin, const std::string& data) {
-      const auto holder = std::find_if(holders.begin(), holders.end(), [&](std::size_t c) {
+    ChunkStore(store_, sessions_[s].id).forEachInTile(task.tile, [&](StampNs begin, std::string data) {
+      const auto holder = std::find_if(task.holders.begin(), task.holders.end(), [&](std::size_t c) {
         return chunks_[c].session == s && chunks_[c].begin == begin;
       });
-      if (holder == holders.end()) return;
-      auto cells = unpackCells(tile, data);
-      if (!cells)
-        throw urban_nav_core::DataError(store_.path(), "points of tile " + toString(tile) + " are damaged", "");
-      rows.push_back({*holder, std::move(*cells), false});
+      if (holder != task.holders.end()) task.rows.push_back({*holder, std::move(data), {}, false});
     });
-  return rows;
+}
+
+void GhostFinder::unpackRows(TileTask& task) const {
+  for (Row& row : task.rows) {
+    auto cells = unpackCells(task.tile, row.packed);
+    if (!cells)
+      throw urban_nav_core::DataError(store_.path(), "points of tile " + toString(task.tile) + " are damaged", "");
+    row.cells = std::move(*cells);
+    row.packed.clear();
+  }
 }
 
 std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vector<Row>& rows) const {
@@ -145,28 +151,36 @@ std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vecto
   return candidates;
 }
 
-std::shared_ptr<const ChunkBeams> GhostFinder::beams(std::size_t chunk) {
-  const auto found = cache_.find(chunk);
-  recent_.remove(chunk);
-  recent_.push_front(chunk);
-  if (found != cache_.end()) return found->second;
-  const Chunk& at = chunks_[chunk];
-  const MappedSession& session = sessions_[at.session];
-  auto made = std::make_shared<const ChunkBeams>(
-      *session.T_map_base, readLasers(store_, session.id, mountedLasers(store_, session.id), at.begin),
-      std::llround(1e9 * parameters_.max_gap));
-  cache_[chunk] = made;
-  if (recent_.size() > kCachedChunks) {
-    cache_.erase(recent_.back());
-    recent_.pop_back();
+std::vector<std::shared_ptr<const ChunkBeams>> GhostFinder::beamsOf(const std::vector<std::size_t>& chunks) {
+  struct Missing {
+    std::size_t chunk;
+    std::vector<LaserInput> lasers;
+    std::shared_ptr<const ChunkBeams> made;
+  };
+  std::vector<Missing> missing;
+  for (const std::size_t chunk : chunks) {
+    recent_.remove(chunk);
+    recent_.push_front(chunk);
+    if (cache_.count(chunk) > 0) continue;
+    const urban_nav_store::SessionId& session = sessions_[chunks_[chunk].session].id;
+    missing.push_back(
+        {chunk, readLasers(store_, session, mountedLasers(store_, session), chunks_[chunk].begin), nullptr});
   }
+  urban_nav_core::forEach(missing.size(), 1, [&](std::size_t i) {
+    const Trajectory& T_map_base = *sessions_[chunks_[missing[i].chunk].session].T_map_base;
+    missing[i].made =
+        std::make_shared<const ChunkBeams>(T_map_base, missing[i].lasers, std::llround(1e9 * parameters_.max_gap));
+  });
+  for (Missing& each : missing) cache_[each.chunk] = std::move(each.made);
+  std::vector<std::shared_ptr<const ChunkBeams>> made;
+  for (const std::size_t chunk : chunks) made.push_back(cache_.at(chunk));
+  for (; recent_.size() > kCachedChunks; recent_.pop_back()) cache_.erase(recent_.back());
   return made;
 }
 
 void GhostFinder::lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
                             std::vector<Candidate>& candidates) {
-  std::vector<std::shared_ptr<const ChunkBeams>> seen;
-  for (const std::size_t chunk : chunks) seen.push_back(beams(chunk));
+  const std::vector<std::shared_ptr<const ChunkBeams>> seen = beamsOf(chunks);
   urban_nav_core::forEach(candidates.size(), kCandidatesPerTask, [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     for (std::size_t c = 0; c < chunks.size(); ++c) {
@@ -178,35 +192,52 @@ void GhostFinder::lookAtAll(const std::vector<Row>& rows, const std::vector<std:
   });
 }
 
-void GhostFinder::updateTile(const Tile& tile, const std::vector<std::size_t>& holders,
-                             const std::vector<std::size_t>& reaching) {
-  std::vector<Row> rows = readRows(tile, holders);
-  std::vector<Candidate> candidates = findCandidates(rows);
+void GhostFinder::lookAtCandidates(TileTask& task) {
+  if (task.candidates.empty()) return;
   std::vector<std::size_t> asked;
-  for (const std::size_t chunk : reaching)
-    if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return isApart(row.chunk, chunk); }))
+  for (const std::size_t chunk : task.reaching)
+    if (std::any_of(task.rows.begin(), task.rows.end(), [&](const Row& row) { return isApart(row.chunk, chunk); }))
       asked.push_back(chunk);
-  if (candidates.empty()) asked.clear();
   for (std::size_t first = 0; first < asked.size(); first += kChunksPerRound) {
     const std::vector<std::size_t> round(
         asked.begin() + static_cast<std::ptrdiff_t>(first),
         asked.begin() + static_cast<std::ptrdiff_t>(std::min(asked.size(), first + kChunksPerRound)));
-    lookAtAll(rows, round, candidates);
+    lookAtAll(task.rows, round, task.candidates);
   }
+}
+
+void GhostFinder::flagGhosts(TileTask& task) {
   std::vector<std::vector<std::uint8_t>> ghosts;
-  for (const Row& row : rows) ghosts.emplace_back(row.cells.size(), 0);
-  for (const Candidate& candidate : candidates)
+  for (const Row& row : task.rows) ghosts.emplace_back(row.cells.size(), 0);
+  for (const Candidate& candidate : task.candidates)
     if (candidate.through > candidate.hits) ghosts[candidate.row][candidate.cell] = 1;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t i = 0; i < rows[r].cells.size(); ++i) {
+  for (std::size_t r = 0; r < task.rows.size(); ++r) {
+    Row& row = task.rows[r];
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const bool ghost = ghosts[r][i] != 0;
-      rows[r].changed = rows[r].changed || rows[r].cells[i].is_ghost != ghost;
-      rows[r].cells[i].is_ghost = ghost;
+      row.changed = row.changed || row.cells[i].is_ghost != ghost;
+      row.cells[i].is_ghost = ghost;
     }
-    if (!rows[r].changed) continue;
-    const Chunk& chunk = chunks_[rows[r].chunk];
-    ChunkStore(store_, sessions_[chunk.session].id).putCells(tile, chunk.begin, rows[r].cells);
+    if (row.changed) row.packed = packPart(task.tile, row.cells).data;
   }
+}
+
+void GhostFinder::updateTiles(std::vector<TileTask>& tasks) {
+  for (TileTask& task : tasks) readRows(task);
+  urban_nav_core::forEach(tasks.size(), 1, [&](std::size_t i) {
+    unpackRows(tasks[i]);
+    tasks[i].candidates = findCandidates(tasks[i].rows);
+  });
+  for (TileTask& task : tasks) lookAtCandidates(task);
+  urban_nav_core::forEach(tasks.size(), 1, [&](std::size_t i) { flagGhosts(tasks[i]); });
+  for (TileTask& task : tasks)
+    for (Row& row : task.rows) {
+      if (!row.changed) continue;
+      const Chunk& chunk = chunks_[row.chunk];
+      ChunkStore(store_, sessions_[chunk.session].id)
+          .putCells(chunk.begin, {task.tile, static_cast<std::int64_t>(row.cells.size()), std::move(row.packed)});
+    }
+  tasks.clear();
 }
 
 void GhostFinder::update() {
@@ -216,7 +247,8 @@ void GhostFinder::update() {
   std::map<Tile, std::vector<std::size_t>> holders;
   for (std::size_t c = 0; c < chunks_.size(); ++c)
     for (const Tile& tile : chunks_[c].tiles) holders[tile].push_back(c);
-  for (const auto& [tile, chunks] : holders) {
+  std::vector<TileTask> tasks;
+  for (auto& [tile, chunks] : holders) {
     std::vector<std::size_t> reaching;
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
       const Chunk& chunk = chunks_[c];
@@ -225,10 +257,13 @@ void GhostFinder::update() {
         reaching.push_back(c);
     }
     const auto isChanged = [&](std::size_t c) { return chunks_[c].changed; };
-    if (std::any_of(chunks.begin(), chunks.end(), isChanged) ||
-        std::any_of(reaching.begin(), reaching.end(), isChanged))
-      updateTile(tile, chunks, reaching);
+    if (std::none_of(chunks.begin(), chunks.end(), isChanged) &&
+        std::none_of(reaching.begin(), reaching.end(), isChanged))
+      continue;
+    tasks.push_back({tile, std::move(chunks), std::move(reaching), {}, {}});
+    if (tasks.size() == kTilesAtOnce) updateTiles(tasks);
   }
+  updateTiles(tasks);
   storeState();
 }
 

@@ -38,6 +38,7 @@ class GhostFinder {
   /// Cells of one chunk in a tile.
   struct Row {
     std::size_t chunk = 0;
+    std::string packed;
     std::vector<MapCell> cells;
     bool changed = false;
   };
@@ -47,17 +48,28 @@ class GhostFinder {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
     int through = 0, hits = 0;  ///< chunks
   };
+  /// A tile whose flags may have to change.
+  struct TileTask {
+    Tile tile;
+    std::vector<std::size_t> holders, reaching;  ///< chunks: with cells in it, and with beams that may pass through it
+    std::vector<Row> rows;
+    std::vector<Candidate> candidates;
+  };
 
   void listChunks();
   void markChanged();
   void storeState();
-  void updateTile(const Tile& tile, const std::vector<std::size_t>& holders, const std::vector<std::size_t>& reaching);
-  std::vector<Row> readRows(const Tile& tile, const std::vector<std::size_t>& holders) const;
+  void updateTiles(std::vector<TileTask>& tasks);
+  void readRows(TileTask& task) const;
+  void unpackRows(TileTask& task) const;
   std::vector<Candidate> findCandidates(const std::vector<Row>& rows) const;
+  void lookAtCandidates(TileTask& task);
+  /// Sets the flags, and packs the rows whose flags have changed.
+  static void flagGhosts(TileTask& task);
   /// Counts for each candidate what the beams of the chunks say of it.
   void lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
                  std::vector<Candidate>& candidates);
-  std::shared_ptr<const ChunkBeams> beams(std::size_t chunk);
+  std::vector<std::shared_ptr<const ChunkBeams>> beamsOf(const std::vector<std::size_t>& chunks);
   bool isApart(std::size_t a, std::size_t b) const;
 
   const Parameters& parameters_;

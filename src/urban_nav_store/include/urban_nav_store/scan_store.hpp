@@ -24,7 +24,7 @@ class ScanStore {
   /// Returns frame names, sorted.
   virtual std::vector<std::string> lasers(const SessionId& session) const = 0;
   virtual std::int64_t count(const SessionId& session, const std::string& laser) const = 0;
-  /// Calls `take` for scans with from <= stamp <= to in order of time, with one block in memory at a time.
+  /// Calls `take` for scans with from <= stamp <= to in order of time, with a few blocks in memory at a time.
   virtual void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
                        urban_nav_core::StampNs to,
                        const std::function<void(const urban_nav_core::Scan&)>& take) const = 0;

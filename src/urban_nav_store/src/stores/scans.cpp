@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "blocks/scan_block.hpp"
 #include "tables/measurement_tables.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_store {
@@ -17,12 +20,13 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr StampNs kSecond = 1'000'000'000;
+constexpr std::size_t kBlocksAtOnce = 8;  // that are unpacked, on all threads
 
 /// The second that a stamp is in, also before 1970.
 std::int64_t wholeSecond(StampNs stamp) { return stamp / kSecond - (stamp % kSecond < 0 ? 1 : 0); }
 
-std::vector<Scan> unpackScanBlock(const ScanBlockRow& row, const Connection& connection) {
-  std::optional<std::vector<Scan>> scans = unpackScans(row.data);
+std::vector<Scan> intact(std::optional<std::vector<Scan>> scans, const ScanBlockRow& row,
+                         const Connection& connection) {
   if (!scans || static_cast<std::int64_t>(scans->size()) != row.scans)
     connection.damaged("in table scan, a block of scans cannot be unpacked");
   return std::move(*scans);
@@ -62,7 +66,7 @@ SqliteScanStore::Block SqliteScanStore::load(const Key& key, std::int64_t second
   block.second = second;
   ScanBlockRow row{key.first, key.second, second, 0, ""};
   if (tables_.find(declaredTable<ScanBlockRow>(), AnyRow(row)))
-    block.scans = unpackScanBlock(row, tables_.connection());
+    block.scans = intact(unpackScans(row.data), row, tables_.connection());
   return block;
 }
 
@@ -96,11 +100,21 @@ void SqliteScanStore::forEach(const SessionId& session, const std::string& laser
                               const std::function<void(const Scan&)>& take) const {
   flush();
   tables_.verifyOnce(declaredTable<ScanBlockRow>(), session);
+  std::vector<ScanBlockRow> blocks;
+  const auto unpackAll = [&] {
+    std::vector<std::optional<std::vector<Scan>>> scans(blocks.size());
+    urban_nav_core::forEach(blocks.size(), 1, [&](std::size_t i) { scans[i] = unpackScans(blocks[i].data); });
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      for (const Scan& scan : intact(std::move(scans[i]), blocks[i], tables_.connection()))
+        if (scan.stamp >= from && scan.stamp <= to) take(scan);
+    blocks.clear();
+  };
   ScanBlockRow row{session, laser, 0, 0, ""};
   tables_.forEachBetween(declaredTable<ScanBlockRow>(), AnyRow(row), wholeSecond(from), wholeSecond(to), [&] {
-    for (const Scan& scan : unpackScanBlock(row, tables_.connection()))
-      if (scan.stamp >= from && scan.stamp <= to) take(scan);
+    blocks.push_back(row);
+    if (blocks.size() == kBlocksAtOnce) unpackAll();
   });
+  unpackAll();
 }
 
 }  // namespace urban_nav_store
