@@ -23,6 +23,8 @@ struct SolveOptions {
   Start start = Start::Auto;
   int iterations = 100;     ///< at most
   double tolerance = 1e-9;  ///< ends where what is left to gain is expected to be less than this share of the cost
+  /// With Start::Auto, to look for another valley where the result is tangled (solve/tangled.hpp).
+  bool untangle = true;
   /// Called after each accepted step; return false to end there. May be empty.
   std::function<bool(int iteration, double cost)> progress;
 };

@@ -13,6 +13,7 @@
 #include "robust/core_graph.hpp"
 #include "robust/information_scale.hpp"
 #include "robust/judgement.hpp"
+#include "solve/tangled.hpp"
 
 namespace pose_graph {
 using urban_nav_core::ClosureVerdict;
@@ -215,7 +216,9 @@ Solution<D> relaxAccepted(const Problem<D>& part, const std::vector<Rigid<D>>& g
   near.iterations = std::min(options.iterations, kNearSteps);
   Solution<D> made = solve(part, near);
   if (made.ending != Ending::Iterations || options.iterations <= kNearSteps) return made;
-  Solution<D> afresh = solve(Problem<D>{given, part.edges}, options);
+  SolveOptions anew = options;
+  anew.untangle = options.untangle && isTangled(part, {}, made.poses);
+  Solution<D> afresh = solve(Problem<D>{given, part.edges}, anew);
   if (afresh.cost <= made.cost) return afresh;
   near.iterations = options.iterations - kNearSteps;
   return solve(Problem<D>{std::move(made.poses), part.edges}, near);

@@ -114,11 +114,11 @@ class Selection {
     weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
     if (!contested_) {
       // A short slip costs few closures; one alone refutes no step.
-      if (rejected(best_.judgement) > 1) heal();
+      if (rejected(best_.judgement) > 1) heal({});
       return;
     }
     if (between > 0) link();
-    heal();
+    heal({});
     if (!judge_->areAssertions()) rescale();
   }
 
@@ -316,25 +316,38 @@ class Selection {
     return considered;
   }
 
-  void heal() {
+  // Looks for slips where variances are those of the best set, and proposes what follows, with these factors.
+  void heal(const VarianceFactors& factors) {
     const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
     std::vector<char> considered = considerWitnessed(scaled), all(scaled.edges.size(), 1);
     const AcceptedGraph<D> graph(scaled);
     if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
     else if (!maySlip(scaled, proposed_roles_, best_.hypothesis.in, considered, best_.hypothesis.poses)) return;
-    slips_ = findSlips(scaled, proposed_roles_, considered, odometry_.poses);
-    slips_.erase(std::remove_if(slips_.begin(), slips_.end(),
-                                [&](const Slip<D>& slip) { return slip.edge >= static_cast<int>(roles_.size()); }),
-                 slips_.end());
-    if (slips_.empty()) return;
+    if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
+    // From odometry as it is, a slip that closures nearby seem to bear out is not found.
+    std::vector<char> in = best_.hypothesis.in;
+    in.resize(proposed_roles_.size(), 1);
+    const std::vector<char> doubted = mostRefuted(scaled, proposed_roles_, in, considered);
+    if (!doubted.empty())
+      proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, doubted, odometry_.poses), factors);
+  }
+
+  // Proposes what follows where these steps are what the closures say. Returns whether it is better.
+  bool proposeWithoutSlips(std::vector<Slip<D>> slips, const VarianceFactors& factors) {
+    slips.erase(std::remove_if(slips.begin(), slips.end(),
+                               [&](const Slip<D>& slip) { return slip.edge >= static_cast<int>(roles_.size()); }),
+                slips.end());
+    if (slips.empty()) return false;
+    slips_ = std::move(slips);
     const Problem<D> before = proposed_;
     for (const Slip<D>& slip : slips_) {
       proposed_.edges[sz(slip.edge)].Z = slip.T_from_to;
       proposed_.edges[sz(slip.edge)].information *= kHealedShare;
     }
-    if (propose({}, slips_)) return;
+    if (propose(factors, slips_)) return true;
     proposed_ = before;
     slips_.clear();
+    return false;
   }
 
   void rescale() {
@@ -343,9 +356,23 @@ class Selection {
         !beyond(found.closures, kContestedFactor))
       return;
     constexpr double far = 100.0;
-    for (const VarianceFactors& factors : {VarianceFactors{far, far}, {far, 1.0}, {1.0, far}, {1.0 / far, 1.0 / far}})
+    const auto try_with = [&](const VarianceFactors& factors) {
       if (!takesNearlyAll() && factors.odometry <= judge_->largestOdometryFactor()) propose(factors, slips_);
+    };
+    try_with({far, far});  // what is too sure of itself shuts true ones out
+    if (!isCredible())
+      for (const VarianceFactors& factors : {VarianceFactors{far, 1.0}, {1.0, far}, {1.0 / far, 1.0 / far}})
+        try_with(factors);
     regrow();
+    // Where variances were stated too large, a slip stands out only now.
+    if (slips_.empty() && !areAlike(best_.grown_with, {})) heal(best_.grown_with);
+  }
+
+  // Whether the best set explains far more than chance, with variances near those stated.
+  bool isCredible() const {
+    const VarianceFactors& found = best_.hypothesis.factors;
+    return evidence() >= kDecisive && !beyond(found.odometry, kContestedFactor) &&
+           !beyond(found.closures, kContestedFactor);
   }
 
   // Whether the best set was found with the variances that follow from it, or none better was.

@@ -29,6 +29,8 @@ constexpr double kStandsOut = 4.0;  // of squares
 constexpr int kRefuting = 2;        // closures: one alone refutes no step
 constexpr double kBelieved = 0.5;   // weight under Cauchy's kernel
 constexpr int kSlipReach = 200;     // poses: so far from where it shows a slip is looked for
+constexpr int kDoubtedRounds = 5;   // as many as it takes for what spans a doubted step to agree
+constexpr double kDoubtedWeight = 1e-9;
 
 /// Steps of odometry between consecutive poses. Of a slip the graph tells no more than which closures span it: steps
 /// that the same closures span, in one run between ends of closures or in several, would explain it alike.
@@ -135,6 +137,21 @@ double slipLimit(const std::vector<EdgeRole>& roles, const std::vector<WhitenedE
   return kSlipSquare * std::max(1.0, *middle);
 }
 
+// By pose: of the closures that span the step from it to the next, how many more are outside than inside.
+template <int D>
+std::vector<int> countRefuting(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const std::vector<char>& in, const std::vector<char>& considered) {
+  std::vector<int> against(problem.poses.size() + 1, 0);
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (roles[e] != EdgeRole::Candidate || !considered[e]) continue;
+    const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
+    against[sz(first)] += in[e] ? -1 : 1;
+    against[sz(last)] -= in[e] ? -1 : 1;
+  }
+  for (std::size_t i = 1; i < against.size(); ++i) against[i] += against[i - 1];
+  return against;
+}
+
 }  // namespace
 
 template <int D>
@@ -142,21 +159,30 @@ bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, cons
              const std::vector<char>& considered, const std::vector<Rigid<D>>& poses) {
   const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
   const double limit = slipLimit(roles, edges, poses);
-  std::vector<int> against(problem.poses.size() + 1, 0);  // by pose: of those that span the step from it to the next
-  for (std::size_t e = 0; e < in.size(); ++e) {
+  for (std::size_t e = 0; e < in.size(); ++e)
     if (roles[e] == EdgeRole::Trusted && squareOver(edges[e], poses) > limit) return true;
-    if (roles[e] != EdgeRole::Candidate || !considered[e]) continue;
-    const auto [first, last] = std::minmax(edges[e].from, edges[e].to);
-    against[sz(first)] += in[e] ? -1 : 1;
-    against[sz(last)] -= in[e] ? -1 : 1;
-  }
-  for (std::size_t i = 1; i < against.size(); ++i) against[i] += against[i - 1];
+  const std::vector<int> against = countRefuting(problem, roles, in, considered);
   return std::any_of(against.begin(), against.end(), [](int more) { return more >= kRefuting; });
 }
 
 template <int D>
+std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                              const std::vector<char>& in, const std::vector<char>& considered) {
+  const std::vector<int> against = countRefuting(problem, roles, in, considered);
+  const int most = *std::max_element(against.begin(), against.end());
+  std::vector<char> made;
+  if (most < kRefuting) return made;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
+    made.push_back(roles[e] == EdgeRole::Trusted && last == first + 1 && against[sz(first)] == most);
+  }
+  return made;
+}
+
+template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& considered, const std::vector<Rigid<D>>& odometry) {
+                               const std::vector<char>& considered, const std::vector<char>& doubted,
+                               const std::vector<Rigid<D>>& odometry) {
   const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
   std::vector<char> in;
   for (std::size_t e = 0; e < edges.size(); ++e)
@@ -166,15 +192,16 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   AcceptedGraph<D> graph(problem);
   double last = 0.0;
   for (int round = 0; round < kCauchyRounds; ++round) {
+    const bool is_doubted = round < kDoubtedRounds && !doubted.empty();
     double cost = 0.0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       weights[e] = 0.0;
       if (!in[e]) continue;
       const double square = squareOver(edges[e], poses);
-      weights[e] = 1.0 / (1.0 + square);
+      weights[e] = is_doubted && doubted[e] ? kDoubtedWeight : 1.0 / (1.0 + square);
       cost += std::log1p(square);
     }
-    if (round > 0 && std::abs(last - cost) <= kCauchyShare * cost) break;
+    if (round > 0 && !is_doubted && std::abs(last - cost) <= kCauchyShare * cost) break;
     last = cost;
     graph.take(in, weights);
     graph.relax(poses, 1, 0.0, false);
@@ -196,9 +223,13 @@ template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const 
                          const std::vector<char>&, const std::vector<Rigid<2>>&);
 template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                          const std::vector<char>&, const std::vector<Rigid<3>>&);
+template std::vector<char> mostRefuted<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                          const std::vector<char>&);
+template std::vector<char> mostRefuted<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                          const std::vector<char>&);
 template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                           const std::vector<Rigid<2>>&);
+                                           const std::vector<char>&, const std::vector<Rigid<2>>&);
 template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                           const std::vector<Rigid<3>>&);
+                                           const std::vector<char>&, const std::vector<Rigid<3>>&);
 
 }  // namespace pose_graph

@@ -21,12 +21,20 @@ template <int D>
 bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
              const std::vector<char>& considered, const std::vector<Rigid<D>>& poses);
 
+/// The steps that more of the closures which span them refute than bear out than any others, by edge; none (empty)
+/// where hardly any does. As maySlip() otherwise.
+template <int D>
+std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                              const std::vector<char>& in, const std::vector<char>& considered);
+
 /// Steps of odometry that are likely false: all edges but closures that are not `considered` are relaxed under Cauchy's
 /// kernel, from where odometry puts the poses, and a step that ends far outside its covariance, and much farther than
 /// others do, has slipped. Which of several it was, where the same closures span them, is for their measurements to
-/// tell: the one that is like no other step. Steps that no closure spans cannot be refuted.
+/// tell: the one that is like no other step. Steps that no closure spans cannot be refuted. `doubted`, by edge: steps
+/// that count next to nothing at first, so that what spans them is believed to begin with; empty for none.
 template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& considered, const std::vector<Rigid<D>>& odometry);
+                               const std::vector<char>& considered, const std::vector<char>& doubted,
+                               const std::vector<Rigid<D>>& odometry);
 
 }  // namespace pose_graph

@@ -2,10 +2,10 @@
 #include <algorithm>
 
 #include "condense/solve_condensed.hpp"
-#include "linear/index.hpp"
 #include "pose_graph/solution.hpp"
 #include "semidefinite/lifted_poses.hpp"
 #include "solve/minimise.hpp"
+#include "solve/tangled.hpp"
 #include "start/first_guess.hpp"
 
 namespace pose_graph {
@@ -16,28 +16,6 @@ template <int D>
 bool allFinite(const std::vector<Rigid<D>>& poses) {
   return std::all_of(poses.begin(), poses.end(),
                      [](const Rigid<D>& pose) { return pose.R.allFinite() && pose.t.allFinite(); });
-}
-
-// Radians between what edges measure of rotations and where they end up: beyond, on average about an axis or of one
-// edge alone, there may be a better valley.
-constexpr double kNoisy = 0.1, kTangled = 1.1;
-
-template <int D>
-bool isTangled(const Problem<D>& problem, const std::vector<double>& weights, const std::vector<Rigid<D>>& poses) {
-  double sum = 0.0, largest = 0.0;
-  int count = 0;
-  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-    const Edge<D>& edge = problem.edges[e];
-    const bool measures =
-        edge.information.template bottomRightCorner<rotation_size<D>, rotation_size<D>>().diagonal().minCoeff() > 0.0;
-    if (!measures || (!weights.empty() && !(weights[e] > 0.0))) continue;
-    const Rotation<D> off = edge.Z.R.transpose() * (poses[sz(edge.from)].R.transpose() * poses[sz(edge.to)].R);
-    const double square = logRotation(off).squaredNorm();
-    sum += square;
-    largest = std::max(largest, square);
-    ++count;
-  }
-  return sum > kNoisy * kNoisy * count * rotation_size<D> || largest > kTangled * kTangled;
 }
 
 // What is turned by less everywhere is in the same valley: a knot turns some poses all the way round.
@@ -96,7 +74,7 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const st
   // In the plane the two are one, and only the geodesic solver condenses chains, which it needs where they are long.
   if (D == 2 && options.objective == Objective::G2o) options.objective = Objective::Geodesic;
   auto condensed = solveCondensed(problem, options, weights);
-  const bool may_untangle = options.start == Start::Auto;
+  const bool may_untangle = options.untangle && options.start == Start::Auto;
   if (condensed && !(may_untangle && isTangled(problem, weights, condensed->poses))) return *std::move(condensed);
   NormalEquations<D> equations(problem);
   BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
