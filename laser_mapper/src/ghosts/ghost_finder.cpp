@@ -151,7 +151,7 @@ std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vecto
   return candidates;
 }
 
-std::vector<std::shared_ptr<const ChunkBeams>> GhostFinder::beamsOf(const std::vector<std::size_t>& chunks) {
+std::vector<std::shared_ptr<const ChunkBeams>> GhostFinder::shareBeams(const std::vector<std::size_t>& chunks) {
   struct Missing {
     std::size_t chunk;
     std::vector<LaserInput> lasers;
@@ -180,7 +180,7 @@ std::vector<std::shared_ptr<const ChunkBeams>> GhostFinder::beamsOf(const std::v
 
 void GhostFinder::lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
                             std::vector<Candidate>& candidates) {
-  const std::vector<std::shared_ptr<const ChunkBeams>> seen = beamsOf(chunks);
+  const std::vector<std::shared_ptr<const ChunkBeams>> seen = shareBeams(chunks);
   urban_nav_core::forEach(candidates.size(), kCandidatesPerTask, [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     for (std::size_t c = 0; c < chunks.size(); ++c) {

@@ -69,7 +69,7 @@ class GhostFinder {
   /// Counts for each candidate what the beams of the chunks say of it.
   void lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
                  std::vector<Candidate>& candidates);
-  std::vector<std::shared_ptr<const ChunkBeams>> beamsOf(const std::vector<std::size_t>& chunks);
+  std::vector<std::shared_ptr<const ChunkBeams>> shareBeams(const std::vector<std::size_t>& chunks);
   bool isApart(std::size_t a, std::size_t b) const;
 
   const Parameters& parameters_;

@@ -58,6 +58,23 @@ struct Drive {
   Trajectory trajectory;
 };
 
+/// Puts the scans of a bag into the store, beside the drives before it. Returns its length, m.
+double addDrive(const std::string& bag, Store& store, std::vector<Drive>& drives) {
+  char id[21];
+  std::snprintf(id, sizeof(id), "%020zu", drives.size() + 1);
+  putLaserSession(bag, id, "drive" + std::to_string(drives.size() + 1), store);
+  const Pose place(urban_nav_core::Quaterniond::Identity(), {kApart * static_cast<double>(drives.size()), 0.0, 0.0});
+  Drive drive{id, {}};
+  double length = 0.0;
+  const Trajectory truth = trueTrajectory(bag);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    drive.trajectory.append(truth[i].stamp, place * truth[i].pose);
+    if (i > 0) length += (truth[i].pose.t() - truth[i - 1].pose.t()).norm();
+  }
+  drives.push_back(std::move(drive));
+  return length;
+}
+
 struct Made {
   laser_mapper::RenderStatistics rendered;
   double seconds = 0.0, processor_s = 0.0, bytes = 0.0;
@@ -109,26 +126,13 @@ int main(int argc, char** argv) {
   const std::string store_path = (folder / "urban_nav_map_size.db").string();
   const std::string map_path = (folder / "urban_nav_map_size.ply").string();
   urban_nav_store::removeStore(store_path);
-  double length = 0.0, beams = 0.0;
+  double length = 0.0;
   {
     Store store(store_path, urban_nav_store::Access::Write);
     std::vector<Drive> drives;
-    for (const std::string& bag : bags) {
-      char id[21];
-      std::snprintf(id, sizeof(id), "%020zu", drives.size() + 1);
-      putLaserSession(bag, id, "drive" + std::to_string(drives.size() + 1), store);
-      const Pose place(urban_nav_core::Quaterniond::Identity(),
-                       {kApart * static_cast<double>(drives.size()), 0.0, 0.0});
-      Drive drive{id, {}};
-      const Trajectory truth = trueTrajectory(bag);
-      for (std::size_t i = 0; i < truth.size(); ++i) {
-        drive.trajectory.append(truth[i].stamp, place * truth[i].pose);
-        if (i > 0) length += (truth[i].pose.t() - truth[i - 1].pose.t()).norm();
-      }
-      drives.push_back(std::move(drive));
-    }
+    for (const std::string& bag : bags) length += addDrive(bag, store, drives);
     const auto add = [&](const std::string& name, const Made& made) {
-      beams = static_cast<double>(made.rendered.beams.all);
+      const double beams = static_cast<double>(made.rendered.beams.all);
       const double share =
           static_cast<double>(made.rendered.chunks_rendered) / static_cast<double>(made.rendered.chunks);
       table.add({name, cell(1e-6 * beams, 1), std::to_string(made.rendered.chunks),

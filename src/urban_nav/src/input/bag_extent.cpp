@@ -23,11 +23,11 @@ constexpr StampNs kLongestSplitNs = static_cast<StampNs>(1e9 * kLongestSplit);
 // A recorder that is started again before the one before it has ended records a little twice.
 constexpr StampNs kMostTwice = 1'000'000'000;  // ns
 
-BagExtent::Span receiptsOf(rosbag::View& view) {
+BagExtent::Span readReceipts(rosbag::View& view) {
   return {urban_nav_ros::toStampNs(view.getBeginTime()), urban_nav_ros::toStampNs(view.getEndTime())};
 }
 
-BagExtent::Span stampsOf(rosbag::View& view) {
+BagExtent::Span readStamps(rosbag::View& view) {
   auto last = view.begin();
   for (auto each = view.begin(); each != view.end(); ++each) last = each;
   return {readHeaderStamp(*view.begin()), readHeaderStamp(*last)};
@@ -56,8 +56,8 @@ BagExtent computeExtent(const std::string& path) {
     if (view.size() == 0) throw DataError(path, "holds no messages", "");
     BagExtent extent;
     extent.path = path;
-    extent.receipts = receiptsOf(view);
-    extent.by_stamps = useImages(bag, extent, stampsOf);
+    extent.receipts = readReceipts(view);
+    extent.by_stamps = useImages(bag, extent, readStamps);
     return extent;
   } catch (const rosbag::BagUnindexedException&) {
     throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
@@ -93,7 +93,7 @@ std::vector<BagExtent> findExtents(const std::vector<std::string>& paths) {
     extent.span = extent.receipts;
     if (!by_stamps) {
       rosbag::Bag bag(extent.path, rosbag::bagmode::Read);
-      useImages(bag, extent, receiptsOf);
+      useImages(bag, extent, readReceipts);
       continue;
     }
     extent.span = extent.images.begin()->second;
