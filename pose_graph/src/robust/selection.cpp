@@ -324,7 +324,9 @@ class Selection {
     if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
     else if (!maySlip(scaled, proposed_roles_, best_.hypothesis.in, considered, best_.hypothesis.poses)) return;
     if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
-    // From odometry as it is, a slip that closures nearby seem to bear out is not found.
+    // From odometry as it is, a slip that closures nearby seem to bear out is not found. What is no more than chance
+    // refutes nothing.
+    if (evidence() < kDecisive) return;
     std::vector<char> in = best_.hypothesis.in;
     in.resize(proposed_roles_.size(), 1);
     const std::vector<char> doubted = mostRefuted(scaled, proposed_roles_, in, considered);
@@ -365,7 +367,7 @@ class Selection {
         try_with(factors);
     regrow();
     // Where variances were stated too large, a slip stands out only now.
-    if (slips_.empty() && !areAlike(best_.grown_with, {})) heal(best_.grown_with);
+    if (slips_.empty() && evidence() >= kDecisive && !areAlike(best_.grown_with, {})) heal(best_.grown_with);
   }
 
   // Whether the best set explains far more than chance, with variances near those stated.
