@@ -319,16 +319,17 @@ class Selection {
   // Looks for slips where variances are those of the best set, and proposes what follows, with these factors.
   void heal(const VarianceFactors& factors) {
     const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
+    std::vector<char> in = best_.hypothesis.in;
+    in.resize(proposed_roles_.size(), 1);
+    if (rejected(best_.judgement) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
     std::vector<char> considered = considerWitnessed(scaled), all(scaled.edges.size(), 1);
     const AcceptedGraph<D> graph(scaled);
     if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
-    else if (!maySlip(scaled, proposed_roles_, best_.hypothesis.in, considered, best_.hypothesis.poses)) return;
+    else if (!maySlip(scaled, proposed_roles_, in, considered, best_.hypothesis.poses)) return;
     if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
     // From odometry as it is, a slip that closures nearby seem to bear out is not found. What is no more than chance
     // refutes nothing.
     if (evidence() < kDecisive) return;
-    std::vector<char> in = best_.hypothesis.in;
-    in.resize(proposed_roles_.size(), 1);
     const std::vector<char> doubted = mostRefuted(scaled, proposed_roles_, in, considered);
     if (!doubted.empty())
       proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, doubted, odometry_.poses), factors);

@@ -21,6 +21,7 @@ constexpr double kCauchyShare = 1e-4;  // ends where the weights hardly change t
 // Chi-square of a slip, in units of its degrees of freedom and of the middle one of all steps: what ordinary errors of
 // odometry reach lies far below.
 constexpr double kSlipSquare = 100.0;
+constexpr double kMaySquare = 25.0;  // of one that is worth looking for: those that bent the graph until it fits
 constexpr std::size_t kMostSlips = 20;
 // A step stands out from all others if the few that it is most alike are that much farther from it than those of any
 // other step that would explain the slip as well are from that one.
@@ -124,9 +125,9 @@ double squareOver(const WhitenedEdge<D>& edge, const std::vector<Rigid<D>>& pose
   return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm() / std::max(1, edge.rank);
 }
 
-// From which a step has slipped.
+// `least` times the middle one of all steps.
 template <int D>
-double slipLimit(const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& edges,
+double slipLimit(double least, const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& edges,
                  const std::vector<Rigid<D>>& poses) {
   std::vector<double> squares;
   for (std::size_t e = 0; e < edges.size(); ++e)
@@ -134,7 +135,7 @@ double slipLimit(const std::vector<EdgeRole>& roles, const std::vector<WhitenedE
   if (squares.empty()) return std::numeric_limits<double>::infinity();
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
-  return kSlipSquare * std::max(1.0, *middle);
+  return least * std::max(1.0, *middle);
 }
 
 // By pose: of the closures that span the step from it to the next, how many more are outside than inside.
@@ -158,7 +159,7 @@ template <int D>
 bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
              const std::vector<char>& considered, const std::vector<Rigid<D>>& poses) {
   const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
-  const double limit = slipLimit(roles, edges, poses);
+  const double limit = slipLimit(kMaySquare, roles, edges, poses);
   for (std::size_t e = 0; e < in.size(); ++e)
     if (roles[e] == EdgeRole::Trusted && squareOver(edges[e], poses) > limit) return true;
   const std::vector<int> against = countRefuting(problem, roles, in, considered);
@@ -207,7 +208,7 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
     graph.relax(poses, 1, 0.0, false);
   }
   std::vector<Slip<D>> made;
-  const double limit = slipLimit(roles, edges, poses);
+  const double limit = slipLimit(kSlipSquare, roles, edges, poses);
   const Steps<D> steps(problem, roles, edges, weights);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (roles[e] != EdgeRole::Trusted || !(squareOver(edges[e], poses) > limit)) continue;

@@ -14,7 +14,7 @@ struct Slip {
   Rigid<D> T_from_to;
 };
 
-/// Whether a step of odometry may have slipped, as a set of edges that is relaxed shows it: it is far outside its
+/// Whether a step of odometry may have slipped, as a set of edges that is relaxed shows it: it is outside its
 /// covariance there, or more of the closures that span it are outside the set than inside. Only those of `considered`
 /// count.
 template <int D>
