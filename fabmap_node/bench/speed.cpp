@@ -19,7 +19,6 @@
 #include <string>
 #include <vector>
 
-#include "fabmap_node/fab_map.hpp"
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "fabmap_node/recognition/place_describer.hpp"
@@ -27,6 +26,7 @@
 #include "fabmap_node/retrieval/keyframe_places.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "fabmap_node/store/place_sessions.hpp"
+#include "live/live_places.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/processor_time.hpp"
@@ -192,31 +192,29 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
   return memory;
 }
 
+/// Writes a store with one session whose places are `descriptions` in turns.
+void writeStoredPlaces(const std::string& path, const std::vector<PlaceDescription>& descriptions, std::size_t count) {
+  urban_nav_store::Store store(path, urban_nav_store::Access::Write);
+  const auto visitAll = [&](const PlaceVisitor& visit) {
+    for (std::size_t i = 0; i < count; ++i)
+      visit({static_cast<urban_nav_core::StampNs>(i + 1), descriptions[i % descriptions.size()]});
+  };
+  writePlaces(store, {"s", "day", "", "", 0, true}, visitAll, std::string(defaultModelBytes()));
+  store.commit();
+}
+
 /// What the nodelet does when it starts with a store: all places are read and indexed.
-void addStoredPlaces(const PlaceModel& model, const std::vector<PlaceDescription>& descriptions, BenchTable& table) {
-  constexpr std::size_t count = 10000;
+void addStoredPlaces(const std::vector<PlaceDescription>& descriptions, std::size_t count, BenchTable& table) {
   std::string folder = (std::filesystem::temp_directory_path() / "places_speed_XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr) return;
+  writeStoredPlaces(folder + "/places.db", descriptions, count);
   {
-    PlaceSession session{{"s", "day", "", "", 0, true}, {}};
-    for (std::size_t i = 0; i < count; ++i)
-      session.places.push_back({static_cast<urban_nav_core::StampNs>(i + 1), descriptions[i % descriptions.size()]});
-    urban_nav_store::Store store(folder + "/places.db", urban_nav_store::Access::Write);
-    writePlaces(store, {session}, std::string(defaultModelBytes()));
-    store.commit();
-  }
-  {
-    const std::string hash = modelHash(defaultModelBytes());
+    LivePlaces places(Parameters(), {}, folder + "/places.db");
     const double before = heapKb(), begin = threadMs();
-    urban_nav_store::Store store(folder + "/places.db", urban_nav_store::Access::Read);
-    FabMap map(model, {});
-    for (const PlaceSession& session : readPlaces(store, hash, model.vocabulary.size()).sessions) {
-      map.beginSession(session.session.id);
-      for (const MapPlace& place : session.places) map.addPlace(place.stamp, place.description, place.travelled);
-    }
+    places.syncStore();
     const double ms = threadMs() - begin;
     table.add({"places of a store read and indexed, live",
-               std::to_string(map.places()) + ", " + cell((heapKb() - before) / static_cast<double>(map.places()), 0) +
+               std::to_string(count) + ", " + cell((heapKb() - before) / static_cast<double>(count), 2) +
                    " kB of memory each",
                cell(ms, 0)});
   }
@@ -274,7 +272,8 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};
   table.add({"match of a panorama, all in one", std::to_string(map_places) + " places",
              cell(medianMs(15, [&] { matcher.match(query, [](std::size_t) { return true; }); }), 1)});
-  addStoredPlaces(model, descriptions, table);
+  for (const std::size_t places : {std::size_t{10'000}, std::size_t{100'000}})
+    addStoredPlaces(descriptions, places, table);
   addLargeMaps(model, descriptions, table);
 }
 

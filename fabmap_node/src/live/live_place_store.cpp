@@ -17,24 +17,21 @@ using urban_nav_store::StoredModel;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
 
-LivePlaceStore::LivePlaceStore(std::string path, const std::string& model_bytes, std::size_t vocabulary_size,
+LivePlaceStore::LivePlaceStore(std::string path, const std::string& model_bytes,
                                urban_nav_live::StoreWriterLink::Options options)
     : is_wanted_(!path.empty()),
       model_bytes_(model_bytes),
       model_hash_(modelHash(model_bytes)),
-      vocabulary_size_(vocabulary_size),
       capacity_(options.writer.capacity),
       link_(std::move(path), std::move(options)) {}
 
 LivePlaceStore::~LivePlaceStore() { handOn(); }
 
-std::optional<StoredPlaces> LivePlaceStore::sync() {
-  StoredPlaces stored;
-  const bool is_new = link_.open([&](Store& store) { stored = readPlaces(store, model_hash_, vocabulary_size_); });
-  if (is_new)
-    for (const PlaceSession& each : stored.sessions) sessions_.insert(each.session.id);
+void LivePlaceStore::sync(const Reader& read) {
+  link_.open([&](Store& store) {
+    for (const Session& session : read(store)) sessions_.insert(session.id);
+  });
   handOn();
-  return is_new ? std::optional<StoredPlaces>(std::move(stored)) : std::nullopt;
 }
 
 void LivePlaceStore::handOn() {

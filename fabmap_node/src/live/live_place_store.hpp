@@ -2,11 +2,11 @@
 #pragma once
 
 #include <deque>
-#include <optional>
+#include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
-#include "fabmap_node/store/place_sessions.hpp"
 #include "urban_nav_live/store_writer_link.hpp"
 #include "urban_nav_store/tables/stored_place.hpp"
 
@@ -18,16 +18,18 @@ namespace fabmap_node {
 class LivePlaceStore {
  public:
   /// `path`: absolute; empty: nothing is stored. `model_bytes`: the model whose words the places have.
-  LivePlaceStore(std::string path, const std::string& model_bytes, std::size_t vocabulary_size,
-                 urban_nav_live::StoreWriterLink::Options options);
+  LivePlaceStore(std::string path, const std::string& model_bytes, urban_nav_live::StoreWriterLink::Options options);
   /// Commits what can be committed.
   ~LivePlaceStore();
   LivePlaceStore(const LivePlaceStore&) = delete;
   LivePlaceStore& operator=(const LivePlaceStore&) = delete;
 
-  /// Opens the file when an attempt is due, and hands on what waits. Returns the places that the file had when it has
-  /// just been opened. To be called some ten times a second.
-  std::optional<StoredPlaces> sync();
+  /// Reads the places of a store. Returns the sessions that have some.
+  using Reader = std::function<std::vector<urban_nav_store::Session>(urban_nav_store::Store&)>;
+
+  /// Opens the file when an attempt is due, and hands on what waits. A file that has just been opened is read; what
+  /// `read` throws is a fault of the file. To be called some ten times a second.
+  void sync(const Reader& read);
   /// Writes a place, and before the first one of a session the session and its model.
   void put(const urban_nav_store::Session& session, urban_nav_store::StoredPlace place);
   /// Marks a session complete, if it has places here.
@@ -46,7 +48,7 @@ class LivePlaceStore {
 
   const bool is_wanted_;
   const std::string model_bytes_, model_hash_;
-  const std::size_t vocabulary_size_, capacity_;
+  const std::size_t capacity_;
   std::set<urban_nav_store::SessionId> sessions_;  // with places in the file, or on their way
   std::set<urban_nav_store::SessionId> begun_;     // by this process
   std::deque<urban_nav_store::LiveWriter::Write> waiting_;

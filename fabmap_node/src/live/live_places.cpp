@@ -20,7 +20,7 @@ std::string readNamedModel(const Parameters& parameters) {
 }
 
 /// Numbers are published: new ones are appended.
-enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2, NotStored = 3 };
+enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2, NotStored = 3, NotRead = 4 };
 
 // Time by stamps until a session without odometry is named after its first observation: visual odometry gives its first
 // pose within a window.
@@ -35,7 +35,7 @@ LivePlaces::LivePlaces(const Parameters& parameters, LiveSessionName name, const
       model_bytes_(readNamedModel(parameters)),
       model_(parseModel(model_bytes_, parameters.model)),
       describer_(model_, featureOptions(parameters), MatcherOptions().look_features),
-      store_(store, model_bytes_, model_.vocabulary.size(), std::move(store_options)),
+      store_(store, model_bytes_, std::move(store_options)),
       namer_(name_.robot) {
   reset();
 }
@@ -61,11 +61,15 @@ PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector
   nameSession(stamp);
   const PlaceDescription description = describer_.describe(images);
   const std::size_t places = map_->places();
+  unreadable_.clear();
   PlaceOutput output = map_->process(stamp, description, odometry_.travelled(stamp));
-  if (store_.isWanted() && map_->places() > places) {
-    urban_nav_store::StoredPlace row = toStoredPlace("", stamp, description, "");
-    row.thumbnail = placeThumbnail(images);
-    keep(std::move(row));
+  if (map_->places() > places) {
+    recorded_->add({stamp, description, odometry_.travelled(stamp)});
+    if (store_.isWanted()) {
+      urban_nav_store::StoredPlace row = toStoredPlace("", stamp, description, "");
+      row.thumbnail = placeThumbnail(images);
+      keep(std::move(row));
+    }
   }
   ++counts_.observations;
   counts_.unused += description.status != ObservationStatus::Used ? 1 : 0;
@@ -89,16 +93,10 @@ void LivePlaces::nameSession(urban_nav_core::StampNs now) {
 
 void LivePlaces::beginSession(urban_nav_core::StampNs start) {
   session_ = namer_.begin(name_.recording, start, resumable_).session;
-  const auto isThis = [this](const Session& other) { return other.id == session_->id; };
-  if (std::any_of(earlier_.begin(), earlier_.end(), isThis)) {  // recorded again: its places will be, too
-    std::vector<PlaceSession> sessions = placeSessions();
-    const PlaceSession recorded = std::move(sessions.back());
-    sessions.pop_back();
-    sessions.erase(std::remove_if(sessions.begin(), sessions.end(),
-                                  [&](const PlaceSession& each) { return isThis(each.session); }),
-                   sessions.end());
-    rebuildMap(sessions, recorded);
-  }
+  std::vector<ArchivedSession> others;
+  for (const ArchivedSession& each : earlier_)
+    if (each.session.id != session_->id) others.push_back(each);
+  if (others.size() < earlier_.size()) useMap(buildMap(others));  // recorded again: its places will be, too
   for (urban_nav_store::StoredPlace& place : std::exchange(unnamed_, {})) keep(std::move(place));
 }
 
@@ -107,17 +105,20 @@ void LivePlaces::endSession() {
   if (session_ && first_observed_) {
     store_.end(*session_);
     map_->renameSession(session_->id);
-    earlier_.push_back(*session_);
+    earlier_.push_back({*session_, recorded_});
+    recorded_ = std::make_shared<RecordedPlaces>();
   }
   session_.reset();
   first_observed_.reset();
 }
 
 void LivePlaces::syncStore() {
-  std::optional<StoredPlaces> stored = store_.sync();
-  if (!stored) return;
-  for (const PlaceSession& each : stored->sessions) resumable_.push_back(each.session);
-  if (!stored->sessions.empty()) addSessions(std::move(stored->sessions));
+  store_.sync([this](urban_nav_store::Store& store) -> std::vector<Session> {
+    if (store.sessions().all().empty()) return {};
+    const Added added = addSessions(store.path());
+    resumable_.insert(resumable_.end(), added.sessions.begin(), added.sessions.end());
+    return added.sessions;
+  });
 }
 
 void LivePlaces::reset() {
@@ -125,9 +126,9 @@ void LivePlaces::reset() {
   if (store_.isWanted())
     for (const Session& session : resumable_) namer_.reserve(session.id);  // the store has them
   else namer_.clear();
-  map_ = std::make_unique<FabMap>(model_, parameters_);
-  map_->beginSession("");
   earlier_.clear();
+  recorded_ = std::make_shared<RecordedPlaces>();
+  useMap(buildMap({}));
   resumable_.clear();
   odometry_ = SessionOdometry();
   time_.reset();
@@ -150,6 +151,7 @@ urban_nav_live::StageReport LivePlaces::report() const {
     degrade(PlacesReason::CameraMissing, "CameraMissing", "a camera of the panorama gives no images");
   else if (const std::string fault = store_.state().fault; !fault.empty())
     degrade(PlacesReason::NotStored, "NotStored", "places are not stored: " + fault);
+  else if (!unreadable_.empty()) degrade(PlacesReason::NotRead, "NotRead", "places cannot be compared: " + unreadable_);
   report.is_error = !store_.state().fault.empty();
   report.summary = report.status.health == Health::Ok
                        ? std::string(toString(last_.knowledge)) + ", " + std::to_string(map_->places()) + " places"

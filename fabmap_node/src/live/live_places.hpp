@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fabmap_node/fab_map.hpp"
-#include "fabmap_node/store/place_sessions.hpp"
 #include "live/live_place_store.hpp"
+#include "live/place_archive.hpp"
 #include "live/session_odometry.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_live/session_namer.hpp"
@@ -27,7 +27,8 @@ struct LiveSessionName {
 /// Place recognition of a live robot, free of ROS. The session that is being recorded is unnamed in closures; earlier
 /// ones have the ids of their stores. Ids are those of urban_nav_live::SessionNamer: the session begins with its first
 /// pose of odometry, or, without one for 10 s, with its first observation. Observations whose stamps jump back begin
-/// the next session. Not thread-safe.
+/// the next session. Descriptors of places are read from the stores they come from, those of places that are being
+/// recorded from a temporary file. Not thread-safe.
 class LivePlaces {
  public:
   /// `store`: absolute path of the file to which places are written while they are observed, and whose places are
@@ -65,7 +66,15 @@ class LivePlaces {
     std::int64_t observations = 0, unused = 0, incomplete = 0, known = 0, closures = 0;
   };
   struct Added {
-    std::size_t sessions = 0, known = 0, places = 0;
+    std::vector<urban_nav_store::Session> sessions;  ///< in the map now, or before
+    std::size_t known = 0, places = 0;               ///< sessions in the map before, places that were not
+    std::size_t other_model = 0;                     ///< places left out
+  };
+  /// Map whose last session is being recorded.
+  struct BuiltMap {
+    std::unique_ptr<FabMap> map;
+    std::vector<ArchivedSession> earlier;  ///< its sessions before
+    std::size_t other_model = 0;           ///< places left out
   };
 
   /// Names the session once it is known when it began.
@@ -74,11 +83,18 @@ class LivePlaces {
   /// Names the session, if it has places, and marks it complete.
   void endSession();
   void keep(urban_nav_store::StoredPlace place);
-  /// Returns the places of the map by session; the last one is being recorded.
-  std::vector<PlaceSession> placeSessions() const;
-  void rebuildMap(const std::vector<PlaceSession>& earlier, const PlaceSession& recorded);
-  /// Adds sessions that are not in the map yet as earlier ones.
-  Added addSessions(std::vector<PlaceSession> stored);
+  std::unique_ptr<FabMap> emptyMap();
+  /// Returns a map of those earlier sessions that have places, and of what was recorded.
+  BuiltMap buildMap(const std::vector<ArchivedSession>& earlier);
+  void useMap(BuiltMap built);
+  /// Reads the descriptors of a place of the map; what cannot be read agrees with nothing, and is reported.
+  std::string readLook(std::size_t session, urban_nav_core::StampNs stamp);
+  /// Returns the name that the session that is being recorded has, or would have if it were saved.
+  urban_nav_store::Session recordedSession() const;
+  /// Returns the sessions with places that are not in the store.
+  std::vector<ArchivedSession> unstoredSessions() const;
+  /// Adds the sessions of a store that are not in the map yet as earlier ones.
+  Added addSessions(const std::string& path);
 
   const Parameters parameters_;
   const LiveSessionName name_;
@@ -88,16 +104,18 @@ class LivePlaces {
   LivePlaceStore store_;
   std::unique_ptr<FabMap> map_;
   urban_nav_live::SessionNamer namer_;
-  std::vector<urban_nav_store::Session> earlier_;    // sessions before the one that is being recorded, as in the map
+  std::vector<ArchivedSession> earlier_;             // sessions before the one that is being recorded, as in the map
   std::vector<urban_nav_store::Session> resumable_;  // those of the store when it was opened
   // Of the session that is being recorded.
   std::optional<urban_nav_store::Session> session_;  // nullopt: not named yet
+  std::shared_ptr<RecordedPlaces> recorded_;
   SessionOdometry odometry_;
   urban_nav_live::TimeJumpDetector time_;                  // of observations
   std::optional<urban_nav_core::StampNs> first_observed_;  // nullopt: no observation yet
   std::vector<urban_nav_store::StoredPlace> unnamed_;      // places for the store, before it has a name
   Counts counts_;
   PlaceBelief last_;
+  std::string unreadable_;  // fault of the last descriptors that could not be read; empty: none
 };
 
 }  // namespace fabmap_node

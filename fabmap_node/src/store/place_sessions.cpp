@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fabmap_node/store/place_sessions.hpp"
 
+#include <algorithm>
+
 #include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/store/place_rows.hpp"
@@ -29,35 +31,49 @@ TravelledDistance travelledDistance(Store& store, const Session& session) {
 
 }  // namespace
 
+std::size_t forEachPlace(Store& store, const Session& session, const std::string& model_hash,
+                         std::size_t vocabulary_size, const PlaceVisitor& visit) {
+  std::size_t left_out = 0, visited = 0;
+  const TravelledDistance travelled = travelledDistance(store, session);
+  TableStore<StoredPlace>(store).forEach(session.id, [&](const StoredPlace& row) {
+    if (row.model != model_hash) {
+      ++left_out;
+      return;
+    }
+    const double distance =
+        travelled.empty() ? assumed_spacing * static_cast<double>(visited) : travelled.at(row.stamp);
+    ++visited;
+    visit({row.stamp, toPlaceDescription(row, vocabulary_size), distance});
+  });
+  return left_out;
+}
+
 StoredPlaces readPlaces(Store& store, const std::string& model_hash, std::size_t vocabulary_size) {
   StoredPlaces stored;
   for (const Session& session : store.sessions().all()) {
     PlaceSession read{session, {}};
-    const TravelledDistance travelled = travelledDistance(store, session);
-    TableStore<StoredPlace>(store).forEach(session.id, [&](const StoredPlace& row) {
-      if (row.model != model_hash) {
-        ++stored.other_model;
-        return;
-      }
-      const double distance =
-          travelled.empty() ? assumed_spacing * static_cast<double>(read.places.size()) : travelled.at(row.stamp);
-      read.places.push_back({row.stamp, toPlaceDescription(row, vocabulary_size), distance});
-    });
+    stored.other_model += forEachPlace(store, session, model_hash, vocabulary_size,
+                                       [&](const MapPlace& place) { read.places.push_back(place); });
     if (!read.places.empty()) stored.sessions.push_back(std::move(read));
   }
   return stored;
 }
 
-void writePlaces(Store& store, const std::vector<PlaceSession>& sessions, const std::string& model_bytes) {
+void writePlaces(Store& store, const Session& session, const std::function<void(const PlaceVisitor&)>& forEach,
+                 const std::string& model_bytes) {
   const std::string hash = modelHash(model_bytes);
-  TableStore<StoredModel> models(store);
+  store.sessions().put(session);
+  TableStore<StoredModel>(store).put({session.id, hash, "fabmap_node", model_bytes});
   TableStore<StoredPlace> rows(store);
-  for (const PlaceSession& each : sessions) {
-    store.sessions().put(each.session);
-    models.put({each.session.id, hash, "fabmap_node", model_bytes});
-    for (const MapPlace& place : each.places)
-      rows.put(toStoredPlace(each.session.id, place.stamp, place.description, hash));
-  }
+  forEach([&](const MapPlace& place) { rows.put(toStoredPlace(session.id, place.stamp, place.description, hash)); });
+}
+
+void writePlaces(Store& store, const std::vector<PlaceSession>& sessions, const std::string& model_bytes) {
+  for (const PlaceSession& each : sessions)
+    writePlaces(
+        store, each.session,
+        [&each](const PlaceVisitor& visit) { std::for_each(each.places.begin(), each.places.end(), visit); },
+        model_bytes);
 }
 
 }  // namespace fabmap_node

@@ -212,6 +212,22 @@ TEST_F(LivePlacesTest, SavesWhatWasLoadedBesideWhatIsStored) {
   EXPECT_EQ(sessions(path_).size(), 1u) << "the store has what it recorded";
 }
 
+TEST_F(LivePlacesTest, PlacesThatAStoreNoLongerHasAreReported) {
+  const std::string loaded = folder_.file("loaded.db");
+  drive(*begin(loaded), monday, 0, 3);
+  const std::vector<StoredPlace> all = rows(loaded, sessions(loaded)[0].id);
+  ASSERT_EQ(all.size(), 3u);
+  Store writer(loaded, Access::Write);
+  const auto places = begin("");
+  places->load(loaded);
+  drive(*places, tuesday, 0, 1);
+  EXPECT_EQ(places->report().reason_name, "None");
+  for (const StoredPlace& row : all) TableStore<StoredPlace>(writer).remove(row);
+  writer.commit();
+  drive(*places, tuesday + observation_period, 1, 2);
+  EXPECT_EQ(places->report().reason_name, "NotRead");
+}
+
 TEST_F(LivePlacesTest, SavesWithoutAStore) {
   const auto places = begin("");
   EXPECT_THROW(places->save(path_), urban_nav_core::UserError) << "nothing yet";

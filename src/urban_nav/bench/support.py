@@ -30,12 +30,14 @@ def simulated_bag(bag, world, seed, duration, *options):
     return bag
 
 
-def driven(folder, case):
-    """The bags of all days; what is there already is taken."""
+def driven(folder, case, sensors=SENSORS):
+    """The bags of all days but those without a duration; what is there already is taken."""
     world, seed, *days = case.split(":")
     bags = []
     for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
-        options = ("--day", day, "--sensors", SENSORS, *(("--route", route) if route else ()))
+        if not duration:
+            continue
+        options = ("--day", day, "--sensors", sensors, *(("--route", route) if route else ()))
         name = "_".join((f"{world}{seed}_day{day}", *((route,) if route else ())))
         bags.append(simulated_bag(folder / f"{name}.bag", world, seed, duration, *options))
     return bags
