@@ -5,6 +5,7 @@
 //   pose_graph-bench-robust_size [city] [town] [--poses N] [-o results/robust_size.json]
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -72,6 +73,7 @@ void addRow(BenchTable& table, const std::string& name, SimulatedGraph graph, st
   const Problem<D> clean = std::get<Problem<D>>(makeProblem(graph, deadReckoning(graph)));
   Solution<D> plain;
   const double plain_seconds = measureSeconds(1, [&] { plain = solve(clean, {}); });
+  std::fprintf(stderr, "%s: plain %.1f s\n", name.c_str(), plain_seconds);
   addFalseClosures(graph, FalseClosures::Random, wrong, kSizeSeed);
   const Problem<D> problem = std::get<Problem<D>>(makeProblem(graph, deadReckoning(graph)));
   const std::vector<EdgeRole> roles = rolesByNumbers(problem);

@@ -57,6 +57,9 @@ struct Solution {
   std::vector<Iteration> iterations;
   Ending ending = Ending::Converged;
   int components = 0;  ///< parts of the graph that no edge connects; each is relaxed in its own frame
+  /// Rotations end up far from what edges measure, so that there may be a better valley, and the graph is too large to
+  /// look for one.
+  bool may_be_tangled = false;
 };
 
 /// Cost of given poses. `weights`: a factor for each edge, or empty for ones.

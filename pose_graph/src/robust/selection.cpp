@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
+#include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
 #include "robust/admission_thresholds.hpp"
 #include "robust/consistent_groups.hpp"
@@ -222,6 +224,21 @@ class Selection {
     return made;
   }
 
+  // Whether what is accepted joins the two ends of each slip: where nothing does, nothing has refuted the step.
+  bool holdsWithout(const Judgement<D>& judged, const std::vector<Slip<D>>& slips) const {
+    std::vector<int> above(problem_.poses.size());
+    std::iota(above.begin(), above.end(), 0);
+    for (std::size_t e = 0; e < judged.edges.size(); ++e) {
+      if (!(judged.edges[e].weight > 0.0)) continue;
+      const int a = findRoot(above, problem_.edges[e].from), b = findRoot(above, problem_.edges[e].to);
+      above[sz(std::max(a, b))] = std::min(a, b);
+    }
+    return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
+      const Edge<D>& edge = problem_.edges[sz(slip.edge)];
+      return findRoot(above, edge.from) == findRoot(above, edge.to);
+    });
+  }
+
   // Judges the proposed graph with these factors; keeps what is better. Returns whether it was.
   bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false) {
     Proposal made;
@@ -240,7 +257,10 @@ class Selection {
     if (known && !forced) return false;
     judge_->judge(made.hypothesis);
     weighed_.emplace_back(made.hypothesis.log_evidence, made.hypothesis.in);
-    const bool likelier = made.hypothesis.log_evidence > best_.hypothesis.log_evidence;
+    const bool is_new_slip = slips.size() > best_.slips.size();
+    const bool likelier =
+        made.hypothesis.log_evidence > best_.hypothesis.log_evidence + (is_new_slip ? kDecisive : 0.0) &&
+        (!is_new_slip || holdsWithout(made.judgement, slips));
     if (likelier || forced) contract(made.hypothesis);
     if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
     best_ = std::move(made);

@@ -18,6 +18,9 @@ bool allFinite(const std::vector<Rigid<D>>& poses) {
                      [](const Rigid<D>& pose) { return pose.R.allFinite() && pose.t.allFinite(); });
 }
 
+// Beyond so many poses the search for another valley takes longer than anybody waits.
+constexpr std::size_t kMostUntangled = 100000;
+
 // What is turned by less everywhere is in the same valley: a knot turns some poses all the way round.
 constexpr double kSameValley = 1.0;
 
@@ -75,7 +78,12 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const st
   if (D == 2 && options.objective == Objective::G2o) options.objective = Objective::Geodesic;
   auto condensed = solveCondensed(problem, options, weights);
   const bool may_untangle = options.untangle && options.start == Start::Auto;
-  if (condensed && !(may_untangle && isTangled(problem, weights, condensed->poses))) return *std::move(condensed);
+  const bool is_large = problem.poses.size() > kMostUntangled;
+  if (condensed) {
+    const bool is_tangled = may_untangle && isTangled(problem, weights, condensed->poses);
+    condensed->may_be_tangled = is_tangled && is_large;
+    if (!is_tangled || is_large) return *std::move(condensed);
+  }
   NormalEquations<D> equations(problem);
   BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
   Solution<D> made;
@@ -88,8 +96,10 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const st
   made.cost = descent.cost;
   made.iterations = std::move(descent.iterations);
   made.ending = descent.ending;
-  if (may_untangle && made.ending != Ending::Stopped && isTangled(problem, weights, made.poses))
-    untangle(equations, cholesky, problem, options, weights, made);
+  if (may_untangle && made.ending != Ending::Stopped && isTangled(problem, weights, made.poses)) {
+    if (is_large) made.may_be_tangled = true;
+    else untangle(equations, cholesky, problem, options, weights, made);
+  }
   if (condensed && condensed->cost < made.cost) return *std::move(condensed);
   return made;
 }

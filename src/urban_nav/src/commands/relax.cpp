@@ -176,6 +176,10 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
   report.after = computeCosts(file.problem, solution.poses);
   if (solution.components > 1)
     warnings.add(std::to_string(solution.components) + " parts that no edge connects; each stays in its own frame");
+  if (solution.may_be_tangled)
+    warnings.add(
+        "rotations end up far from what edges measure: there may be a better minimum, which is looked for in "
+        "smaller graphs only");
   // A tree contradicts nothing.
   if (!doubted || file.problem.edges.size() + static_cast<std::size_t>(std::max(solution.components, 1)) <=
                       file.problem.poses.size())
