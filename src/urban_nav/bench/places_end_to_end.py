@@ -14,7 +14,6 @@ FOLDER/NAME/stretches.csv says of each stretch what was proposed and accepted.
 import argparse
 import csv
 import json
-import resource
 from collections import Counter, defaultdict
 from pathlib import Path
 
@@ -29,10 +28,10 @@ from truth import inverse
 SENSORS = "stereo,ladybug,lasers,imu,wheels"
 FOUND = ("--stages", "vo,places,loops,graph")
 WAYS = {"found": FOUND, "stereo": FOUND, "given": ("--stages", "vo,loops,graph"), "odometry": ("--stages", "vo,graph")}
-COLUMNS = ("world, seed", "days", "way", "driven, m", "sessions in one map", "closures proposed", "accepted", "of these false", "largest error, m", "stretches connected", "revisited poses near a closure",
-           "odometry, rms, m", "relaxed, rms, m", "processor, ms for each s of data")
+COLUMNS = ("world, seed", "days", "way", "driven, m", "sessions in one map", "closures accepted", "false ones", "largest error, m", "stretches connected", "revisited poses near one", "odometry, rms, m",
+           "relaxed, rms, m", "processor, ms for each s of data")
 STRETCH_COLUMNS = ("session", "stretch", "to_session", "looks", "proposed_right", "proposed_wrong", "accepted", "false")
-STEREO_TOPICS = ("/stereo", "/imu", "/wheel_odom", "/tf_static")
+STEREO_TOPICS = ("/stereo", "/imu", "/wheel_odom", "/tf_static", "/ground_truth")
 STRETCH_M = 10.0
 NEAR_M = 2.0
 FALSE_M = 0.5
@@ -112,9 +111,29 @@ def offered(true, drives, path):
     return path
 
 
-def processor_s():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+def mapped(case, way, bags, true, drives, work):
+    """The folder of a map; what is there already is taken."""
+    world, seed, *days = case.split(":")
+    out = work / "_".join((world + seed, *(day.replace("/", "_") for day in days), way))
+    if not (out / "summary.json").exists():
+        options = ("--closures", offered(true, drives, out.with_suffix(".csv"))) if way == "given" else ()
+        urban_nav("map", *bags, *WAYS[way], *options, "--out", out)
+    urban_nav("evaluate", "--truth", both_truths(bags, out.with_suffix(".tum")), "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
+    return out
+
+
+def errors_m(out, graph, joined):
+    """Of odometry, each day from its own first pose, and after relaxation: in one frame if there is one."""
+    days = graph["per_session"]
+    odometry, relaxed = (root_mean_square([day[key] for day in days], [day["frames"] for day in days]) for key in ("ate_m_odometry", "ate_m"))
+    if joined:
+        return f"{odometry:.3f}", f"{json.loads((out / 'errors.json').read_text())['ate_m']:.3f}"
+    return f"{odometry:.3f}", f"{relaxed:.3f} ({len(days)} frames)"
+
+
+def day_names(case):
+    parts = [(number, *day.partition("/")) for number, day in enumerate(case.split(":")[2:], 1) if day]
+    return " + ".join(f"day {number}, {duration} s" + (f" {route}" if route else "") for number, duration, _, route in parts)
 
 
 def row_of(case, way, arguments):
@@ -123,35 +142,25 @@ def row_of(case, way, arguments):
         bags = [by_stereo(bag, arguments.work) for bag in bags]
     drives = [Drive(bag) for bag in bags]
     true = closures.true_pairs(drives)
-    world, seed, *days = case.split(":")
-    out = arguments.work / "_".join((world + seed, *(day.replace("/", "_") for day in days), way))
-    options = ("--closures", offered(true, drives, out.with_suffix(".csv"))) if way == "given" else ()
-    begun = processor_s()
-    urban_nav("map", *bags, *WAYS[way], *options, "--overwrite", "--out", out)
-    used = processor_s() - begun
-    urban_nav("evaluate", "--truth", both_truths(bags, out.with_suffix(".tum")), "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
-    graph = json.loads((out / "summary.json").read_text())["pose_graph"]
+    out = mapped(case, way, bags, true, drives, arguments.work)
+    summary = json.loads((out / "summary.json").read_text())
+    graph = summary["pose_graph"]
     found = candidates(out / "closures.csv", drives) if (out / "closures.csv").exists() else []
     rows = stretch_rows(true, found, drives)
     with (out / "stretches.csv").open("w", newline="") as file:
         csv.writer(file).writerows((STRETCH_COLUMNS, *rows))
-    frames = [day["frames"] for day in graph["per_session"]]
-    odometry = root_mean_square([day["ate_m_odometry"] for day in graph["per_session"]], frames)
-    joined = graph["sessions_joined"] == len(drives)
-    relaxed = json.loads((out / "errors.json").read_text())["ate_m"] if joined else root_mean_square([day["ate_m"] for day in graph["per_session"]], frames)
     near, poses = near_closures(true, found, drives)
-    connected = sum(row[-2] > 0 for row in rows)
     seconds = sum(drive.truth.stamps[-1] - drive.truth.stamps[0] for drive in drives)
-    return [f"{world} {seed}", " + ".join(day.partition("/")[2] or "loops" for day in days if day), way, f"{sum(drive.travelled[-1] for drive in drives):.0f}",
-            f"{graph['sessions_joined']} of {len(drives)}", str(len(found)), str(sum(each.accepted for each in found)), str(sum(each.is_false for each in found)),
-            f"{max((each.error for each in found), default=0.0):.2f}", f"{connected} of {len(rows)}", f"{near / poses:.0%} of {poses}" if poses else "",
-            f"{odometry:.3f}", f"{relaxed:.3f}" + ("" if joined else f" ({len(drives)} frames)"), f"{1e3 * used / seconds:.0f}"]
+    return [" ".join(case.split(":")[:2]), day_names(case), way, f"{sum(drive.travelled[-1] for drive in drives):.0f}", f"{graph['sessions_joined']} of {len(drives)}",
+            f"{sum(each.accepted for each in found)} of {len(found)}", str(sum(each.is_false for each in found)), f"{max((each.error for each in found), default=0.0):.2f}",
+            f"{sum(row[-2] > 0 for row in rows)} of {len(rows)}", f"{near / poses:.0%} of {poses}" if poses else "", *errors_m(out, graph, graph["sessions_joined"] == len(drives)),
+            f"{1e3 * summary['cpu_s'] / seconds:.0f}"]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="for what is simulated; sessions that are there already are taken")
-    parser.add_argument("work", type=Path, help="for maps and copies")
+    parser.add_argument("work", type=Path, help="for maps and copies; those that are there already are taken")
     parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:SECONDS[/ROUTE], repeatable (default quad:7:300:300)")
     parser.add_argument("--way", action="append", choices=WAYS, help="repeatable (default: found, given)")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
