@@ -78,12 +78,13 @@ PlaceOutput FabMap::process(StampNs stamp, const PlaceDescription& description, 
   output.belief = decide(recognition);
   output.belief.at = {sessions_.back(), stamp};
   if (description.status == ObservationStatus::Used) travelled_.push_back(travelled);
-  if (recognition.match) {
-    const std::size_t earlier = recognition.match->place;
-    if (selector_.select({recogniser_.place(earlier).session, travelled_[earlier]}, {sessions_.size() - 1, travelled},
-                         recognition.probability))
-      output.closures.push_back({output.belief.likeliest.front().at, output.belief.at, recognition.probability});
-  }
+  const auto propose = [&](const PlaceMatch& match, double probability) {
+    const DescribedPlace& place = recogniser_.place(match.place);
+    if (selector_.select({place.session, travelled_[match.place]}, {sessions_.size() - 1, travelled}, probability))
+      output.closures.push_back({{sessions_[place.session], place.stamp}, output.belief.at, probability});
+  };
+  if (recognition.match) propose(*recognition.match, recognition.probability);
+  if (recognition.earlier) propose(*recognition.earlier, recognition.earlier_probability);
   last_belief_ = output.belief;
   return output;
 }

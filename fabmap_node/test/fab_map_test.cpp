@@ -90,6 +90,25 @@ TEST(FabMap, AnnouncesARevisitAndProposesItOnce) {
   }
 }
 
+TEST(FabMap, APlacePassedAgainOnOneDayIsProposedForAnotherDay) {
+  FabMap map(syntheticModel(), Parameters());
+  map.beginSession("monday");
+  for (std::uint32_t i = 0; i < 40; ++i) map.process(i * place_second, describeNumber(5000 + i, 0), 6.0 * i);
+  map.beginSession("tuesday");
+  const auto drive = [&map](std::uint32_t number, std::uint32_t noise, std::uint32_t i) {
+    return map.process((1000 + i) * place_second, describeNumber(number, noise), 6.0 * i);
+  };
+  for (std::uint32_t i = 0; i < 10; ++i) drive(5010 + i, 3, i);
+  for (std::uint32_t i = 10; i < 35; ++i) drive(9000 + i, 3, i);
+  const PlaceOutput output = drive(5012, 4, 35);
+  ASSERT_EQ(output.closures.size(), 2u);
+  EXPECT_EQ(output.closures[0].a.session, "tuesday");
+  EXPECT_EQ(output.closures[0].a.stamp, 1002 * place_second);
+  EXPECT_EQ(output.closures[1].a.session, "monday");
+  EXPECT_EQ(output.closures[1].a.stamp, 12 * place_second);
+  EXPECT_EQ(output.belief.likeliest.size(), 1u);
+}
+
 TEST(FabMap, StationaryRobotCountsOnce) {
   FabMap map(syntheticModel(), Parameters());
   map.beginSession("monday");

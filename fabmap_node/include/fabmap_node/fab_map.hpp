@@ -38,7 +38,9 @@ struct PlaceBelief {
 /// Belief after an observation, and the closures to be measured.
 struct PlaceOutput {
   PlaceBelief belief;
-  std::vector<urban_nav_core::TopologicalClosure> closures;  ///< a: the earlier place, b: the observation
+  /// a: the earlier place, b: the observation. If the likeliest place is of the same session, that of another one may
+  /// be proposed as well: a place that is passed again on one day connects to the other days, too.
+  std::vector<urban_nav_core::TopologicalClosure> closures;
 };
 
 /// Recognises places in the observations of one session after another (Newman et al. 2009, section 3), decides, and

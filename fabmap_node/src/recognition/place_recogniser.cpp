@@ -58,6 +58,11 @@ void PlaceRecogniser::judge(const std::vector<PlaceMatch>& matches, int cameras,
   const std::optional<PlaceCalibration>& sequence = model_.sequenceCalibration(cameras);
   result.match = matches.front();
   result.probability = alone.probability(result.match->evidence);
+  for (const PlaceMatch& match : matches) {
+    if (!match.beside_first) continue;
+    result.earlier = match;
+    result.earlier_probability = alone.probability(*match.beside_first);
+  }
   if (!options_.sequence || !sequence) return;
   std::vector<LocationHypothesis> hypotheses;
   for (const PlaceMatch& match : matches)

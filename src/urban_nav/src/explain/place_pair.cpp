@@ -103,7 +103,8 @@ std::string findReason(const PlacePair& pair) {
   const fabmap_node::PlaceComparison& comparison = *pair.comparison;
   if (!comparison.is_compared)
     return "the place is not among those most alike by words and a first look, which are compared in full";
-  if (!comparison.is_first) return "another place is more like the query: only the likeliest is proposed";
+  if (!comparison.is_first)
+    return "another place is more like the query: only the likeliest is proposed, and the likeliest of another session";
   if (pair.probability <= pair.closure_probability)
     return "the probability is not above " + forPerson(pair.closure_probability) + " (fabmap_node.closure_probability)";
   return "it is likely enough; the number of closures per metre and between two stretches is limited "
