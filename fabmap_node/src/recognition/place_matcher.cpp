@@ -111,7 +111,7 @@ bool PlaceMatcher::showSamePlace(const Candidate& best, const Candidate& other) 
 }
 
 PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
-                               double log_likelihood_new, bool leaves_out_same) const {
+                               double log_likelihood_new) const {
   const Candidate& one = candidates[which];
   PlaceMatch match;
   match.place = one.place;
@@ -121,7 +121,7 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
   double other_likelihood = -std::numeric_limits<double>::infinity(), other_share = 0.0;
   for (const Candidate& candidate : candidates) {
     if (!isElsewhere(one.place, candidate.place)) continue;
-    if (leaves_out_same && showSamePlace(one, candidate)) continue;
+    if (which == 0 && showSamePlace(one, candidate)) continue;
     other_likelihood = std::max(other_likelihood, candidate.log_likelihood);
     other_share = std::max(other_share, candidate.look.share);
   }
@@ -169,13 +169,7 @@ std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
   if (candidates.empty()) return {};
   const double at_new = logLikelihoodNew(query.words);
   std::vector<PlaceMatch> found;
-  for (std::size_t i = 0; i < candidates.size(); ++i) found.push_back(judge(query, candidates, i, at_new, i == 0));
-  if (found.front().session != query.session) return found;
-  const auto other = std::find_if(found.begin(), found.end(),
-                                  [&query](const PlaceMatch& match) { return match.session != query.session; });
-  if (other != found.end())
-    other->beside_first =
-        judge(query, candidates, static_cast<std::size_t>(other - found.begin()), at_new, true).evidence;
+  for (std::size_t i = 0; i < candidates.size(); ++i) found.push_back(judge(query, candidates, i, at_new));
   return found;
 }
 
@@ -195,8 +189,8 @@ PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t p
     found = candidates.end() - 1;
   }
   comparison.look = found->look;
-  const auto which = static_cast<std::size_t>(found - candidates.begin());
-  comparison.match = judge(query, candidates, which, logLikelihoodNew(query.words), which == 0);
+  comparison.match =
+      judge(query, candidates, static_cast<std::size_t>(found - candidates.begin()), logLikelihoodNew(query.words));
   comparison.rank_by_words = 1;
   for (std::size_t i = 0; i < likelihoods.size(); ++i) {
     if (!isCandidate(i)) continue;

@@ -40,6 +40,11 @@ PlaceRecognition PlaceRecogniser::process(urban_nav_core::StampNs stamp, const P
   });
   if (options_.sequence && options_.detects_stationary) followLook(description.look);
   if (!matches.empty()) judge(matches, description.cameras, result);
+  if (result.match && result.match->session == session_) {
+    result.earlier = matcher_.match(query, [&](std::size_t i) { return matcher_.place(i).session != session_; });
+    if (result.earlier)
+      result.earlier_probability = model_.calibration(description.cameras).probability(result.earlier->evidence);
+  }
   matcher_.add(std::move(query));
   return result;
 }
@@ -58,11 +63,6 @@ void PlaceRecogniser::judge(const std::vector<PlaceMatch>& matches, int cameras,
   const std::optional<PlaceCalibration>& sequence = model_.sequenceCalibration(cameras);
   result.match = matches.front();
   result.probability = alone.probability(result.match->evidence);
-  for (const PlaceMatch& match : matches) {
-    if (!match.beside_first) continue;
-    result.earlier = match;
-    result.earlier_probability = alone.probability(*match.beside_first);
-  }
   if (!options_.sequence || !sequence) return;
   std::vector<LocationHypothesis> hypotheses;
   for (const PlaceMatch& match : matches)

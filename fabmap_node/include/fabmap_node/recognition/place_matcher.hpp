@@ -39,9 +39,6 @@ struct PlaceMatch {
   double log_likelihood_new = 0.0;  ///< at a new place, nats
   int agreeing = 0;                 ///< of the second look
   PlaceEvidence evidence;
-  /// Set of the best match of another session if the first match is of the query's own: margins leave out places that
-  /// show the same as this one, as those of the first match do.
-  std::optional<PlaceEvidence> beside_first;
 };
 
 /// One place held against a query, whether or not a search would compare it.
@@ -98,7 +95,7 @@ class PlaceMatcher {
   double logLikelihoodNew(const WordSet& query) const;
   void compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
-                   double log_likelihood_new, bool leaves_out_same) const;
+                   double log_likelihood_new) const;
   bool showSamePlace(const Candidate& best, const Candidate& other) const;
   std::string packedLook(std::size_t place) const;
   LookFeatures look(std::size_t place) const;

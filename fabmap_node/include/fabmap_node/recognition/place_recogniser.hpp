@@ -24,7 +24,7 @@ struct PlaceRecognition {
   std::size_t words = 0;            ///< different words of the observation
   std::optional<PlaceMatch> match;  ///< nullopt if there is no earlier place
   double probability = 0.0;         ///< that `match` shows the same place
-  /// Best match of another session, if `match` is of the session of the observation, which shows the place in the same
+  /// Match in other sessions alone, if `match` is of the session of the observation, which shows places in the same
   /// light.
   std::optional<PlaceMatch> earlier;
   double earlier_probability = 0.0;  ///< that `earlier` shows the same place
