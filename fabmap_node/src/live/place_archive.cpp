@@ -7,10 +7,15 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_place.hpp"
 
 namespace fabmap_node {
 
