@@ -100,12 +100,6 @@ void add(Pool& pool, const Sequence& sequence, const Run& run, const PerOffset* 
     }
 }
 
-std::string poolName(const std::string& sequence) {
-  const auto last = sequence.find_last_not_of("0123456789_");
-  const std::string name = sequence.substr(0, last == std::string::npos ? 0 : last + 1);
-  return name.size() + 3 < sequence.size() || name.empty() ? sequence : name;
-}
-
 std::vector<std::string> row(const std::string& name, const Pool& pool, const std::string& covariance,
                              std::size_t part) {
   const bool moved = part == 0;

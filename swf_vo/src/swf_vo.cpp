@@ -36,7 +36,7 @@ constexpr double astray_periods = 3.5;
 constexpr int landmarks_per_feature = 4;
 
 constexpr const char* state_name = "swf_vo";
-constexpr std::uint32_t state_version = 4;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t state_version = 5;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;

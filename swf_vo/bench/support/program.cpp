@@ -14,6 +14,12 @@ std::vector<std::string> orRealSequences(std::vector<std::string> folders) {
   return folders;
 }
 
+std::string poolName(const std::string& sequence) {
+  const auto last = sequence.find_last_not_of("0123456789_");
+  const std::string name = sequence.substr(0, last == std::string::npos ? 0 : last + 1);
+  return name.size() + 3 < sequence.size() || name.empty() ? sequence : name;
+}
+
 FoldersAndOutput foldersAndOutput(int argc, char** argv) {
   FoldersAndOutput asked;
   for (int i = 1; i < argc; ++i) {

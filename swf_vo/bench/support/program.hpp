@@ -12,6 +12,9 @@ namespace swf_vo::bench {
 /// Folders in KITTI's layout as they were named; where none was, those of the real sequences that are there.
 std::vector<std::string> orRealSequences(std::vector<std::string> folders);
 
+/// Name under which sequences that differ in up to three last digits are counted together.
+std::string poolName(const std::string& sequence);
+
 /// The command line `[FOLDER...] [-o FILE]`, with orRealSequences.
 struct FoldersAndOutput {
   std::vector<std::string> folders;

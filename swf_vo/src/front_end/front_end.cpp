@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "front_end/front_end.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -420,8 +421,9 @@ class FrontEnd::Implementation {
       loosen(slope_share * together * together * crept + std::min(track.blurred, longest_average) * displaced,
              std::min(track.seen, longest_average) * constant, match);
       const double inflation = match.inflation;
-      result_.tracked.push_back(
-          {track.id, frame, match.z, match.information / inflation, crept * inflation, sigma_px, inflation});
+      const Eigen::Matrix2d born_from_now = track.seen_as.inverse();
+      result_.tracked.push_back({track.id, frame, match.z, match.information / inflation,
+                                 inflation * born_from_now * crept * born_from_now.transpose(), sigma_px, inflation});
       track.missed = track.disagreed = track.aside = 0;
       track.z = match.z;
       return;

@@ -28,6 +28,12 @@ constexpr double same_blur = 0.05;    // px^2 of the level
 // that the blur makes.
 constexpr double blur_share = 0.3;
 constexpr double least_gain = 0.2, largest_gain = 5.0;
+// As the view changes, a template weighs its pixels anew, and what it stands for creeps over the surface, in both
+// images at once, so that disparities do not change. For a change of one its variance grows by this multiple of the
+// alignment's covariance and of creep_px^2: a patch of several depths fits worse and worse and creeps the most.
+// Measured in simulated streets (bench/template_drift); patches of one plane creep by half of that at most
+// (bench/creep).
+constexpr double creep_per_change = 4.0, creep_px = 0.03;
 
 }  // namespace
 
@@ -117,7 +123,8 @@ Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Mat
   if (!warp || !warp->A.allFinite() || !(std::abs(warp->A.determinant()) > 1e-3)) return Eigen::Matrix2d::Zero();
   const double change = (warp->A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
   track.seen_as = warp->A;
-  return change * track.creep;
+  const Eigen::Matrix2d& aligned = match.left.found ? match.left.covariance : match.right.covariance;
+  return change * creep_per_change * (aligned + creep_px * creep_px * Eigen::Matrix2d::Identity());
 }
 
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {

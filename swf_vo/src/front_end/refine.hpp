@@ -28,8 +28,8 @@ PixelMeasurement refine(Side side, const Corners& corners, const Track& track, c
 void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera,
                   const urban_nav_core::Pose& T_camera_odom, Match& match);
 
-/// By how much what the template stands for may have crept over its surface since it was last trusted
-/// (Observation::template_drift_covariance), by the change of the left view from then to T_camera_odom, which is noted.
+/// By how much what the template stands for may have crept over its surface since it was last trusted, px^2 in the view
+/// of now, by the change of the left view from then to T_camera_odom, which is noted (Track::seen_as).
 Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                       Match& match);
 

@@ -29,11 +29,6 @@ constexpr double least_disparity_px = -1.0;  // after refinement, level 0
 constexpr float level_preference = 0.3F;     // a feature is located to pixels of its own level
 constexpr double same_row = 1.0;             // px of the level between the rows of both images
 constexpr double least_correlation_across = 0.85;
-// As the view changes, a template weighs its pixels anew, and where it stands creeps: by the error it was born with
-// (its noise, and what the surface is beside a plane, creep_px), in variance, times this for a change of one. Measured
-// in rendered rooms at 1, 3 and 6 grey levels of noise (bench/creep), for u and v alike, in both images at once;
-// disparities do not creep.
-constexpr double creep_per_change = 2.75, creep_px = 0.026;
 // From here on a pixel says no more than "at least so bright"; cameras' tables and JPEG end a level or two early.
 constexpr std::uint8_t clipped_from = 254;
 constexpr int clipping_reach = 2;                                // px of the level
@@ -98,7 +93,6 @@ void describeTrack(const StereoCamera& camera, double floor_px, const Match& mat
       camera, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
   track.slant = found.seen.scaled(1.0 / camera.baseline);
   track.slant_reach = camera.baseline;
-  track.creep = creep_per_change * (match.left.covariance + creep_px * creep_px * Eigen::Matrix2d::Identity());
   track.sigma_disparity =
       std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px * floor_px);
   track.z = match.z;

@@ -69,7 +69,7 @@ void Tracks::end(LandmarkId id) {
 void archive(urban_nav_core::Archive& archive, Track& track) {
   archive(track.id, track.born, track.level, track.noise.squares, track.noise.coordinates);
   archive(track.seen, track.blurred, track.aside, track.missed, track.disagreed);
-  archive(track.T_born_odom, track.ray, track.plane, track.slant, track.slant_reach, track.seen_as, track.creep);
+  archive(track.T_born_odom, track.ray, track.plane, track.slant, track.slant_reach, track.seen_as);
   archive(track.sigma_disparity, track.z, track.information, track.measured, track.source);
   archive(track.left_ready, track.right_ready);
   if (track.left_ready) archive(track.in_left);

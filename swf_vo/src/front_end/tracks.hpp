@@ -36,8 +36,6 @@ struct Track {
   double slant_reach =
       0.0;  ///< how far the camera had moved, as far as the slant shows it, when it was last learnt (m)
   Eigen::Matrix2d seen_as = Eigen::Matrix2d::Identity();  ///< warp into the left image when it was last trusted
-  Eigen::Matrix2d creep =
-      Eigen::Matrix2d::Zero();   ///< what the template may creep by as the view changes by one, px^2 where it was born
   double sigma_disparity = 1.0;  ///< of the first observation, px
   Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< last trusted measurement: u_left, v, u_right (px)
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of that, by its alignments (1/px^2)
