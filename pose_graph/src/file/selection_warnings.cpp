@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -39,20 +38,18 @@ Rejections count(const std::vector<int>& edges, const FileProblem<D>& file, cons
 template <int D>
 void addUnjoined(const FileProblem<D>& file, const RobustSolution<D>& robust, std::vector<std::string>& warnings) {
   const std::vector<int> parts = sessionParts(file.problem, file.roles);
-  std::vector<int> above(parts.empty() ? 0 : sz(*std::max_element(parts.begin(), parts.end())) + 1);
-  std::iota(above.begin(), above.end(), 0);
-  const auto findPart = [&](int pose) { return findRoot(above, parts[sz(pose)]); };
+  DisjointSets joined(parts.size());
   std::vector<const Edge<D>*> left_out;
   for (std::size_t e = 0; e < file.roles.size(); ++e) {
     const Edge<D>& edge = file.problem.edges[e];
     if (file.roles[e] != EdgeRole::Candidate) continue;
     if (robust.edges[e].verdict == ClosureVerdict::Rejected) left_out.push_back(&edge);
-    else above[sz(findPart(edge.from))] = findPart(edge.to);
+    else joined.join(parts[sz(edge.from)], parts[sz(edge.to)]);
   }
   std::set<int> apart;
   std::size_t rejected = 0;
   for (const Edge<D>* edge : left_out) {
-    const int a = findPart(edge->from), b = findPart(edge->to);
+    const int a = joined.root(parts[sz(edge->from)]), b = joined.root(parts[sz(edge->to)]);
     if (a == b) continue;
     apart.insert({a, b});
     ++rejected;

@@ -1,17 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "linear/index.hpp"
 
 namespace pose_graph {
 
-/// Returns the root of the set that holds `i` (Tarjan 1975, path halving). `above[i]` is the parent of i, a root is its
-/// own parent; parents on the path are shortened. Two elements are in one set where their roots are equal.
-inline int findRoot(std::vector<int>& above, int i) {
-  while (above[sz(i)] != i) i = above[sz(i)] = above[sz(above[sz(i)])];
-  return i;
-}
+/// Disjoint sets of 0 ... n-1, each on its own at first (Tarjan 1975, path halving). The root of a set is its smallest
+/// element.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : above_(size) { std::iota(above_.begin(), above_.end(), 0); }
+
+  int size() const { return static_cast<int>(above_.size()); }
+
+  int root(int i) {
+    while (above_[sz(i)] != i) i = above_[sz(i)] = above_[sz(above_[sz(i)])];
+    return i;
+  }
+
+  bool areJoined(int a, int b) { return root(a) == root(b); }
+
+  /// Makes one set of two. Returns false if they were one before.
+  bool join(int a, int b) {
+    const auto [first, second] = std::minmax({root(a), root(b)});
+    above_[sz(second)] = first;
+    return first != second;
+  }
+
+ private:
+  std::vector<int> above_;  // a root is its own
+};
 
 }  // namespace pose_graph

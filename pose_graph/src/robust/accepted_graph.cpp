@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
@@ -53,15 +52,10 @@ bool AcceptedGraph<D>::canKeepPattern(const std::vector<char>& in) const {
     gone += in[e] != pattern_[e];
   }
   if (static_cast<double>(gone) > kGone * static_cast<double>(part_.edges.size())) return false;
-  std::vector<int> above(problem_->poses.size());
-  std::iota(above.begin(), above.end(), 0);
-  int components = static_cast<int>(above.size());
-  for (std::size_t e = 0; e < in.size(); ++e) {
-    if (!in[e]) continue;
-    const int a = findRoot(above, problem_->edges[e].from), b = findRoot(above, problem_->edges[e].to);
-    components -= a != b;
-    above[sz(std::max(a, b))] = std::min(a, b);
-  }
+  DisjointSets joined(problem_->poses.size());
+  int components = joined.size();
+  for (std::size_t e = 0; e < in.size(); ++e)
+    if (in[e] && joined.join(problem_->edges[e].from, problem_->edges[e].to)) --components;
   return components == equations_->unknowns().components;
 }
 

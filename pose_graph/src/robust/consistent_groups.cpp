@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
@@ -36,15 +35,14 @@ Thresholds::Thresholds(std::size_t candidates, int largest_dof) {
 template <int D>
 std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
                                   const Thresholds& thresholds) {
-  std::vector<int> above(edges);
-  std::iota(above.begin(), above.end(), 0);
+  DisjointSets joined(edges);
   for (std::size_t a = 0; a < closures.size(); ++a)
     closures.partners(a, kPartners, [&](std::size_t b) {
-      const int i = findRoot(above, closures.edge(a)), j = findRoot(above, closures.edge(b));
-      if (i != j && agree<D>(closures.loop(a, b), variance, thresholds)) above[sz(std::max(i, j))] = std::min(i, j);
+      if (!joined.areJoined(closures.edge(a), closures.edge(b)) && agree<D>(closures.loop(a, b), variance, thresholds))
+        joined.join(closures.edge(a), closures.edge(b));
     });
   std::vector<int> group(edges, -1);
-  for (std::size_t a = 0; a < closures.size(); ++a) group[sz(closures.edge(a))] = findRoot(above, closures.edge(a));
+  for (std::size_t a = 0; a < closures.size(); ++a) group[sz(closures.edge(a))] = joined.root(closures.edge(a));
   return group;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "linear/disjoint_sets.hpp"
@@ -85,14 +84,9 @@ std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem) {
     any = true;
   }
   if (any) return roles;
-  std::vector<int> above(problem.poses.size());
-  std::iota(above.begin(), above.end(), 0);
-  for (std::size_t e = 0; e < roles.size(); ++e) {
-    const int a = findRoot(above, problem.edges[e].from), b = findRoot(above, problem.edges[e].to);
-    if (a == b) continue;
-    above[sz(std::max(a, b))] = std::min(a, b);
-    roles[e] = EdgeRole::Trusted;
-  }
+  DisjointSets joined(problem.poses.size());
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    if (joined.join(problem.edges[e].from, problem.edges[e].to)) roles[e] = EdgeRole::Trusted;
   return roles;
 }
 

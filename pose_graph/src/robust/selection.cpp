@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -226,16 +225,12 @@ class Selection {
 
   // Whether what is accepted joins the two ends of each slip: where nothing does, nothing has refuted the step.
   bool holdsWithout(const Judgement<D>& judged, const std::vector<Slip<D>>& slips) const {
-    std::vector<int> above(problem_.poses.size());
-    std::iota(above.begin(), above.end(), 0);
-    for (std::size_t e = 0; e < judged.edges.size(); ++e) {
-      if (!(judged.edges[e].weight > 0.0)) continue;
-      const int a = findRoot(above, problem_.edges[e].from), b = findRoot(above, problem_.edges[e].to);
-      above[sz(std::max(a, b))] = std::min(a, b);
-    }
+    DisjointSets joined(problem_.poses.size());
+    for (std::size_t e = 0; e < judged.edges.size(); ++e)
+      if (judged.edges[e].weight > 0.0) joined.join(problem_.edges[e].from, problem_.edges[e].to);
     return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
       const Edge<D>& edge = problem_.edges[sz(slip.edge)];
-      return findRoot(above, edge.from) == findRoot(above, edge.to);
+      return joined.areJoined(edge.from, edge.to);
     });
   }
 

@@ -166,15 +166,13 @@ std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& agr
 
 template <int D>
 std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
-  std::vector<int> above(problem.poses.size());
-  std::iota(above.begin(), above.end(), 0);
+  DisjointSets parts(problem.poses.size());
   for (std::size_t e = 0; e < roles.size(); ++e) {
     if (roles[e] == EdgeRole::Candidate || problem.edges[e].information.isZero(0.0)) continue;
-    const int a = findRoot(above, problem.edges[e].from), b = findRoot(above, problem.edges[e].to);
-    above[sz(std::max(a, b))] = std::min(a, b);
+    parts.join(problem.edges[e].from, problem.edges[e].to);
   }
-  std::vector<int> part(above.size());
-  for (std::size_t i = 0; i < part.size(); ++i) part[i] = findRoot(above, static_cast<int>(i));
+  std::vector<int> part(problem.poses.size());
+  for (int i = 0; i < parts.size(); ++i) part[sz(i)] = parts.root(i);
   return part;
 }
 
@@ -182,40 +180,36 @@ template <int D>
 std::vector<SessionLink<D>> linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                          const std::vector<char>& in, const std::vector<Rigid<D>>& poses) {
   std::vector<SessionLink<D>> made;
-  std::vector<int> above(problem.poses.size());
-  std::iota(above.begin(), above.end(), 0);
+  DisjointSets sets(problem.poses.size());
   std::vector<double> weights(in.begin(), in.end());
-  for (std::size_t e = 0; e < in.size(); ++e) {
-    if (!in[e]) continue;
-    const int a = findRoot(above, problem.edges[e].from), b = findRoot(above, problem.edges[e].to);
-    if (a != b) above[sz(std::max(a, b))] = std::min(a, b);
-  }
+  for (std::size_t e = 0; e < in.size(); ++e)
+    if (in[e]) sets.join(problem.edges[e].from, problem.edges[e].to);
   std::map<std::pair<int, int>, std::vector<BetweenClosure>> between;
   for (std::size_t e = 0; e < in.size(); ++e) {
     if (roles[e] != EdgeRole::Candidate || in[e]) continue;
     const Edge<D>& edge = problem.edges[e];
-    const int a = findRoot(above, edge.from), b = findRoot(above, edge.to);
+    const int a = sets.root(edge.from), b = sets.root(edge.to);
     if (a == b) continue;
     between[{std::min(a, b), std::max(a, b)}].push_back(
         {static_cast<int>(e), a < b ? edge.from : edge.to, a < b ? edge.to : edge.from});
   }
   if (between.empty()) return made;
-  std::vector<int> part(above.size());
-  for (int i = 0; i < static_cast<int>(above.size()); ++i) part[sz(i)] = findRoot(above, i);
+  std::vector<int> part(problem.poses.size());
+  for (int i = 0; i < sets.size(); ++i) part[sz(i)] = sets.root(i);
   const Marginals<D> marginals(problem, poses, weights);
   const DeadReckoning<D> reckoning(problem, roles);
   std::vector<std::pair<std::size_t, std::pair<int, int>>> by_size;
   for (const auto& [parts, closures] : between) by_size.emplace_back(closures.size(), parts);
   std::stable_sort(by_size.begin(), by_size.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [all, parts] : by_size) {
-    if (findRoot(above, parts.first) == findRoot(above, parts.second) || all < kLeastLink) continue;
+    if (sets.areJoined(parts.first, parts.second) || all < kLeastLink) continue;
     std::vector<BetweenClosure> closures;
     const std::size_t every = 1 + all / kMostPerPair;
     for (std::size_t i = 0; i < all; i += every) closures.push_back(between[parts][i]);
     const std::size_t size = closures.size();
     PairwiseConsistency<D> consistency(problem, poses, marginals, reckoning.extent);
     std::vector<int> froms, tos;
-    for (int i = 0; i < static_cast<int>(above.size()); ++i) {
+    for (int i = 0; i < sets.size(); ++i) {
       if (part[sz(i)] == parts.first) froms.push_back(i);
       if (part[sz(i)] == parts.second) tos.push_back(i);
     }
@@ -232,8 +226,7 @@ std::vector<SessionLink<D>> linkSessions(const Problem<D>& problem, const std::v
     link.T_from_to = consistency.measured(first);
     for (const std::size_t i : set) link.closures.push_back(closures[i].edge);
     made.push_back(std::move(link));
-    const int a = findRoot(above, parts.first), b = findRoot(above, parts.second);
-    above[sz(std::max(a, b))] = std::min(a, b);
+    sets.join(parts.first, parts.second);
   }
   return made;
 }

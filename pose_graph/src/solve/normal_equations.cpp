@@ -2,7 +2,6 @@
 #include "solve/normal_equations.hpp"
 
 #include <Eigen/Core>
-#include <numeric>
 
 #include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
@@ -43,17 +42,13 @@ constexpr std::size_t kEdgeGrain = 4096;  // edges summed by one thread at a tim
 template <int D>
 Unknowns makeUnknowns(const Problem<D>& problem) {
   const int n = static_cast<int>(problem.poses.size());
-  std::vector<int> above(sz(n));
-  std::iota(above.begin(), above.end(), 0);
-  for (const Edge<D>& edge : problem.edges) {
-    const int a = findRoot(above, edge.from), b = findRoot(above, edge.to);
-    if (a != b) above[sz(std::max(a, b))] = std::min(a, b);  // the first pose of a component is its root
-  }
+  DisjointSets components(sz(n));
+  for (const Edge<D>& edge : problem.edges) components.join(edge.from, edge.to);
   Unknowns made;
   made.of_pose.assign(sz(n), -1);
   made.component.assign(sz(n), 0);
   for (int i = 0; i < n; ++i) {
-    const int root = findRoot(above, i);
+    const int root = components.root(i);  // the first pose of its component
     if (root == i) {
       made.component[sz(i)] = made.components++;
     } else {
