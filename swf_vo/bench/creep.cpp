@@ -31,8 +31,7 @@ using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::Scene;
 
 constexpr std::array<double, 6> limits = {0.05, 0.1, 0.2, 0.4, 0.8, 10.0};
-constexpr double rough_px =
-    0.026;  // what a surface is beside a plane: creep_px of the front end, added to the noise of the birth
+constexpr double rough_px = 0.026;  // what a surface is beside a plane, added to the noise of the birth
 
 /// Errors of mean u, v and disparity (px), with the variance that the template was born with (px^2).
 struct Error {

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "support/chain.hpp"
 #include "support/peer.hpp"
 #include "support/program.hpp"
 #include "support/run.hpp"
@@ -41,20 +42,6 @@ struct Pool {
   int sequences = 0;
   std::array<Sums, lags.size()> at;
 };
-
-urban_nav_core::OdometryChain makeChain(const Sequence& sequence, const Run& run) {
-  urban_nav_core::OdometryChain chain;
-  for (std::size_t i = 1; i < run.settled.size(); ++i) {
-    urban_nav_core::RelativePose step;
-    step.from = sequence.stamps[i - 1];
-    step.to = sequence.stamps[i];
-    step.T_from_to = run.settled[i - 1].inverse() * run.settled[i];
-    step.covariance = run.relative_covariance[i];
-    step.drift_covariance = run.drift_covariance[i];
-    chain.append(step);
-  }
-  return chain;
-}
 
 /// How T_{i,j} goes with the disparity offset, 1/px: two runs with constants.
 class PerOffset {
