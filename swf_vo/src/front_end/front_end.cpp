@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "front_end/front_end.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -421,9 +420,8 @@ class FrontEnd::Implementation {
       loosen(slope_share * together * together * crept + std::min(track.blurred, longest_average) * displaced,
              std::min(track.seen, longest_average) * constant, match);
       const double inflation = match.inflation;
-      const Eigen::Matrix2d born_from_now = track.seen_as.inverse();
       result_.tracked.push_back({track.id, frame, match.z, match.information / inflation,
-                                 inflation * born_from_now * crept * born_from_now.transpose(), sigma_px, inflation});
+                                 inflation * whereBorn(track, crept), sigma_px, inflation});
       track.missed = track.disagreed = track.aside = 0;
       track.z = match.z;
       return;

@@ -127,6 +127,11 @@ Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Mat
   return change * creep_per_change * (aligned + creep_px * creep_px * Eigen::Matrix2d::Identity());
 }
 
+Eigen::Matrix2d whereBorn(const Track& track, const Eigen::Matrix2d& covariance) {
+  const Eigen::Matrix2d born_from_now = track.seen_as.inverse();
+  return born_from_now * covariance * born_from_now.transpose();
+}
+
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {
   const Eigen::Vector2d& blur = in_left ? track.made_blur_left : track.made_blur_right;
   const PatchTemplate& made = in_left ? track.in_left : track.in_right;

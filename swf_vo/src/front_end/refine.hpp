@@ -33,6 +33,9 @@ void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& ca
 Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                       Match& match);
 
+/// A covariance in the left view of now (Track::seen_as), px^2, said of the view in which the track was born.
+Eigen::Matrix2d whereBorn(const Track& track, const Eigen::Matrix2d& covariance);
+
 /// What a sighting may be off by since the view is less sharp than where the track was born, px^2 of level 0: the
 /// template was blurred as well, but how exactly the camera does it is unknown.
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left);
