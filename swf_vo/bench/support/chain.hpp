@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/run.hpp"
+#include "run.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 
 namespace swf_vo::bench {
