@@ -2,6 +2,7 @@
 #include "robust/slips.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -16,7 +17,10 @@ namespace pose_graph {
 
 namespace {
 
-constexpr int kCauchyRounds = 100;
+// Rounds, as many as these multiplications allow: thousands of false closures that agree with each other make the
+// factor dense, and a hundred rounds would take minutes.
+constexpr double kCauchyWork = 2e11;
+constexpr int kFewestRounds = 12, kMostRounds = 100;
 constexpr double kCauchyShare = 1e-4;  // ends where the weights hardly change the cost any more
 // Chi-square of a slip, in units of its degrees of freedom and of the middle one of all steps: what ordinary errors of
 // odometry reach lies far below.
@@ -192,7 +196,10 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   std::vector<double> weights(edges.size(), 1.0);
   AcceptedGraph<D> graph(problem);
   double last = 0.0;
-  for (int round = 0; round < kCauchyRounds; ++round) {
+  const double work = graph.work(in) * std::pow(tangent_size<D>, 3);
+  const int rounds =
+      static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestRounds, kMostRounds));
+  for (int round = 0; round < rounds; ++round) {
     const bool is_doubted = round < kDoubtedRounds && !doubted.empty();
     double cost = 0.0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
