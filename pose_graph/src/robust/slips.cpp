@@ -20,7 +20,7 @@ namespace {
 // Rounds, as many as these multiplications allow: thousands of false closures that agree with each other make the
 // factor dense, and a hundred rounds would take minutes.
 constexpr double kCauchyWork = 2e11;
-constexpr int kFewestRounds = 12, kMostRounds = 100;
+constexpr int kFewestCauchyRounds = 12, kMostCauchyRounds = 100;
 constexpr double kCauchyShare = 1e-4;  // ends where the weights hardly change the cost any more
 // Chi-square of a slip, in units of its degrees of freedom and of the middle one of all steps: what ordinary errors of
 // odometry reach lies far below.
@@ -198,7 +198,7 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   double last = 0.0;
   const double work = graph.work(in) * std::pow(tangent_size<D>, 3);
   const int rounds =
-      static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestRounds, kMostRounds));
+      static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestCauchyRounds, kMostCauchyRounds));
   for (int round = 0; round < rounds; ++round) {
     const bool is_doubted = round < kDoubtedRounds && !doubted.empty();
     double cost = 0.0;
