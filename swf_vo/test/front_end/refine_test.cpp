@@ -90,5 +90,61 @@ TEST(InverseDepth, IsThatInTheFirstCamera) {
   EXPECT_EQ(inverseDepthWhereBorn(match), 0.0);
 }
 
+using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
+
+/// A wall 8 m in front of a camera, and a landmark on it.
+struct Wall {
+  Wall() {
+    camera.left.fx = camera.left.fy = 400.0;
+    camera.left.cx = 256.0;
+    camera.left.cy = 192.0;
+    camera.left.width = 512;
+    camera.left.height = 384;
+    camera.baseline = 0.12;
+    track.plane = Vector3d(0.0, 0.0, 1.0 / 8.0);
+    match.track = &track;
+    match.p_odom << 0.0, 0.0, 8.0, 1.0;
+    match.left.found = true;
+    match.left.covariance = 0.01 * Eigen::Matrix2d::Identity();
+  }
+  static Pose forward(double metres) { return Pose(Eigen::Quaterniond::Identity(), Vector3d(0.0, 0.0, -metres)); }
+
+  urban_nav_core::StereoCamera camera;
+  Track track;
+  Match match;
+};
+
+TEST(TemplateDrift, IsNothingWhereTheViewStays) {
+  Wall wall;
+  EXPECT_NEAR(creep(wall.camera, wall.forward(0.0), wall.match).norm(), 0.0, 1e-12);
+  EXPECT_GT(creep(wall.camera, wall.forward(1.0), wall.match).trace(), 0.0);
+  EXPECT_NEAR(creep(wall.camera, wall.forward(1.0), wall.match).norm(), 0.0, 1e-12);
+}
+
+TEST(TemplateDrift, IsLargerWhereThePatchFitsWorse) {
+  Wall good, bad;
+  bad.match.left.covariance = 0.25 * Eigen::Matrix2d::Identity();
+  const double of_good = creep(good.camera, good.forward(1.0), good.match).trace();
+  EXPECT_GT(creep(bad.camera, bad.forward(1.0), bad.match).trace(), 10.0 * of_good);
+}
+
+TEST(TemplateDrift, IsThatOfTheRightImageWhereTheLeftHasNone) {
+  Wall wall, other;
+  other.match.right = other.match.left;
+  other.match.left.found = false;
+  other.match.left.covariance *= 100.0;
+  EXPECT_NEAR(
+      (creep(wall.camera, wall.forward(1.0), wall.match) - creep(other.camera, other.forward(1.0), other.match)).norm(),
+      0.0, 1e-12);
+}
+
+TEST(TemplateDrift, OfAViewTwiceAsLargeIsAQuarterWhereBorn) {
+  Wall wall;
+  creep(wall.camera, wall.forward(4.0), wall.match);
+  const Eigen::Matrix2d born = whereBorn(wall.track, Eigen::Matrix2d::Identity());
+  EXPECT_NEAR((born - 0.25 * Eigen::Matrix2d::Identity()).norm(), 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace swf_vo
