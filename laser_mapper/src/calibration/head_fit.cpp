@@ -58,10 +58,11 @@ struct HeadFit::PointRows {
 };
 
 HeadFit::HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_map_base,
-                 const urban_nav_core::OdometryChain* odometry, const Vector3d& centre)
+                 const urban_nav_core::OdometryChain* odometry, const Vector3d& centre, double range_bias)
     : stretches_(freeStretches(T_map_base, odometry)),
       views_(images, T_map_base, centre, stretches_),
-      exposures_(images.views.size(), 0.0F) {
+      exposures_(images.views.size(), 0.0F),
+      range_bias_(range_bias) {
   std::map<std::array<long, 3>, std::uint32_t> numbers;
   for (const HeadPoint& point : views_.points()) {
     const Vector3d& p = images.points[images.sightings[point.first].point];
@@ -71,7 +72,9 @@ HeadFit::HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_m
     const auto [place, is_new] = numbers.emplace(key, static_cast<std::uint32_t>(numbers.size()));
     if (is_new) is_held_out_.push_back(((key[0] + 2 * key[1] + 3 * key[2]) % 5 + 5) % 5 == 0 ? 1 : 0);
     place_of_.push_back(place->second);
+    distance_ += (p - point.measured.base).squaredNorm();
   }
+  distance_ = std::sqrt(distance_ / static_cast<double>(std::max<std::size_t>(1, place_of_.size())));
 }
 
 /// By medians over points and views in turn.
@@ -191,7 +194,22 @@ double HeadFit::rowVariance(const std::vector<HeadRow>& rows, const std::vector<
   return freedom > 0.0 ? std::max(squares / freedom, kLeastRowVariance) : 0.0;
 }
 
+/// Points that are all off by as much look like a head that is shifted by that, or turned by that over their distance.
+void HeadFit::addRangeBias(const std::vector<bool>& wanted, TermEstimate& estimate) const {
+  const double variance = range_bias_ * range_bias_, squared_distance = std::max(1.0, distance_ * distance_);
+  for (Index t = 1; t < kCalibrationTerms; ++t)
+    if (wanted[static_cast<std::size_t>(t)])
+      estimate.covariance(t, t) += t < 4 ? variance : variance / squared_distance;
+}
+
 TermEstimate HeadFit::estimate(const std::vector<bool>& wanted) {
+  TermEstimate estimate = fit(wanted);
+  if (estimate.mean.size() > 0) addRangeBias(wanted, estimate);
+  return estimate;
+}
+
+/// What the images say.
+TermEstimate HeadFit::fit(const std::vector<bool>& wanted) {
   for (Index t = 0; t < kCalibrationTerms; ++t)
     if (!wanted[static_cast<std::size_t>(t)]) terms_(t) = 0.0;
   const bool all = std::all_of(wanted.begin(), wanted.end(), [](bool is_wanted) { return is_wanted; });

@@ -17,11 +17,13 @@ namespace laser_mapper {
 class HeadFit {
  public:
   /// References must outlive the fit, but for `odometry` (null if nothing is known). `centre`: of the head, in
-  /// base_link.
+  /// base_link. `range_bias`: standard deviation of a laser's constant error, m.
   HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_map_base,
-          const urban_nav_core::OdometryChain* odometry, const urban_nav_core::Vector3d& centre);
+          const urban_nav_core::OdometryChain* odometry, const urban_nav_core::Vector3d& centre, double range_bias);
 
   /// Estimates the terms in `wanted`; the others are zero. Without terms if no point is seen by several views.
+  /// Covariance: what the images say, and what a constant error of the lasers, which the whole map shares, would look
+  /// like.
   TermEstimate estimate(const std::vector<bool>& wanted);
 
   /// Spread of the brightness of points over their views in the held-out places, as a share of it.
@@ -44,6 +46,8 @@ class HeadFit {
   std::vector<PointRows> usablePoints(const std::vector<HeadRow>& rows, bool held_out) const;
   std::vector<BrightnessRow> brightnessRows(const std::vector<HeadRow>& rows, const PointRows& point) const;
   static double rowVariance(const std::vector<HeadRow>& rows, const std::vector<PointRows>& points);
+  TermEstimate fit(const std::vector<bool>& wanted);
+  void addRangeBias(const std::vector<bool>& wanted, TermEstimate& estimate) const;
   std::vector<PlaceSpread> spreadsAt(const TermVector& terms);
 
   std::vector<FreeTrajectory> stretches_;  ///< of the trajectory, in order of time
@@ -53,6 +57,8 @@ class HeadFit {
   std::vector<float> exposures_;           ///< of each view: logarithm
   TermVector terms_ = TermVector::Zero();
   std::size_t equations_places_ = 0;
+  double range_bias_;
+  double distance_ = 0.0;  ///< of the points from where the robot was, root mean square, m
 };
 
 }  // namespace laser_mapper

@@ -72,11 +72,12 @@ struct ViewCalibrator::ViewData {
 };
 
 ViewCalibrator::ViewCalibrator(std::vector<MountedView> views, const urban_nav_core::Trajectory& T_map_base,
-                               const urban_nav_core::OdometryChain* odometry, double voxel)
+                               const urban_nav_core::OdometryChain* odometry, double voxel, double range_bias)
     : views_(usableViews(std::move(views), T_map_base)),
       T_map_base_(T_map_base),
       odometry_(odometry),
       voxel_(voxel),
+      range_bias_(range_bias),
       centre_(cameraMiddle(views_)),
       samples_(kMostSamples) {
   for (const MountedView& view : views_) data_.emplace_back(view, *T_map_base.at(view.stamp, kLongestViewGap));
@@ -132,7 +133,7 @@ ViewCalibration ViewCalibrator::estimate(const std::string& name, const ImageLoa
   std::sort(images.sightings.begin(), images.sightings.end(), [](const HeadSighting& a, const HeadSighting& b) {
     return a.point != b.point ? a.point < b.point : a.view < b.view;
   });
-  HeadFit fit(images, T_map_base_, odometry_, centre_);
+  HeadFit fit(images, T_map_base_, odometry_, centre_, range_bias_);
   const TermSelection selected =
       selectTerms(kCalibrationTerms, [&](const std::vector<bool>& wanted) { return fit.estimate(wanted); });
   if (selected.all.mean.size() == 0) return result;

@@ -16,6 +16,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_registration::Picture;
 
+constexpr double kRangeBias = 0.003;  // m
 constexpr int kViewWidth = 240, kViewHeight = 180, kViewCount = 45;
 constexpr double kWallDistance = 4.0, kFocal = 150.0;
 constexpr StampNs kViewStart = 1'000'000'000, kBetweenViews = 300'000'000;
@@ -98,7 +99,7 @@ ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_cor
     view.image = i;
     views.push_back(view);
   }
-  ViewCalibrator calibrator(views, given, odometry, 0.05);
+  ViewCalibrator calibrator(views, given, odometry, 0.05, kRangeBias);
   calibrator.addSurface(surfacePoints(path, given));
   return calibrator.estimate("panorama", [&](std::size_t image) {
     return photograph(*path.at(views[image].stamp - std::llround(1e9 * late), 1'000'000'000) * actual, image);
@@ -200,7 +201,7 @@ TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
 
 TEST(ViewCalibration, WithoutViewsThereIsNothing) {
   const urban_nav_core::Trajectory path = drivenPath();
-  const ViewCalibrator calibrator({}, path, nullptr, 0.05);
+  const ViewCalibrator calibrator({}, path, nullptr, 0.05, kRangeBias);
   const ViewCalibration found = calibrator.estimate("panorama", [](std::size_t) { return Picture(); });
   EXPECT_EQ(found.places, 0U);
   EXPECT_FALSE(found.isAdopted());

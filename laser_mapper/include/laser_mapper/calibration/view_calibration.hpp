@@ -47,10 +47,11 @@ struct ViewCalibration {
 class ViewCalibrator {
  public:
   /// `T_map_base` and `odometry` must outlive it. `odometry`: its covariances say how far the trajectory may be off;
-  /// null: by 1 mm and 0.3 mrad a second. `voxel`: distance between points of the map, m. Views at times without poses
-  /// are left out, and whole stretches of time where there are more images than fit into memory.
+  /// null: by 1 mm and 0.3 mrad a second. `voxel`: distance between points of the map, m. `range_bias`:
+  /// standard deviation of a laser's constant error, m. Views at times without poses are left out, and whole stretches
+  /// of time where there are more images than fit into memory.
   ViewCalibrator(std::vector<MountedView> views, const urban_nav_core::Trajectory& T_map_base,
-                 const urban_nav_core::OdometryChain* odometry, double voxel);
+                 const urban_nav_core::OdometryChain* odometry, double voxel, double range_bias);
   ~ViewCalibrator();
 
   /// Notes what points hide.
@@ -64,7 +65,7 @@ class ViewCalibrator {
   std::vector<MountedView> views_;
   const urban_nav_core::Trajectory& T_map_base_;
   const urban_nav_core::OdometryChain* const odometry_;
-  const double voxel_;
+  const double voxel_, range_bias_;
   urban_nav_core::Vector3d centre_ = urban_nav_core::Vector3d::Zero();
   std::vector<ViewData> data_;
   urban_nav_core::EvenThinning<MapPoint> samples_;

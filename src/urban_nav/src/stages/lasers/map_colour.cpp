@@ -84,7 +84,8 @@ std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store:
   SessionViews made;
   addViews(store, session, {}, made);
   if (made.views.empty()) return std::nullopt;
-  laser_mapper::ViewCalibrator calibrator(made.views, *session.T_map_base, &odometry, map.parameters().voxel);
+  laser_mapper::ViewCalibrator calibrator(made.views, *session.T_map_base, &odometry, map.parameters().voxel,
+                                          map.parameters().range_bias);
   map.forEachTile([&](const laser_mapper::Tile&, const std::vector<laser_mapper::MapPoint>& points) {
     calibrator.addSurface(points);
   });
