@@ -16,7 +16,6 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_registration::Picture;
 
-constexpr double kRangeBias = 0.003;  // m
 constexpr int kViewWidth = 240, kViewHeight = 180, kViewCount = 45;
 constexpr double kWallDistance = 4.0, kFocal = 150.0;
 constexpr StampNs kViewStart = 1'000'000'000, kBetweenViews = 300'000'000;
@@ -85,9 +84,10 @@ std::vector<MapPoint> surfacePoints(const urban_nav_core::Trajectory& path, cons
 
 /// Calibrates images that were taken `late` seconds before their stamps along `path`, by a camera that `turn` (rad,
 /// axes of the robot) takes from where it is stated to be to where it is. `given`: the trajectory as odometry has it.
+/// `range_bias`: of the lasers, m; here they are exact.
 ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_core::Trajectory& path,
                           const urban_nav_core::Trajectory& given,
-                          const urban_nav_core::OdometryChain* odometry = nullptr) {
+                          const urban_nav_core::OdometryChain* odometry = nullptr, double range_bias = 0.0) {
   const Pose stated = leftCamera(),
              actual(Eigen::Matrix3d(urban_nav_core::expSo3(turn) * stated.q()), Vector3d(stated.t()));
   std::vector<MountedView> views;
@@ -99,7 +99,7 @@ ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_cor
     view.image = i;
     views.push_back(view);
   }
-  ViewCalibrator calibrator(views, given, odometry, 0.05, kRangeBias);
+  ViewCalibrator calibrator(views, given, odometry, 0.05, range_bias);
   calibrator.addSurface(surfacePoints(path, given));
   return calibrator.estimate("panorama", [&](std::size_t image) {
     return photograph(*path.at(views[image].stamp - std::llround(1e9 * late), 1'000'000'000) * actual, image);
@@ -189,6 +189,18 @@ TEST(ViewCalibration, ASlipThatOdometryAllowsForIsWithinTheStatedSigma) {
   EXPECT_LT(std::abs(yaw.value - turn), 0.3 * std::abs(certain_yaw.value - turn));
 }
 
+TEST(ViewCalibration, AConstantErrorOfTheLasersIsInTheStatedSigma) {
+  constexpr double bias = 0.01;  // m; seen from some 6 m, as if the head were turned by 1.7 mrad
+  const Vector3d turn = kHeadDegree * Vector3d::UnitZ();
+  const ViewCalibration exact = calibrate(0.0, turn, drivenPath()),
+                        biased = calibrate(0.0, turn, drivenPath(), drivenPath(), nullptr, bias);
+  const CalibrationEstimate &yaw = biased.head.at(CalibrationTerm::TurnZ),
+                            &exact_yaw = exact.head.at(CalibrationTerm::TurnZ);
+  EXPECT_NEAR(yaw.value, exact_yaw.value, 1e-3);
+  EXPECT_GT(yaw.sigma, exact_yaw.sigma + 5e-4);
+  EXPECT_LT(yaw.sigma, exact_yaw.sigma + bias / kWallDistance);
+}
+
 TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
   urban_nav_core::Trajectory standing;
   for (const urban_nav_core::StampedPose& pose : drivenPath()) standing.append(pose.stamp, drivenPath()[60].pose);
@@ -201,7 +213,7 @@ TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
 
 TEST(ViewCalibration, WithoutViewsThereIsNothing) {
   const urban_nav_core::Trajectory path = drivenPath();
-  const ViewCalibrator calibrator({}, path, nullptr, 0.05, kRangeBias);
+  const ViewCalibrator calibrator({}, path, nullptr, 0.05, 0.0);
   const ViewCalibration found = calibrator.estimate("panorama", [](std::size_t) { return Picture(); });
   EXPECT_EQ(found.places, 0U);
   EXPECT_FALSE(found.isAdopted());
