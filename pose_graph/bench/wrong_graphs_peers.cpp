@@ -113,7 +113,7 @@ class Answers {
         throw urban_nav_core::UserError(path, "has other vertices", "those of the graph");
       for (const G2oGraph::Vertex& vertex : file.vertices)
         poses.at(static_cast<std::size_t>(vertex.id)) = toRigid<D>(file.pose(vertex));
-      ended[table_.text(row, table_.column("peer"))].add(apart<D>(poses, wrong.right) / extent,
+      ended[table_.text(row, table_.column("peer"))].add(distanceFromRight(wrong, poses) / extent,
                                                          table_.number(row, table_.column("seconds")));
     }
   }
@@ -158,12 +158,12 @@ void addKinds(const std::string& name, const Problem<D>& clean, const Draws& dra
       RobustSolution<D> robust;
       const double seconds =
           measureSeconds(1, [&] { robust = relaxSelected(wrong.problem, rolesByNumbers(wrong.problem), {}); });
-      const double off = apart<D>(robust.solution.poses, wrong.right) / extent;
+      const double off = distanceFromRight(wrong, robust.solution.poses) / extent;
       ours.add(off, seconds);
       warned += countWarnings(wrong.problem, robust) > 0;
       Solution<D> squares;
       const double plain_seconds = measureSeconds(1, [&] { squares = solve(wrong.problem, {}); });
-      plain.add(apart<D>(squares.poses, wrong.right) / extent, plain_seconds);
+      plain.add(distanceFromRight(wrong, squares.poses) / extent, plain_seconds);
       answers.add(fileName(name, kind.name, seed), wrong, extent, peers);
     }
     std::vector<std::string> row{name,

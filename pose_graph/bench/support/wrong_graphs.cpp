@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "false_closures.hpp"
+#include "linear/disjoint_sets.hpp"
 #include "manifold/rotation.hpp"
 #include "pose_graph/selection_warnings.hpp"
 
@@ -91,6 +93,7 @@ WrongGraph<D> drawSessions(const Problem<D>& clean, const std::vector<Rigid<D>>&
     else if (!isStep(edge)) between.push_back(edge);
   }
   made.truth.assign(made.problem.edges.size(), EdgeTruth::True);
+  if (links == 0) made.right = solve(made.problem, {}).poses;
   for (std::size_t k = 0; k < std::min(links, between.size()); ++k) {
     made.problem.edges.push_back(between[k * between.size() / std::min(links, between.size())]);
     made.truth.push_back(EdgeTruth::True);
@@ -119,6 +122,22 @@ double longestSide(const std::vector<Rigid<D>>& poses) {
     high = high.cwiseMax(pose.t).eval();
   }
   return (high - low).maxCoeff();
+}
+
+template <int D>
+double distanceFromRight(const WrongGraph<D>& wrong, const std::vector<Rigid<D>>& poses) {
+  DisjointSets joined(poses.size());
+  for (std::size_t e = 0; e < wrong.problem.edges.size(); ++e)
+    if (wrong.truth[e] == EdgeTruth::True) joined.join(wrong.problem.edges[e].from, wrong.problem.edges[e].to);
+  std::map<int, std::pair<std::vector<Rigid<D>>, std::vector<Rigid<D>>>> parts;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    auto& [found, right] = parts[joined.root(static_cast<int>(i))];
+    found.push_back(poses[i]);
+    right.push_back(wrong.right[i]);
+  }
+  double worst = 0.0;
+  for (const auto& [root, part] : parts) worst = std::max(worst, apart<D>(part.first, part.second));
+  return worst;
 }
 
 template <int D>
@@ -153,6 +172,8 @@ std::vector<WrongKind<D>> wrongKinds(const Problem<D>& clean, const std::vector<
   scaled("closures ten times too sure", 1.0, 100.0);
   scaled("all ten times too sure", 100.0, 100.0);
   scaled("all ten times too modest", 0.01, 0.01);
+  sessions(0, 20);
+  sessions(0, 200);
   sessions(5, 20);
   sessions(21, 200);
   return kinds;
@@ -174,9 +195,11 @@ std::size_t countWarnings(const Problem<D>& problem, const RobustSolution<D>& ro
 }
 
 template std::vector<WrongKind<2>> wrongKinds<2>(const Problem<2>&, const std::vector<Rigid<2>>&);
+template double distanceFromRight<2>(const WrongGraph<2>&, const std::vector<Rigid<2>>&);
 template double longestSide<2>(const std::vector<Rigid<2>>&);
 template std::size_t countWarnings<2>(const Problem<2>&, const RobustSolution<2>&);
 template std::vector<WrongKind<3>> wrongKinds<3>(const Problem<3>&, const std::vector<Rigid<3>>&);
+template double distanceFromRight<3>(const WrongGraph<3>&, const std::vector<Rigid<3>>&);
 template double longestSide<3>(const std::vector<Rigid<3>>&);
 template std::size_t countWarnings<3>(const Problem<3>&, const RobustSolution<3>&);
 

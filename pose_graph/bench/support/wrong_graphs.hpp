@@ -36,6 +36,11 @@ struct WrongKind {
 template <int D>
 std::vector<WrongKind<D>> wrongKinds(const Problem<D>& clean, const std::vector<Rigid<D>>& optimum);
 
+/// Metres: how far `poses` lie from the right ones, rms after the best rigid motion; of parts that no true edge joins
+/// the worst.
+template <int D>
+double distanceFromRight(const WrongGraph<D>& wrong, const std::vector<Rigid<D>>& poses);
+
 /// Joins pose i with pose i + 1.
 template <int D>
 bool isStep(const Edge<D>& edge) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "linear/disjoint_sets.hpp"
@@ -16,6 +14,7 @@
 #include "robust/judgement.hpp"
 #include "robust/session_links.hpp"
 #include "robust/slips.hpp"
+#include "robust/unique_edges.hpp"
 
 namespace pose_graph {
 using urban_nav_core::ClosureVerdict;
@@ -34,42 +33,6 @@ constexpr double kHealedShare = 0.01;  // of a step's information that what take
 // Beyond so many poses what nothing contests is not judged, and beyond so many one selection is all that there is time
 // for, weighed where the chains of a graph leave a core that is no larger.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
-
-// Edges that are the same to the last bit count once: they are no independent measurements.
-template <int D>
-struct UniqueEdges {
-  Problem<D> problem;
-  std::vector<EdgeRole> roles;
-  std::vector<int> of_edge;
-};
-
-template <int D>
-UniqueEdges<D> uniqueEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
-  UniqueEdges<D> made;
-  made.problem.poses = problem.poses;
-  std::unordered_map<std::uint64_t, int> latest;  // between two poses, and for each the one before
-  std::vector<int> before;
-  latest.reserve(roles.size());
-  for (std::size_t e = 0; e < roles.size(); ++e) {
-    const Edge<D>& edge = problem.edges[e];
-    int& last = latest.emplace(std::uint64_t{sz(edge.from)} << 32 | sz(edge.to), -1).first->second;
-    int same = last;
-    for (; same >= 0; same = before[sz(same)]) {
-      const Edge<D>& other = made.problem.edges[sz(same)];
-      if (other.Z.t == edge.Z.t && other.Z.R == edge.Z.R && other.information == edge.information) break;
-    }
-    if (same >= 0) {
-      made.of_edge.push_back(same);
-      if (roles[e] != EdgeRole::Candidate) made.roles[sz(same)] = roles[e];
-      continue;
-    }
-    before.push_back(std::exchange(last, static_cast<int>(made.problem.edges.size())));
-    made.of_edge.push_back(last);
-    made.problem.edges.push_back(edge);
-    made.roles.push_back(roles[e]);
-  }
-  return made;
-}
 
 template <int D>
 Problem<D> withFactors(Problem<D> problem, const std::vector<EdgeRole>& roles, const VarianceFactors& factors) {
@@ -234,8 +197,17 @@ class Selection {
     });
   }
 
+  // Closures between parts that the best set has not.
+  std::size_t countLinking(const Hypothesis<D>& hypothesis) const {
+    std::size_t linking = 0;
+    for (std::size_t e = 0; e < roles_.size(); ++e)
+      linking += isBetween(e) && hypothesis.in[e] && !best_.hypothesis.in[e];
+    return linking;
+  }
+
   // Judges the proposed graph with these factors; keeps what is better. Returns whether it was.
-  bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false) {
+  bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false,
+               bool is_doubtful_link = false) {
     Proposal made;
     made.slips = slips;
     made.grown_with = factors;
@@ -249,13 +221,14 @@ class Selection {
     made.hypothesis = hypothesisOver(made.judgement, factors);
     const bool known = std::any_of(weighed_.begin(), weighed_.end(),
                                    [&](const auto& other) { return other.second == made.hypothesis.in; });
-    if (known && !forced) return false;
+    if (known && !forced && !is_doubtful_link) return false;
     judge_->judge(made.hypothesis);
     weighed_.emplace_back(made.hypothesis.log_evidence, made.hypothesis.in);
     const bool is_new_slip = slips.size() > best_.slips.size();
-    const bool likelier =
-        made.hypothesis.log_evidence > best_.hypothesis.log_evidence + (is_new_slip ? kDecisive : 0.0) &&
-        (!is_new_slip || holdsWithout(made.judgement, slips));
+    const bool likelier = made.hypothesis.log_evidence >
+                              best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
+                          (!is_new_slip || holdsWithout(made.judgement, slips)) &&
+                          (!is_doubtful_link || countLinking(made.hypothesis) >= kLeastLink);
     if (likelier || forced) contract(made.hypothesis);
     if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
     best_ = std::move(made);
@@ -289,30 +262,53 @@ class Selection {
     contract(best_.hypothesis);
   }
 
+  void addLink(const SessionLink<D>& link) {
+    Edge<D> edge = problem_.edges[sz(link.closure)];
+    edge.from = link.from;
+    edge.to = link.to;
+    edge.Z = link.T_from_to;
+    proposed_.edges.push_back(edge);
+    proposed_roles_.push_back(EdgeRole::Trusted);
+  }
+
+  // Bars closures between parts that no link joins.
+  void barUnlinked() {
+    const std::vector<int> linked = sessionParts(proposed_, proposed_roles_);
+    barred_.assign(roles_.size(), 0);
+    for (std::size_t e = 0; e < roles_.size(); ++e)
+      barred_[e] = isBetween(e) && linked[sz(problem_.edges[e].from)] != linked[sz(problem_.edges[e].to)];
+  }
+
   // Joins parts that enough closures agree on, and bars all closures between others.
   void link() {
     std::vector<char> within = best_.hypothesis.in;
     for (std::size_t e = 0; e < within.size(); ++e) {
       if (isBetween(e)) within[e] = 0;
     }
-    const std::vector<SessionLink<D>> links =
+    const SessionLinks<D> links =
         linkSessions(withFactors(problem_, roles_, best_.hypothesis.factors), roles_, within, best_.hypothesis.poses);
-    for (const SessionLink<D>& link : links) {
-      Edge<D> edge = problem_.edges[sz(link.closures.front())];
-      edge.from = link.from;
-      edge.to = link.to;
-      edge.Z = link.T_from_to;
-      proposed_.edges.push_back(edge);
-      proposed_roles_.push_back(EdgeRole::Trusted);
-    }
-    const std::vector<int> linked = sessionParts(proposed_, proposed_roles_);
-    barred_.assign(roles_.size(), 0);
+    for (const SessionLink<D>& link : links.agreed) addLink(link);
+    barUnlinked();
     bool wrongly_joined = false;
-    for (std::size_t e = 0; e < roles_.size(); ++e) {
-      barred_[e] = isBetween(e) && linked[sz(problem_.edges[e].from)] != linked[sz(problem_.edges[e].to)];
-      wrongly_joined |= barred_[e] && best_.hypothesis.in[e];
+    for (std::size_t e = 0; e < roles_.size(); ++e) wrongly_joined |= barred_[e] && best_.hypothesis.in[e];
+    if (!links.agreed.empty() || wrongly_joined) propose({}, {}, wrongly_joined);
+    std::vector<char> tried(roles_.size(), 0);
+    for (const SessionLink<D>& link : links.doubtful) {
+      if (!barred_[sz(link.closure)] || tried[sz(link.closure)] || tryLink(link)) continue;
+      for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= weighed_.back().second[e];
     }
-    if (!links.empty() || wrongly_joined) propose({}, {}, wrongly_joined);
+  }
+
+  // Joins two parts where the closures that then agree are evidence enough, as a whole. Returns whether they are.
+  bool tryLink(const SessionLink<D>& link) {
+    const Problem<D> before = proposed_;
+    addLink(link);
+    barUnlinked();
+    if (propose({}, {}, false, true)) return true;
+    proposed_ = before;
+    proposed_roles_.pop_back();
+    barUnlinked();
+    return false;
   }
 
   // The closures inside, and those outside that agree with another one near them.

@@ -23,12 +23,18 @@ namespace {
 
 constexpr double kLinkChance = 0.01, kPairQuantile = 0.999;
 constexpr std::uint64_t kDrawnLoops = 20000;
-constexpr std::size_t kLeastLink = 3, kMostPerPair = 400;
+constexpr std::size_t kMostPerPair = 400;
+constexpr std::size_t kDoubtful = 3;  // links proposed between two parts where too few closures agree pair by pair
 // Pairs whose loop is off by more than this share of the map's extent, or turned by more, are not looked at any closer.
 constexpr double kRoughShare = 0.2, kRoughTurn = 0.5;
 
 struct BetweenClosure {
   int edge = 0, from = 0, to = 0;  // in the order of the parts
+};
+
+struct Agreement {
+  bool agrees = false;
+  double support = 0.0;  // logarithm of how much likelier their loop is than by chance; 0 where it is not
 };
 
 template <int D>
@@ -39,7 +45,7 @@ class PairwiseConsistency {
       : problem_(problem), poses_(poses), marginals_(marginals), extent_(extent) {}
 
   /// Whether two closures agree; adds the chance that two random ones would to `chance` where it was worked out.
-  bool agree(const BetweenClosure& a, const BetweenClosure& b) {
+  Agreement compare(const BetweenClosure& a, const BetweenClosure& b) {
     const Rigid<D> Z_a = measured(a), Z_b = measured(b);
     const Rigid<D> along_to = poses_[sz(a.to)].inverse() * poses_[sz(b.to)];
     const Rigid<D> along_from = poses_[sz(b.from)].inverse() * poses_[sz(a.from)];
@@ -52,23 +58,26 @@ class PairwiseConsistency {
     const bool rough =
         remains.t.norm() <= kRoughShare * extent_ && d.template tail<rotation_size<D>>().norm() <= kRoughTurn;
     // Every pair has its share in the chance; few are enough to know it.
-    if (!rough && pairs % 37 != 0) return false;
+    if (!rough && pairs % 37 != 0) return {};
     const Marginal<D> to = marginals_.between(a.to, b.to), from = marginals_.between(b.from, a.from);
-    if (to.knowledge != Knowledge::Full || from.knowledge != Knowledge::Full) return false;
+    if (to.knowledge != Knowledge::Full || from.knowledge != Knowledge::Full) return {};
     const Rigid<D> there = Z_a * along_to;
     const TangentMatrix<D> S = spread(Rotation<D>::Identity(), covariance(a, false), remains.t - Z_a.t) +
                                spread(Z_a.R, to.covariance, remains.t - there.t) +
                                spread(there.R, covariance(b, true), remains.t - back.t) +
                                spread(back.R, from.covariance, Eigen::Matrix<double, D, 1>::Zero());
     const urban_nav_core::SmallCholesky<tangent_size<D>> factored(S);
-    if (!factored.succeeded()) return false;
+    if (!factored.succeeded()) return {};
     double log_volume = 0.0;
     for (int i = 0; i < tangent_size<D>; ++i) log_volume += std::log(factored.factor()(i, i));
     static const double limit = urban_nav_core::chiSquareQuantile(kPairQuantile, tangent_size<D>);
     const double ball = tangent_size<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0;
     chance += std::min(1.0, ball * std::pow(limit, 0.5 * tangent_size<D>) * std::exp(log_volume + log_density_));
     ++counted;
-    return rough && d.dot(factored.solve(d)) <= limit;
+    const double square = d.dot(factored.solve(d));
+    if (!rough || !(square <= limit)) return {};
+    const double log_true = -0.5 * (square + tangent_size<D> * std::log(2.0 * M_PI)) - log_volume;
+    return {true, std::max(0.0, log_true - log_density_)};
   }
 
   /// Measures how often the loop of two closures that have nothing to do with each other closes: over these
@@ -132,15 +141,32 @@ class PairwiseConsistency {
   double chance = 0.0;
 };
 
-// By pair, whether they agree.
+struct Agreements {
+  std::vector<std::vector<char>> agree;  // by pair
+  std::vector<double> support;           // by closure, of all others
+};
+
 template <int D>
-std::vector<std::vector<char>> compareAll(PairwiseConsistency<D>& consistency,
-                                          const std::vector<BetweenClosure>& closures) {
+Agreements compareAll(PairwiseConsistency<D>& consistency, const std::vector<BetweenClosure>& closures) {
   const std::size_t size = closures.size();
-  std::vector<std::vector<char>> agree(size, std::vector<char>(size, 0));
+  Agreements made{std::vector<std::vector<char>>(size, std::vector<char>(size, 0)), std::vector<double>(size, 0.0)};
   for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t j = i + 1; j < size; ++j) agree[i][j] = agree[j][i] = consistency.agree(closures[i], closures[j]);
-  return agree;
+    for (std::size_t j = i + 1; j < size; ++j) {
+      const Agreement pair = consistency.compare(closures[i], closures[j]);
+      made.agree[i][j] = made.agree[j][i] = pair.agrees;
+      made.support[i] += pair.support;
+      made.support[j] += pair.support;
+    }
+  return made;
+}
+
+// At most kDoubtful, the best one first.
+std::vector<std::size_t> bestSupported(const std::vector<double>& support) {
+  std::vector<std::size_t> order(support.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return support[a] > support[b]; });
+  order.resize(std::min(kDoubtful, order.size()));
+  return order;
 }
 
 // The largest set that is pairwise consistent, grown greedily from each member by how many it agrees with.
@@ -177,9 +203,9 @@ std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeR
 }
 
 template <int D>
-std::vector<SessionLink<D>> linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                                         const std::vector<char>& in, const std::vector<Rigid<D>>& poses) {
-  std::vector<SessionLink<D>> made;
+SessionLinks<D> linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                             const std::vector<Rigid<D>>& poses) {
+  SessionLinks<D> made;
   DisjointSets sets(problem.poses.size());
   std::vector<double> weights(in.begin(), in.end());
   for (std::size_t e = 0; e < in.size(); ++e)
@@ -214,18 +240,20 @@ std::vector<SessionLink<D>> linkSessions(const Problem<D>& problem, const std::v
       if (part[sz(i)] == parts.second) tos.push_back(i);
     }
     consistency.measureChance(closures, froms, tos);
-    const std::vector<std::size_t> set = largestClique(compareAll(consistency, closures));
+    const Agreements found = compareAll(consistency, closures);
+    const std::vector<std::size_t> set = largestClique(found.agree);
     const double n = static_cast<double>(size), k = static_cast<double>(set.size());
     const double log_chance = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
                               (k - 1.0) * std::log(consistency.pairChance());
-    if (set.size() < kLeastLink || log_chance > std::log(kLinkChance)) continue;
-    SessionLink<D> link;
-    const BetweenClosure& first = closures[set.front()];
-    link.from = first.from;
-    link.to = first.to;
-    link.T_from_to = consistency.measured(first);
-    for (const std::size_t i : set) link.closures.push_back(closures[i].edge);
-    made.push_back(std::move(link));
+    if (set.size() < kLeastLink) continue;
+    const auto linkBy = [&](std::size_t i) {
+      return SessionLink<D>{closures[i].from, closures[i].to, consistency.measured(closures[i]), closures[i].edge};
+    };
+    if (log_chance > std::log(kLinkChance)) {
+      for (const std::size_t i : bestSupported(found.support)) made.doubtful.push_back(linkBy(i));
+      continue;
+    }
+    made.agreed.push_back(linkBy(set.front()));
     sets.join(parts.first, parts.second);
   }
   return made;
@@ -233,9 +261,9 @@ std::vector<SessionLink<D>> linkSessions(const Problem<D>& problem, const std::v
 
 template std::vector<int> sessionParts<2>(const Problem<2>&, const std::vector<EdgeRole>&);
 template std::vector<int> sessionParts<3>(const Problem<3>&, const std::vector<EdgeRole>&);
-template std::vector<SessionLink<2>> linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&,
-                                                     const std::vector<char>&, const std::vector<Rigid<2>>&);
-template std::vector<SessionLink<3>> linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&,
-                                                     const std::vector<char>&, const std::vector<Rigid<3>>&);
+template SessionLinks<2> linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                         const std::vector<Rigid<2>>&);
+template SessionLinks<3> linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                         const std::vector<Rigid<3>>&);
 
 }  // namespace pose_graph

@@ -243,13 +243,14 @@ TEST(Selection, TrueAssertionsHoldARealDriveTogether) {
   EXPECT_GT(selected.closures(ClosureVerdict::Accepted), 1000u);
 }
 
-// The second half of the town's way as a session of its own, and `links` of the true closures between the two, and as
-// many random ones as `wrong`.
-Problem<2> drawSessions(const SimulatedGraph& graph, std::size_t links, std::size_t wrong,
+// The second half of the way as a session of its own, and `links` of the true closures between the two, and as many
+// random ones as `wrong`.
+template <int D>
+Problem<D> drawSessions(const SimulatedGraph& graph, std::size_t links, std::size_t wrong,
                         std::vector<std::size_t>* true_links) {
   const std::size_t half = graph.truth.size() / 2;
-  const Problem<2> whole = simulatedProblem<2>(graph, deadReckoning(graph));
-  Problem<2> made;
+  const Problem<D> whole = simulatedProblem<D>(graph, deadReckoning(graph));
+  Problem<D> made;
   made.poses = whole.poses;
   std::vector<std::size_t> between;
   for (std::size_t e = 0; e < whole.edges.size(); ++e) {
@@ -262,10 +263,10 @@ Problem<2> drawSessions(const SimulatedGraph& graph, std::size_t links, std::siz
   }
   test::Dice dice(17);
   for (std::size_t k = 0; k < wrong; ++k) {
-    Edge<2> edge = whole.edges[between.front()];
+    Edge<D> edge = whole.edges[between.front()];
     edge.from = static_cast<int>(dice.below(half));
     edge.to = static_cast<int>(half + dice.below(half));
-    edge.Z = test::drawRigid<2>(dice, 1.0, 2.0);
+    edge.Z = test::drawRigid<D>(dice, 1.0, 2.0);
     made.edges.push_back(edge);
   }
   return made;
@@ -276,7 +277,7 @@ TEST(Selection, AFewClosuresThatAgreeJoinTwoSessions) {
   for (const auto& [links, wrong] : {std::make_pair(8, 0), std::make_pair(5, 20), std::make_pair(8, 60)}) {
     std::vector<std::size_t> true_links;
     const Selected<2> selected(
-        drawSessions(graph, static_cast<std::size_t>(links), static_cast<std::size_t>(wrong), &true_links));
+        drawSessions<2>(graph, static_cast<std::size_t>(links), static_cast<std::size_t>(wrong), &true_links));
     for (const std::size_t e : true_links) EXPECT_TRUE(selected.accepted(e)) << links << ' ' << wrong;
     EXPECT_LE(selected.closures(ClosureVerdict::Rejected), static_cast<std::size_t>(wrong));
     EXPECT_GE(selected.closures(ClosureVerdict::Rejected) + 1, static_cast<std::size_t>(wrong));
@@ -290,10 +291,27 @@ TEST(Selection, OneClosureAloneJoinsNothing) {
   for (const std::size_t wrong : {0, 20, 60})
     for (const std::size_t right : {0, 1}) {
       std::vector<std::size_t> true_links;
-      const Selected<2> selected(drawSessions(graph, right, wrong, &true_links));
+      const Selected<2> selected(drawSessions<2>(graph, right, wrong, &true_links));
       EXPECT_EQ(selected.robust.solution.components, 2) << right << ' ' << wrong;
       EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), right + wrong);
     }
+}
+
+// Steps turn by 0.2 rad more or less: after a few of them any two closures agree.
+TEST(Selection, ClosuresThatAgreeAsAWholeJoinSessionsOfLooseOdometry) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const SimulatedGraph graph =
+        urban_nav_core::testing::sphereGraph(8, 12, 2.0, urban_nav_core::testing::evenNoise(0.05, 0.2), seed);
+    for (const std::size_t right : {0, 12}) {
+      std::vector<std::size_t> true_links;
+      const Selected<3> selected(drawSessions<3>(graph, right, 100, &true_links));
+      EXPECT_EQ(selected.robust.solution.components, right > 0 ? 1 : 2) << right;
+      std::size_t kept = 0;
+      for (const std::size_t e : true_links) kept += selected.accepted(e);
+      EXPECT_GE(kept + 1, right) << seed;
+      EXPECT_GE(selected.closures(ClosureVerdict::Rejected), 99u) << right << ' ' << seed;
+    }
+  }
 }
 
 }  // namespace
