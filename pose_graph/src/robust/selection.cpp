@@ -27,6 +27,8 @@ constexpr double kDecisive = 7.0;
 constexpr double kEachDecisive = 2.0;
 // A selection is contested where more than this share of the closures is rejected, or their variances are beyond that.
 constexpr double kContestedShare = 0.02, kContestedFactor = 9.0;
+constexpr int kRow = 5;                // of closures in a row outside, one in so many stands for the others
+constexpr double kFar = 100.0;         // of variances that are tried
 constexpr double kRegrowFactor = 1.4;  // of variances: less changes hardly a verdict
 constexpr int kRegrows = 3;
 constexpr double kHealedShare = 0.01;  // of a step's information that what takes its place has
@@ -311,8 +313,12 @@ class Selection {
     return false;
   }
 
-  // The closures inside, and those outside that agree with another one near them.
-  std::vector<char> considerWitnessed(const Problem<D>& scaled) const {
+  struct Considered {
+    std::vector<char> witnessed, thinned;  // by edge
+  };
+
+  // The closures inside, and those outside that agree with another one near them: all of these, or one in kRow.
+  Considered considerWitnessed(const Problem<D>& scaled) const {
     std::vector<int> candidates;
     for (std::size_t e = 0; e < proposed_roles_.size(); ++e)
       if (proposed_roles_[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
@@ -321,10 +327,16 @@ class Selection {
                                                     1.0, Thresholds(candidates.size(), tangent_size<D>));
     std::vector<int> members(scaled.edges.size(), 0);
     for (const int e : candidates) ++members[sz(group[sz(e)])];
-    std::vector<char> considered = best_.hypothesis.in;
-    considered.resize(proposed_roles_.size(), 1);
-    for (const int e : candidates) considered[sz(e)] |= members[sz(group[sz(e)])] > 1;
-    return considered;
+    Considered made{best_.hypothesis.in, {}};
+    made.witnessed.resize(proposed_roles_.size(), 1);
+    made.thinned = made.witnessed;
+    std::vector<int> before(scaled.edges.size(), 0);
+    for (const int e : candidates) {
+      if (made.thinned[sz(e)] || members[sz(group[sz(e)])] < 2) continue;
+      made.witnessed[sz(e)] = 1;
+      made.thinned[sz(e)] = before[sz(group[sz(e)])]++ % kRow == 0;
+    }
+    return made;
   }
 
   // Looks for slips where variances are those of the best set, and proposes what follows, with these factors.
@@ -333,10 +345,13 @@ class Selection {
     std::vector<char> in = best_.hypothesis.in;
     in.resize(proposed_roles_.size(), 1);
     if (rejected(best_.judgement) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
-    std::vector<char> considered = considerWitnessed(scaled), all(scaled.edges.size(), 1);
+    Considered some = considerWitnessed(scaled);
+    std::vector<char> considered = std::move(some.witnessed), all(scaled.edges.size(), 1);
     const AcceptedGraph<D> graph(scaled);
     if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
     else if (!maySlip(scaled, proposed_roles_, in, considered, best_.hypothesis.poses)) return;
+    // Rows of false closures between far places would fill the factor.
+    if (graph.work(considered, true) > kWork * graph.work(in, true)) considered = std::move(some.thinned);
     if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
     // From odometry as it is, a slip that closures nearby seem to bear out is not found. What is no more than chance
     // refutes nothing.
@@ -369,14 +384,16 @@ class Selection {
     if (!isContested(best_.judgement) && !beyond(found.odometry, kContestedFactor) &&
         !beyond(found.closures, kContestedFactor))
       return;
-    constexpr double far = 100.0;
     const auto try_with = [&](const VarianceFactors& factors) {
       if (!takesNearlyAll() && factors.odometry <= judge_->largestOdometryFactor()) propose(factors, slips_);
     };
-    try_with({far, far});  // what is too sure of itself shuts true ones out
-    if (!isCredible())
-      for (const VarianceFactors& factors : {VarianceFactors{far, 1.0}, {1.0, far}, {1.0 / far, 1.0 / far}})
-        try_with(factors);
+    const bool looser = evidence() < kDecisive || mayFitLooser();
+    if (looser) try_with({kFar, kFar});  // what is too sure of itself shuts true ones out
+    if (!isCredible()) {
+      if (looser) try_with({kFar, 1.0});
+      if (looser) try_with({1.0, kFar});
+      try_with({1.0 / kFar, 1.0 / kFar});
+    }
     regrow();
     // Where variances were stated too large, a slip stands out only now.
     if (slips_.empty() && evidence() >= kDecisive && !areAlike(best_.grown_with, {})) heal(best_.grown_with);
@@ -387,6 +404,17 @@ class Selection {
     const VarianceFactors& found = best_.hypothesis.factors;
     return evidence() >= kDecisive && !beyond(found.odometry, kContestedFactor) &&
            !beyond(found.closures, kContestedFactor);
+  }
+
+  // Whether more than a few of the rejected closures would fit the best set with variances kFar times larger. Where
+  // they would not, and the set explains more than chance, no others can be gained by that.
+  bool mayFitLooser() const {
+    const Thresholds thresholds(candidates_, tangent_size<D>);
+    std::size_t near = 0;
+    for (const EdgeAssessment& edge : best_.judgement.edges)
+      near +=
+          edge.verdict == ClosureVerdict::Rejected && edge.chi2 <= kFar * thresholds.limit[sz(std::max(1, edge.dof))];
+    return static_cast<double>(near) > kContestedShare * static_cast<double>(candidates_);
   }
 
   // Whether the best set was found with the variances that follow from it, or none better was.
