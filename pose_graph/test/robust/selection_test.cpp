@@ -134,6 +134,25 @@ TEST(Selection, ASlippedStepThatCostsFewClosuresIsFound) {
   }
 }
 
+// Which fill the factor, so that not all of each row take part in the search.
+TEST(Selection, ASlippedStepIsFoundBesideRowsOfFalseClosures) {
+  for (const std::uint64_t seed : {1, 5, 9}) {
+    SimulatedGraph graph =
+        urban_nav_core::testing::manhattanGraph(1500, 20, 1.0, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
+    addFalseClosures(graph, FalseClosures::RandomGrouped, 500, seed);
+    Problem<2> problem = simulatedProblem<2>(graph, graph.truth);
+    const std::size_t slipped = 500 + 37 * seed;
+    problem.edges[slipped].Z.t[0] += 2.0;
+    problem.edges[slipped].Z.R = problem.edges[slipped].Z.R * expRotation(RotationVector<2>(0.5));
+    const Selected<2> selected(problem);
+    EXPECT_EQ(selected.robust.edges[slipped].reason, Reason::Slipped) << seed;
+    std::size_t kept = 0;
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) kept += graph.edges[e].wrong && selected.accepted(e);
+    EXPECT_EQ(kept, 0u) << seed;
+    expectNearTruth<2>(graph, selected.robust.solution.poses, 1.0);
+  }
+}
+
 TEST(Selection, AChainThatNothingRefutesIsNotTornApart) {
   SimulatedGraph graph = drawTown(2);
   graph.edges.resize(graph.truth.size() - 1);
