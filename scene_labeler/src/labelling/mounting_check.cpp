@@ -14,6 +14,30 @@ constexpr std::size_t least_compared = 200, most_compared = 2000;  // of a frame
 constexpr float sure_by_shape = 0.7F;                              // probability of a class by shape alone
 constexpr float least_image_log = -4.0F;                           // one return decides nothing
 
+/// What shape tells apart for sure: lawn and path differ in it by little, and less the less exact the poses are.
+enum class ShapeKind { Ground, Wall, Foliage, Other };
+
+ShapeKind shapeKind(SceneClass label) {
+  switch (label) {
+    case SceneClass::Grass:
+    case SceneClass::Paved:
+    case SceneClass::DirtPath: return ShapeKind::Ground;
+    case SceneClass::TexturedWall:
+    case SceneClass::SmoothWall:
+    case SceneClass::Wall: return ShapeKind::Wall;
+    case SceneClass::Foliage: return ShapeKind::Foliage;
+    default: return ShapeKind::Other;
+  }
+}
+
+/// Logarithm of the probability that a return is of that kind, not less than least_image_log.
+double logOfKind(const LabelModel& model, ShapeKind kind, const std::vector<float>& logs) {
+  float sum = 0.0F;
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    if (shapeKind(model.classes[k]) == kind) sum += std::exp(logs[k]);
+  return std::max(std::log(std::max(sum, 1e-30F)), least_image_log);
+}
+
 }  // namespace
 
 void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
@@ -40,7 +64,8 @@ void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
     if (by_shape[best] < std::log(sure_by_shape)) continue;
     model_.logProbabilities(table.row(i), by_image.data());
     model_.logProbabilities(upside_down.row(i), by_turned.data());
-    sum += static_cast<double>(std::max(by_turned[best], least_image_log) - std::max(by_image[best], least_image_log));
+    const ShapeKind kind = shapeKind(model_.classes[best]);
+    sum += logOfKind(model_, kind, by_turned) - logOfKind(model_, kind, by_image);
     ++returns;
   }
   if (returns < least_compared) return;

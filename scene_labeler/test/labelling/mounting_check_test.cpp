@@ -28,5 +28,21 @@ TEST(MountingCheck, FindsACameraThatIsUpsideDown) {
   EXPECT_FALSE(without.isUpsideDown());
 }
 
+// As shape does where poses are not exact: lawn and path differ in it by little.
+TEST(MountingCheck, IsNotMisledWhereShapeTakesPavingForLawn) {
+  const testing::Yard yard = testing::makePicturedYard(9);
+  LabelModel model = testing::makePictureModel(measureFeatures(yard.scene, FeatureSet::All));
+  model.classes = {SceneClass::Paved, SceneClass::Grass, SceneClass::Wall};
+  model.calibration.bias = model.patch_calibration.bias = model.trees.base = {0.0F, 0.0F, 0.0F};
+  model.trees.trees[0].leaves = {0.0F, 3.0F, 0.0F, 0.0F, 0.0F, 3.0F};                    // by height: lawn, wall
+  model.trees.trees[1].leaves = {0.0F, 0.0F, 0.0F, 5.0F, 0.0F, 0.0F, 0.0F, 0.0F, 2.0F};  // grey is paving, red is wall
+  MountingCheck check(model);
+  for (int frame = 0; frame < 4; ++frame) {
+    check.add(yard.scene, measureSceneFeatures(model, yard.scene));
+    EXPECT_LT(check.evidence(), 0.0);
+    EXPECT_FALSE(check.isUpsideDown());
+  }
+}
+
 }  // namespace
 }  // namespace scene_labeler

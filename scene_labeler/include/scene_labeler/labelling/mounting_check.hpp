@@ -9,7 +9,8 @@
 namespace scene_labeler {
 
 /// Finds a camera that is mounted upside down, or whose calibration is that of such a one: the image turned by 180 deg
-/// then agrees better than the image itself with what the shape of the returns says. Not thread-safe.
+/// then agrees better than the image itself with what the shape of the returns says: whether they are ground, wall,
+/// foliage or something else. Not thread-safe.
 class MountingCheck {
  public:
   /// The model must outlive the check.
@@ -18,12 +19,13 @@ class MountingCheck {
   /// Adds a scene with an image and its features (measureSceneFeatures()), unless enough were seen.
   void add(const Scene& scene, const FeatureTable& table);
   /// Returns whether the frames so far speak for a camera that is upside down.
-  bool isUpsideDown() const { return frames_ > 0 && evidence_ > least_evidence; }
+  bool isUpsideDown() const { return frames_ >= least_frames && evidence_ > least_evidence; }
   /// Returns the mean over the returns by how much the turned image is more likely, as a difference of logarithms.
   double evidence() const { return frames_ > 0 ? evidence_ / static_cast<double>(frames_) : 0.0; }
 
  private:
-  static constexpr double least_evidence = 0.3;
+  static constexpr std::size_t least_frames = 2;  // one image alone tells nothing
+  static constexpr double least_evidence = 0.1;   // summed over frames; upright ones have -0.04 to -0.35 each
 
   const LabelModel& model_;
   double evidence_ = 0.0;  // summed over frames
