@@ -264,12 +264,9 @@ class Selection {
     contract(best_.hypothesis);
   }
 
-  void addLink(const SessionLink<D>& link) {
-    Edge<D> edge = problem_.edges[sz(link.closure)];
-    edge.from = link.from;
-    edge.to = link.to;
-    edge.Z = link.T_from_to;
-    proposed_.edges.push_back(edge);
+  // Takes what a closure between two parts says as given.
+  void addLink(int closure) {
+    proposed_.edges.push_back(problem_.edges[sz(closure)]);
     proposed_roles_.push_back(EdgeRole::Trusted);
   }
 
@@ -287,24 +284,24 @@ class Selection {
     for (std::size_t e = 0; e < within.size(); ++e) {
       if (isBetween(e)) within[e] = 0;
     }
-    const SessionLinks<D> links =
+    const SessionLinks links =
         linkSessions(withFactors(problem_, roles_, best_.hypothesis.factors), roles_, within, best_.hypothesis.poses);
-    for (const SessionLink<D>& link : links.agreed) addLink(link);
+    for (const int closure : links.agreed) addLink(closure);
     barUnlinked();
     bool wrongly_joined = false;
     for (std::size_t e = 0; e < roles_.size(); ++e) wrongly_joined |= barred_[e] && best_.hypothesis.in[e];
     if (!links.agreed.empty() || wrongly_joined) propose({}, {}, wrongly_joined);
     std::vector<char> tried(roles_.size(), 0);
-    for (const SessionLink<D>& link : links.doubtful) {
-      if (!barred_[sz(link.closure)] || tried[sz(link.closure)] || tryLink(link)) continue;
+    for (const int closure : links.doubtful) {
+      if (!barred_[sz(closure)] || tried[sz(closure)] || tryLink(closure)) continue;
       for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= weighed_.back().second[e];
     }
   }
 
   // Joins two parts where the closures that then agree are evidence enough, as a whole. Returns whether they are.
-  bool tryLink(const SessionLink<D>& link) {
+  bool tryLink(int closure) {
     const Problem<D> before = proposed_;
-    addLink(link);
+    addLink(closure);
     barUnlinked();
     if (propose({}, {}, false, true)) return true;
     proposed_ = before;

@@ -203,9 +203,9 @@ std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeR
 }
 
 template <int D>
-SessionLinks<D> linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
-                             const std::vector<Rigid<D>>& poses) {
-  SessionLinks<D> made;
+SessionLinks linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                          const std::vector<Rigid<D>>& poses) {
+  SessionLinks made;
   DisjointSets sets(problem.poses.size());
   std::vector<double> weights(in.begin(), in.end());
   for (std::size_t e = 0; e < in.size(); ++e)
@@ -246,14 +246,11 @@ SessionLinks<D> linkSessions(const Problem<D>& problem, const std::vector<EdgeRo
     const double log_chance = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
                               (k - 1.0) * std::log(consistency.pairChance());
     if (set.size() < kLeastLink) continue;
-    const auto linkBy = [&](std::size_t i) {
-      return SessionLink<D>{closures[i].from, closures[i].to, consistency.measured(closures[i]), closures[i].edge};
-    };
     if (log_chance > std::log(kLinkChance)) {
-      for (const std::size_t i : bestSupported(found.support)) made.doubtful.push_back(linkBy(i));
+      for (const std::size_t i : bestSupported(found.support)) made.doubtful.push_back(closures[i].edge);
       continue;
     }
-    made.agreed.push_back(linkBy(set.front()));
+    made.agreed.push_back(closures[set.front()].edge);
     sets.join(parts.first, parts.second);
   }
   return made;
@@ -261,9 +258,9 @@ SessionLinks<D> linkSessions(const Problem<D>& problem, const std::vector<EdgeRo
 
 template std::vector<int> sessionParts<2>(const Problem<2>&, const std::vector<EdgeRole>&);
 template std::vector<int> sessionParts<3>(const Problem<3>&, const std::vector<EdgeRole>&);
-template SessionLinks<2> linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                         const std::vector<Rigid<2>>&);
-template SessionLinks<3> linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                         const std::vector<Rigid<3>>&);
+template SessionLinks linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                      const std::vector<Rigid<2>>&);
+template SessionLinks linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                      const std::vector<Rigid<3>>&);
 
 }  // namespace pose_graph

@@ -10,18 +10,10 @@ namespace pose_graph {
 /// So many closures that agree join two parts, and no fewer.
 constexpr std::size_t kLeastLink = 3;
 
-/// Where a closure puts one part of a graph in the frame of another.
-template <int D>
-struct SessionLink {
-  int from = 0, to = 0;  ///< poses of the two parts
-  Rigid<D> T_from_to;
-  int closure = 0;
-};
-
-template <int D>
+/// Closures that put one part of a graph in the frame of another.
 struct SessionLinks {
-  std::vector<SessionLink<D>> agreed;    ///< one between each two parts that join
-  std::vector<SessionLink<D>> doubtful;  ///< between parts that pairs alone do not join; best supported first
+  std::vector<int> agreed;    ///< one between each two parts that join
+  std::vector<int> doubtful;  ///< between parts that pairs alone do not join; best supported first
 };
 
 /// Parts of a graph that trusted and asserted edges hold together: which part each pose is of.
@@ -35,14 +27,14 @@ std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeR
 /// others support best are doubtful links: the evidence of all that agree once one of them holds has to decide. Of very
 /// many, some are looked at. The parts are taken as `poses` and the edges that are `in` have them.
 template <int D>
-SessionLinks<D> linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
-                             const std::vector<Rigid<D>>& poses);
+SessionLinks linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                          const std::vector<Rigid<D>>& poses);
 
 extern template std::vector<int> sessionParts<2>(const Problem<2>&, const std::vector<EdgeRole>&);
 extern template std::vector<int> sessionParts<3>(const Problem<3>&, const std::vector<EdgeRole>&);
-extern template SessionLinks<2> linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&,
-                                                const std::vector<char>&, const std::vector<Rigid<2>>&);
-extern template SessionLinks<3> linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&,
-                                                const std::vector<char>&, const std::vector<Rigid<3>>&);
+extern template SessionLinks linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                             const std::vector<Rigid<2>>&);
+extern template SessionLinks linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                             const std::vector<Rigid<3>>&);
 
 }  // namespace pose_graph

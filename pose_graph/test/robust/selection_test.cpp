@@ -118,15 +118,21 @@ TEST(Selection, ASlippedStepIsFoundAndCostsNoClosure) {
   }
 }
 
+// One step is longer by two metres and turned by half a radian; which.
+std::size_t slip(Problem<2>& problem, std::uint64_t seed) {
+  const std::size_t slipped = 500 + 37 * seed;
+  problem.edges[slipped].Z.t[0] += 2.0;
+  problem.edges[slipped].Z.R = problem.edges[slipped].Z.R * expRotation(RotationVector<2>(0.5));
+  return slipped;
+}
+
 // Among many closures: two to six of a thousand would be rejected in place of the step.
 TEST(Selection, ASlippedStepThatCostsFewClosuresIsFound) {
   for (const std::uint64_t seed : {1, 9}) {
     const SimulatedGraph graph =
         urban_nav_core::testing::manhattanGraph(1500, 20, 1.0, urban_nav_core::testing::evenNoise(0.1, 0.02), seed);
     Problem<2> problem = simulatedProblem<2>(graph, graph.truth);
-    const std::size_t slipped = 500 + 37 * seed;
-    problem.edges[slipped].Z.t[0] += 2.0;
-    problem.edges[slipped].Z.R = problem.edges[slipped].Z.R * expRotation(RotationVector<2>(0.5));
+    const std::size_t slipped = slip(problem, seed);
     const Selected<2> selected(problem);
     EXPECT_EQ(selected.robust.edges[slipped].reason, Reason::Slipped) << seed;
     EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), 0u) << seed;
@@ -141,9 +147,7 @@ TEST(Selection, ASlippedStepIsFoundBesideRowsOfFalseClosures) {
         urban_nav_core::testing::manhattanGraph(1500, 20, 1.0, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
     addFalseClosures(graph, FalseClosures::RandomGrouped, 500, seed);
     Problem<2> problem = simulatedProblem<2>(graph, graph.truth);
-    const std::size_t slipped = 500 + 37 * seed;
-    problem.edges[slipped].Z.t[0] += 2.0;
-    problem.edges[slipped].Z.R = problem.edges[slipped].Z.R * expRotation(RotationVector<2>(0.5));
+    const std::size_t slipped = slip(problem, seed);
     const Selected<2> selected(problem);
     EXPECT_EQ(selected.robust.edges[slipped].reason, Reason::Slipped) << seed;
     std::size_t kept = 0;
