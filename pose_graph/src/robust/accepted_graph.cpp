@@ -22,6 +22,16 @@ constexpr double kGone = 0.05;
 
 constexpr int kSettleSteps = 10;  // steps: on public graphs a way that leads there has taken six at most
 
+// Multiplications of blocks.
+double factorWork(const Symbolic& symbolic) {
+  double sum = 0.0;
+  for (int s = 0; s < symbolic.size(); ++s) {
+    const double columns = symbolic.columns(s), rows = columns + symbolic.rowsBelow(s);
+    sum += columns * rows * rows;
+  }
+  return sum;
+}
+
 }  // namespace
 
 template <int D>
@@ -65,13 +75,12 @@ double AcceptedGraph<D>::work(const std::vector<char>& in, bool soon) const {
   for (std::size_t e = 0; e < in.size(); ++e)
     if (in[e]) pairs.emplace_back(problem_->edges[e].from, problem_->edges[e].to);
   const Adjacency graph = makeAdjacency(static_cast<int>(problem_->poses.size()), pairs);
-  const Symbolic symbolic = analyse(graph, soon ? minimumDegreeOrder(graph) : eliminationOrder(graph));
-  double sum = 0.0;
-  for (int s = 0; s < symbolic.size(); ++s) {
-    const double columns = symbolic.columns(s), rows = columns + symbolic.rowsBelow(s);
-    sum += columns * rows * rows;
-  }
-  return sum;
+  return factorWork(analyse(graph, soon ? minimumDegreeOrder(graph) : eliminationOrder(graph)));
+}
+
+template <int D>
+bool AcceptedGraph<D>::isTooDense() const {
+  return factorWork(equations_->symbolic()) > most_work_;
 }
 
 template <int D>

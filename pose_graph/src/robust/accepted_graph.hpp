@@ -16,8 +16,9 @@ class AcceptedGraph {
  public:
   static constexpr int N = tangent_size<D>;
 
-  /// `problem` must outlive it.
-  explicit AcceptedGraph(const Problem<D>& problem) : problem_(&problem) {}
+  /// `problem` must outlive it. `most_work`: beyond which it is too dense.
+  explicit AcceptedGraph(const Problem<D>& problem, double most_work = std::numeric_limits<double>::infinity())
+      : problem_(&problem), most_work_(most_work) {}
 
   /// Takes these edges (those not 0), with weights by edge of the whole problem, or ones if empty.
   void take(const std::vector<char>& in, const std::vector<double>& weights = {});
@@ -25,6 +26,8 @@ class AcceptedGraph {
   /// What it would take to factor these edges, in multiplications of blocks. `soon`: in the order that is found
   /// soonest, where it may be more.
   double work(const std::vector<char>& in, bool soon = false) const;
+  /// Whether what is accepted takes more than the most work to factor.
+  bool isTooDense() const;
 
   /// Steps until what is left to gain is less than this share of the cost. `afresh`: from rotations found without a
   /// guess if that costs less than `poses`. Ends too where the cost will stay above `most`: were the next steps to gain
@@ -64,6 +67,7 @@ class AcceptedGraph {
   bool canKeepPattern(const std::vector<char>& in) const;
 
   const Problem<D>* problem_;
+  double most_work_;
   Problem<D> part_;  // of the pattern
   std::vector<char> in_, pattern_;
   std::vector<double> weights_;  // of the edges of the pattern; empty: ones

@@ -36,7 +36,7 @@ std::vector<int> smallGroups(const std::vector<int>& group) {
 template <int D>
 AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
-                                const Thresholds& thresholds, const InformationScale& scale) {
+                                const Thresholds& thresholds, const InformationScale& scale, double most_work) {
   AdmissionState<D> state;
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
     state.in.push_back(evaluator.edge(static_cast<int>(e)).rank > 0);  // a link without information joins nothing
@@ -49,7 +49,7 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
     asserted |= roles[e] == EdgeRole::Asserted;
   }
   state.poses = posesAlongEdges(part);
-  AcceptedGraph<D> graph(problem);
+  AcceptedGraph<D> graph(problem, most_work);
   graph.take(state.in);
   graph.relax(state.poses, kRoundSteps, kRoundShare, asserted);
   const std::vector<int> small = smallGroups(group);
@@ -76,6 +76,8 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
     if (now.changes > 0) {
       state.in = std::move(now.next);
       graph.take(state.in);
+      state.is_too_dense = graph.isTooDense();
+      if (state.is_too_dense) break;
       graph.relax(state.poses, kRoundSteps, kRoundShare, now.joined || much() || round < 5);
     }
     if (!few || now.joined || admitOneGroup(evaluator, group, thresholds, tried, graph, state)) continue;
@@ -92,8 +94,10 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
 }
 
 template AdmissionState<2> admitClosures<2>(const Problem<2>&, const std::vector<EdgeRole>&, const ClosureEvaluator<2>&,
-                                            const std::vector<int>&, const Thresholds&, const InformationScale&);
+                                            const std::vector<int>&, const Thresholds&, const InformationScale&,
+                                            double);
 template AdmissionState<3> admitClosures<3>(const Problem<3>&, const std::vector<EdgeRole>&, const ClosureEvaluator<3>&,
-                                            const std::vector<int>&, const Thresholds&, const InformationScale&);
+                                            const std::vector<int>&, const Thresholds&, const InformationScale&,
+                                            double);
 
 }  // namespace pose_graph

@@ -16,14 +16,16 @@ struct AdmissionState {
   std::vector<char> in;
   std::vector<Rigid<D>> poses;
   Evidence evidence;
-  double variance = 1.0;  ///< RobustSolution::variance_factor
+  double variance = 1.0;      ///< RobustSolution::variance_factor
+  bool is_too_dense = false;  ///< given up: what was in took more than the most work to factor
 };
 
-/// Lets closures into the graph by evidence, and out again (pose_graph/robust.hpp).
+/// Lets closures into the graph by evidence, and out again (pose_graph/robust.hpp). `most_work`: of
+/// AcceptedGraph::work(), beyond which it gives up.
 template <int D>
 AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
-                                const Thresholds& thresholds, const InformationScale& scale);
+                                const Thresholds& thresholds, const InformationScale& scale, double most_work);
 
 /// Takes all candidates at once, into `state` and `graph`, if hardly any of them is contradicted then: for a graph
 /// without false closures, or with next to none, that is all there is to do. Returns whether it did. `state` holds
@@ -54,9 +56,9 @@ std::size_t validateFinally(const ClosureEvaluator<D>& evaluator, const std::vec
 
 /// Continues from there with all candidates, their squares truncated, the limit falling from far too wide to the
 /// quantile of 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are
-/// not far off.
+/// not far off; given up where it takes more than `most_work` to factor.
 template <int D>
 void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const ClosureEvaluator<D>& evaluator, AdmissionState<D>& state);
+                               const ClosureEvaluator<D>& evaluator, double most_work, AdmissionState<D>& state);
 
 }  // namespace pose_graph

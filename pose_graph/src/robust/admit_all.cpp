@@ -51,6 +51,10 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   }
 
   graph.take(all.in);
+  if (graph.isTooDense()) {
+    graph.take(state.in);
+    return false;
+  }
   graph.relax(all.poses, kRoundSteps, kRoundShare, true);
   all.variance = varianceFactor(evaluator, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
   all.evidence = evaluator.evaluate(graph, all.in, all.poses, all.variance, small_group, kUncontrolled);

@@ -10,11 +10,25 @@
 
 namespace pose_graph {
 
+/// Whether a factor is larger or smaller than 1 by more than that.
+inline bool beyond(double factor, double limit) { return factor > limit || factor < 1.0 / limit; }
+
 /// Factors of the variances that the information states: of edges along which the robot moved (Trusted, Asserted) and
 /// of closures (Candidate).
 struct VarianceFactors {
   double odometry = 1.0, closures = 1.0;
+
+  /// Whether one of them is off by more than that.
+  bool areBeyond(double limit) const { return beyond(odometry, limit) || beyond(closures, limit); }
 };
+
+/// Divides the information of each edge by its factor.
+template <int D>
+Problem<D> withFactors(Problem<D> problem, const std::vector<EdgeRole>& roles, const VarianceFactors& factors) {
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    problem.edges[e].information /= roles[e] == EdgeRole::Candidate ? factors.closures : factors.odometry;
+  return problem;
+}
 
 /// A set of edges that may be the true ones, with what it explains.
 template <int D>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "pose_graph/robust.hpp"
@@ -13,12 +14,14 @@ struct Judgement {
   std::vector<EdgeAssessment> edges;  ///< chi2 of candidates alone
   std::vector<Rigid<D>> poses;
   double variance = 1.0;
+  bool is_too_dense = false;  ///< given up: AdmissionState::is_too_dense
 };
 
 /// Admits closures by evidence, with the information taken as it is stated (relaxRobust()), over the reduced graph
-/// where that pays.
+/// where that pays. Gives up where what is accepted takes more than `most_work` (AcceptedGraph::work()) to factor.
 template <int D>
-Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
+Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                        double most_work = std::numeric_limits<double>::infinity());
 
 /// Relaxes the edges with weight.
 template <int D>

@@ -96,7 +96,8 @@ constexpr int kReadings = 3;
 constexpr int kNearSteps = 10;  // steps, as in AcceptedGraph::settle
 
 template <int D>
-Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const DeadReckoning<D>& reckoning) {
+Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const DeadReckoning<D>& reckoning,
+                   double most_work) {
   std::vector<int> candidates, asserted;
   for (std::size_t e = 0; e < roles.size(); ++e) {
     if (roles[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
@@ -107,8 +108,13 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
   const ClosureLoops<D> loops(problem, candidates, reckoning);
   const InformationScale scale = informationScale(loops);
   const std::vector<int> group = consistentGroups(problem.edges.size(), loops, std::max(1.0, scale.factor), thresholds);
-  AdmissionState<D> state = admitClosures(problem, roles, evaluator, group, thresholds, scale);
-  if (state.evidence.known) readmitByTruncatedSquares(problem, roles, evaluator, state);
+  AdmissionState<D> state = admitClosures(problem, roles, evaluator, group, thresholds, scale, most_work);
+  if (state.is_too_dense) {
+    Judgement<D> given_up;
+    given_up.is_too_dense = true;
+    return given_up;
+  }
+  if (state.evidence.known) readmitByTruncatedSquares(problem, roles, evaluator, most_work, state);
 
   Judgement<D> made;
   made.variance = state.variance;
@@ -142,7 +148,7 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
     believed[sz(e)] = EdgeRole::Trusted;
   }
   const ClosureEvaluator<D> doubter(unasserted, candidates, reckoning);
-  AdmissionState<D> without = admitClosures(unasserted, believed, doubter, group, thresholds, scale);
+  AdmissionState<D> without = admitClosures(unasserted, believed, doubter, group, thresholds, scale, most_work);
   for (int e : asserted) without.in[sz(e)] = 0;
   for (int e : asserted) made.edges[sz(e)].contradicted_by = contradicting(problem, e, without, evaluator, thresholds);
   return made;
@@ -157,7 +163,8 @@ bool sameVerdicts(const std::vector<EdgeAssessment>& a, const std::vector<EdgeAs
 // The same by way of the core. What a chain says of its ends was read off where odometry laid it: it is read again
 // where the accepted closures have put it, as long as that changes what is thought of any.
 template <int D>
-Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                       double most_work) {
   const DeadReckoning<D> whole(problem, roles);
   Judgement<D> judged;
   for (int reading = 0; reading < kReadings; ++reading) {
@@ -166,7 +173,8 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
     reckoning.extent = whole.extent;
     for (std::size_t i = 0; i < reckoning.way.size(); ++i)
       reckoning.way[i] = whole.way[sz(core.pose(static_cast<int>(i)))];
-    Judgement<D> again = judge(core.problem(), core.roles(), reckoning);
+    Judgement<D> again = judge(core.problem(), core.roles(), reckoning, most_work);
+    if (again.is_too_dense) return again;
     const bool settled = reading > 0 && sameVerdicts(judged.edges, again.edges);
     judged = std::move(again);
     core.expanded(judged.poses);
@@ -194,9 +202,10 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
 }  // namespace
 
 template <int D>
-Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles, double most_work) {
   auto core = CoreGraph<D>::of(problem, roles);
-  return core ? judgeCore(*core, problem, roles) : judge(problem, roles, DeadReckoning<D>(problem, roles));
+  return core ? judgeCore(*core, problem, roles, most_work)
+              : judge(problem, roles, DeadReckoning<D>(problem, roles), most_work);
 }
 
 // From where the growth left off, which is near as a rule. Where it is at the far end of a long flat valley (over a
@@ -242,8 +251,8 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
 
 template std::vector<EdgeRole> rolesByNumbers<2>(const Problem<2>&);
 template std::vector<EdgeRole> rolesByNumbers<3>(const Problem<3>&);
-template Judgement<2> judgeGraph<2>(const Problem<2>&, const std::vector<EdgeRole>&);
-template Judgement<3> judgeGraph<3>(const Problem<3>&, const std::vector<EdgeRole>&);
+template Judgement<2> judgeGraph<2>(const Problem<2>&, const std::vector<EdgeRole>&, double);
+template Judgement<3> judgeGraph<3>(const Problem<3>&, const std::vector<EdgeRole>&, double);
 template RobustSolution<2> solutionFrom<2>(const Problem<2>&, const std::vector<EdgeRole>&, const SolveOptions&,
                                            Judgement<2>);
 template RobustSolution<3> solutionFrom<3>(const Problem<3>&, const std::vector<EdgeRole>&, const SolveOptions&,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -27,23 +28,17 @@ constexpr double kDecisive = 7.0;
 constexpr double kEachDecisive = 2.0;
 // A selection is contested where more than this share of the closures is rejected, or their variances are beyond that.
 constexpr double kContestedShare = 0.02, kContestedFactor = 9.0;
-constexpr int kRow = 5;                // of closures in a row outside, one in so many stands for the others
-constexpr double kFar = 100.0;         // of variances that are tried
+constexpr int kRow = 5;         // of closures in a row outside, one in so many stands for the others
+constexpr double kFar = 100.0;  // of variances that are tried
+// What takes so many times the work of the best set to factor, and more than a fraction of a second (multiplications of
+// blocks), has false closures between far places that fill the factor: no other set has been worth its minutes.
+constexpr double kDense = 20.0, kSoonFactored = 1e7;
 constexpr double kRegrowFactor = 1.4;  // of variances: less changes hardly a verdict
 constexpr int kRegrows = 3;
 constexpr double kHealedShare = 0.01;  // of a step's information that what takes its place has
 // Beyond so many poses what nothing contests is not judged, and beyond so many one selection is all that there is time
 // for, weighed where the chains of a graph leave a core that is no larger.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
-
-template <int D>
-Problem<D> withFactors(Problem<D> problem, const std::vector<EdgeRole>& roles, const VarianceFactors& factors) {
-  for (std::size_t e = 0; e < roles.size(); ++e)
-    problem.edges[e].information /= roles[e] == EdgeRole::Candidate ? factors.closures : factors.odometry;
-  return problem;
-}
-
-bool beyond(double factor, double limit) { return factor > limit || factor < 1.0 / limit; }
 
 // Whether no verdict depends on which of them it is.
 bool areAlike(const VarianceFactors& a, const VarianceFactors& b) {
@@ -150,9 +145,7 @@ class Selection {
   // Whether a set fits because variances were changed until it did: each row is then hardly likelier than chance.
   bool isInflated(const Hypothesis<D>& hypothesis) const {
     if (overOdometry(hypothesis) < kDecisive) return true;
-    if (!beyond(hypothesis.factors.odometry, kContestedFactor) &&
-        !beyond(hypothesis.factors.closures, kContestedFactor))
-      return false;
+    if (!hypothesis.factors.areBeyond(kContestedFactor)) return false;
     return overOdometry(hypothesis) < kDecisive + kEachDecisive * judge_->rowsInside(hypothesis);
   }
 
@@ -161,7 +154,7 @@ class Selection {
   }
 
   // Judges the proposed graph without what is barred.
-  Judgement<D> judgeProposed(const VarianceFactors& factors) const {
+  Judgement<D> judgeProposed(const VarianceFactors& factors, double most_work) const {
     Problem<D> part;
     part.poses = proposed_.poses;
     std::vector<EdgeRole> roles;
@@ -172,7 +165,9 @@ class Selection {
       roles.push_back(proposed_roles_[e]);
       names.push_back(e);
     }
-    Judgement<D> judged = judgeGraph(withFactors(std::move(part), roles, factors), roles), made;
+    Judgement<D> judged = judgeGraph(withFactors(std::move(part), roles, factors), roles, most_work), made;
+    made.is_too_dense = judged.is_too_dense;
+    if (made.is_too_dense) return made;
     made.poses = std::move(judged.poses);
     made.variance = judged.variance;
     EdgeAssessment left_out;
@@ -207,13 +202,18 @@ class Selection {
     return linking;
   }
 
+  double mostWork() const {
+    return std::max(kSoonFactored, kDense * AcceptedGraph<D>(problem_).work(best_.hypothesis.in, true));
+  }
+
   // Judges the proposed graph with these factors; keeps what is better. Returns whether it was.
   bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false,
                bool is_doubtful_link = false) {
     Proposal made;
     made.slips = slips;
     made.grown_with = factors;
-    made.judgement = judgeProposed(factors);
+    made.judgement = judgeProposed(factors, forced ? std::numeric_limits<double>::infinity() : mostWork());
+    if (made.judgement.is_too_dense) return false;
     for (const Slip<D>& slip : slips) {
       EdgeAssessment& edge = made.judgement.edges[sz(slip.edge)];
       edge.weight = 0.0;
@@ -377,10 +377,7 @@ class Selection {
   }
 
   void rescale() {
-    const VarianceFactors& found = best_.hypothesis.factors;
-    if (!isContested(best_.judgement) && !beyond(found.odometry, kContestedFactor) &&
-        !beyond(found.closures, kContestedFactor))
-      return;
+    if (!isContested(best_.judgement) && !best_.hypothesis.factors.areBeyond(kContestedFactor)) return;
     const auto try_with = [&](const VarianceFactors& factors) {
       if (!takesNearlyAll() && factors.odometry <= judge_->largestOdometryFactor()) propose(factors, slips_);
     };
@@ -397,20 +394,19 @@ class Selection {
   }
 
   // Whether the best set explains far more than chance, with variances near those stated.
-  bool isCredible() const {
-    const VarianceFactors& found = best_.hypothesis.factors;
-    return evidence() >= kDecisive && !beyond(found.odometry, kContestedFactor) &&
-           !beyond(found.closures, kContestedFactor);
-  }
+  bool isCredible() const { return evidence() >= kDecisive && !best_.hypothesis.factors.areBeyond(kContestedFactor); }
 
-  // Whether more than a few of the rejected closures would fit the best set with variances kFar times larger. Where
-  // they would not, and the set explains more than chance, no others can be gained by that.
+  // Whether more than a few of the rejected closures would fit the best set with variances kFar times larger than those
+  // stated, or than those that follow from it if they are smaller. Where they would not, and the set explains more than
+  // chance, no others can be gained by that.
   bool mayFitLooser() const {
     const Thresholds thresholds(candidates_, tangent_size<D>);
+    const VarianceFactors& found = best_.hypothesis.factors;
+    const double far = kFar * std::min(1.0, std::max(found.odometry, found.closures));
     std::size_t near = 0;
     for (const EdgeAssessment& edge : best_.judgement.edges)
       near +=
-          edge.verdict == ClosureVerdict::Rejected && edge.chi2 <= kFar * thresholds.limit[sz(std::max(1, edge.dof))];
+          edge.verdict == ClosureVerdict::Rejected && edge.chi2 <= far * thresholds.limit[sz(std::max(1, edge.dof))];
     return static_cast<double>(near) > kContestedShare * static_cast<double>(candidates_);
   }
 

@@ -21,7 +21,7 @@ constexpr double kWorth =
 
 template <int D>
 void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const ClosureEvaluator<D>& evaluator, AdmissionState<D>& state) {
+                               const ClosureEvaluator<D>& evaluator, double most_work, AdmissionState<D>& state) {
   std::vector<double> limit(1, 0.0);
   for (int dof = 1; dof <= tangent_size<D>; ++dof)
     limit.push_back(state.variance * urban_nav_core::chiSquareQuantile(kQuantile, dof));
@@ -47,7 +47,7 @@ void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<Edge
   std::vector<char> in = state.in;
   std::vector<double> weights(in.size(), 1.0);
   std::vector<Rigid<D>> poses = state.poses;
-  AcceptedGraph<D> graph(problem);
+  AcceptedGraph<D> graph(problem, most_work);
   for (double wide = kWideFactor; wide > 1.0; wide /= kNarrower) {
     if (!worthIt(poses, wide)) return;
     for (int e : evaluator.candidates()) {
@@ -56,6 +56,7 @@ void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<Edge
       weights[sz(e)] = share < 1.0 ? (1.0 - share) * (1.0 - share) : 0.0;  // Beaton, Tukey, Technometrics 1974
     }
     graph.take(in, weights);
+    if (graph.isTooDense()) return;
     graph.relax(poses, 1, 0.0, false);
   }
   for (int i = 0; i < kLast; ++i) {
@@ -63,6 +64,7 @@ void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<Edge
     for (int e : evaluator.candidates()) in[sz(e)] = toSquare(sz(e), poses) <= findLimit(sz(e));
     if (i > 0 && in == before) break;
     graph.take(in);
+    if (graph.isTooDense()) return;
     graph.relax(poses, 2, 0.0, false);
   }
   // A lower cost alone may come from throwing more away: there must be more that fit.
@@ -77,8 +79,8 @@ void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<Edge
 }
 
 template void readmitByTruncatedSquares<2>(const Problem<2>&, const std::vector<EdgeRole>&, const ClosureEvaluator<2>&,
-                                           AdmissionState<2>&);
+                                           double, AdmissionState<2>&);
 template void readmitByTruncatedSquares<3>(const Problem<3>&, const std::vector<EdgeRole>&, const ClosureEvaluator<3>&,
-                                           AdmissionState<3>&);
+                                           double, AdmissionState<3>&);
 
 }  // namespace pose_graph

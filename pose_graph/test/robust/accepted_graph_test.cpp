@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "robust/judgement.hpp"
 #include "robust/variance_components.hpp"
 #include "support/drawn.hpp"
 
@@ -85,6 +86,23 @@ TEST(AcceptedGraph, GoesOnOnlyWhereTheCostIsInReach) {
   // Half of it cannot be reached, which shows before the last digit of the cost does.
   EXPECT_GT(costWithin(0.5 * least), least);
   EXPECT_LT(costWithin(0.5 * least), 1.5 * least);
+}
+
+TEST(AcceptedGraph, IsTooDenseBeyondTheMostWorkAndNoVerdictIsGivenThen) {
+  Dice dice(12);
+  const Problem<2> problem = test::drawProblem<2>(dice, 60, 40, 0.05, 0.02);
+  const std::vector<EdgeRole> roles = rolesByNumbers(problem);
+  const std::vector<char> all(problem.edges.size(), 1);
+  const double work = AcceptedGraph<2>(problem).work(all);
+  for (const double share : {0.5, 2.0}) {
+    AcceptedGraph<2> accepted(problem, share * work);
+    accepted.take(all);
+    EXPECT_EQ(accepted.isTooDense(), share < 1.0);
+  }
+  EXPECT_TRUE(judgeGraph(problem, roles, 0.01 * work).is_too_dense);
+  const Judgement<2> within = judgeGraph(problem, roles, 10.0 * work), unlimited = judgeGraph(problem, roles);
+  EXPECT_FALSE(within.is_too_dense);
+  for (std::size_t e = 0; e < roles.size(); ++e) EXPECT_EQ(within.edges[e].verdict, unlimited.edges[e].verdict) << e;
 }
 
 }  // namespace
