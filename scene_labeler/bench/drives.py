@@ -9,8 +9,8 @@ import sys
 import simulated
 
 # World, seed, route, day, seconds. Day 3 is wet, day 4 in winter: the same places as on day 1.
-DRIVES = (("quad", 7, "loops", 1, 20), ("quad", 7, "loops", 3, 20), ("begbroke", 7, "loops", 1, 20), ("begbroke", 7, "loops", 4, 20),
-          ("street", 7, "loops", 1, 20), ("street", 8, "reversed", 2, 20))
+DRIVES = (("quad", 7, "loops", 1, 60), ("quad", 7, "loops", 3, 60), ("quad", 8, "gardens", 2, 60), ("begbroke", 7, "loops", 1, 60),
+          ("begbroke", 7, "loops", 4, 60), ("street", 7, "loops", 1, 60), ("street", 8, "reversed", 2, 60))
 PAPER = {"grass": 97.3, "paved": 93.1, "dirt_path": 60.0, "textured_wall": 77.8, "smooth_wall": 60.4, "foliage": 61.7, "vehicle": 56.5}
 
 

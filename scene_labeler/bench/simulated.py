@@ -52,7 +52,7 @@ def model_without(folder, world):
     model = Path(folder) / f"without_{world}.labels"
     if not model.exists():
         bags = [bag for other in WORLDS if other != world for bag in training_drives(folder, other)]
-        urban_nav("labels", "train", *with_poses(bags), "--set", "scene_labeler.samples=8000", "-o", model)
+        urban_nav("labels", "train", *with_poses(bags), "--set", "scene_labeler.samples=16000", "-o", model)
     return model
 
 

@@ -87,19 +87,24 @@ void DriveLabeler::settle(std::size_t end) {
   SceneLabels labels;
   labels.classes = model_.classes;
   std::vector<DriveReturn> answered;
+  std::vector<float>& p = labels.probabilities;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (votes_[i].views == 0) continue;
+    answered.push_back(returns_[i]);
+    labels.patches.push_back(votes_[i].patch);
+    for (std::size_t k = 0; k < classes; ++k) p.push_back(logs_[i * classes + k] / static_cast<float>(votes_[i].views));
+    normaliseLogs(p.data() + p.size() - classes, classes);
+  }
+  frequencies_.correct(p);
+  for (float& value : p) value = std::exp(value);
+  auto row = p.begin();
   for (std::size_t i = 0; i < count; ++i) {
     const Votes& votes = votes_[i];
     if (votes.views == 0) continue;
-    answered.push_back(returns_[i]);
-    std::vector<float> p(classes);
-    for (std::size_t k = 0; k < classes; ++k) p[k] = logs_[i * classes + k] / static_cast<float>(votes.views);
-    normaliseLogs(p.data(), classes);
-    for (float& value : p) value = std::exp(value);
-    const auto best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
-    labels.labels.push_back(model_.classes[best]);
-    labels.unsure.push_back(p[best] < sure_when_fused || 2 * votes.unsure > votes.views ? 1 : 0);
-    labels.patches.push_back(votes.patch);
-    labels.probabilities.insert(labels.probabilities.end(), p.begin(), p.end());
+    const auto best = std::max_element(row, row + static_cast<std::ptrdiff_t>(classes));
+    labels.labels.push_back(model_.classes[static_cast<std::size_t>(best - row)]);
+    labels.unsure.push_back(*best < sure_when_fused || 2 * votes.unsure > votes.views ? 1 : 0);
+    row += static_cast<std::ptrdiff_t>(classes);
   }
   if (!answered.empty()) take_(answered, labels);
   const auto gone = static_cast<std::ptrdiff_t>(count);

@@ -32,6 +32,7 @@ MapLabeler::MapLabeler(const LabelModel& model, const Options& options, std::vec
       options_(options),
       views_(inOrder(std::move(views))),
       callbacks_(std::move(callbacks)),
+      frequencies_(model),
       next_row_(std::numeric_limits<int>::min()) {}
 
 void MapLabeler::addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& reflectance) {
@@ -161,15 +162,19 @@ void MapLabeler::labelHidden(const Square& square, const SquarePoints& own) {
 
 void MapLabeler::giveLabels(const SquarePoints& square) {
   const std::size_t classes = model_.classes.size();
-  std::vector<float> p(classes);
+  std::vector<float> logs;
+  for (std::size_t i = 0; i < square.points.size(); ++i)
+    for (std::size_t k = 0; k < classes && square.views[i] > 0; ++k)
+      logs.push_back(square.logs[i * classes + k] / static_cast<float>(square.views[i]));
+  for (std::size_t at = 0; at < logs.size(); at += classes) normaliseLogs(logs.data() + at, classes);
+  frequencies_.correct(logs);
+  const float* p = logs.data();
   for (std::size_t i = 0; i < square.points.size(); ++i) {
     PointLabel label;
     if (square.views[i] > 0) {
-      for (std::size_t k = 0; k < classes; ++k)
-        p[k] = square.logs[i * classes + k] / static_cast<float>(square.views[i]);
-      normaliseLogs(p.data(), classes);
-      const auto best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
+      const auto best = static_cast<std::size_t>(std::max_element(p, p + classes) - p);
       const float probability = std::exp(p[best]);
+      p += classes;
       label = {model_.classes[best], static_cast<std::uint8_t>(std::lround(255.0F * probability)),
                probability < fused_sure || 2 * square.unsure[i] > square.views[i]};
     }

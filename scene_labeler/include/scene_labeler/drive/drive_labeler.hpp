@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene_labeler/drive/drive_window.hpp"
+#include "scene_labeler/labelling/class_frequencies.hpp"
 #include "scene_labeler/labelling/labeler.hpp"
 #include "scene_labeler/labelling/mounting_check.hpp"
 #include "scene_labeler/parameters.hpp"
@@ -13,8 +14,8 @@ namespace scene_labeler {
 
 /// Labels the returns of a drive, each from all frames that show it: the mean of their log probabilities, since views
 /// of one surface err together. Class images of another source count as further views, right in the share
-/// `class_accuracy`. Returns that no frame shows are labelled by shape, with the nearest frame. Not thread-safe; the
-/// result does not depend on the number of threads.
+/// `class_accuracy`; corrected to the frequencies of classes where the robot is. Returns that no frame shows are
+/// labelled by shape, with the nearest frame. Not thread-safe; the result does not depend on the number of threads.
 class DriveLabeler : public DriveObserver {
  public:
   /// Takes the returns that have a label, in their order; `labels`: one row per return.
@@ -31,7 +32,8 @@ class DriveLabeler : public DriveObserver {
         take_(std::move(take)),
         take_image_(std::move(take_image)),
         take_scene_(std::move(take_scene)),
-        mounting_(model) {}
+        mounting_(model),
+        frequencies_(model) {}
 
   void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
                const std::vector<DriveReturn>& returns) override;
@@ -63,6 +65,7 @@ class DriveLabeler : public DriveObserver {
   const TakeImage take_image_;
   const TakeScene take_scene_;
   MountingCheck mounting_;
+  ClassFrequencies frequencies_;
   std::size_t first_ = 0;  // index of returns_[0]
   std::vector<DriveReturn> returns_;
   std::vector<Votes> votes_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene_labeler/drive/drive_scene.hpp"
+#include "scene_labeler/labelling/class_frequencies.hpp"
 #include "scene_labeler/labelling/labeler.hpp"
 #include "scene_labeler/labelling/mounting_check.hpp"
 
@@ -106,6 +107,7 @@ class MapLabeler {
   const Options options_;
   const std::vector<PlacedView> views_;  // in the order of y
   const Callbacks callbacks_;
+  ClassFrequencies frequencies_;
   std::size_t next_view_ = 0, next_point_ = 0, held_ = 0;
   int next_row_;  // of squares: those before have their labels
   std::map<Square, SquarePoints> squares_;

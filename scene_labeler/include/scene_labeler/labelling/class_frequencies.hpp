@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "scene_labeler/model/label_model.hpp"
+
+namespace scene_labeler {
+
+/// How frequent the classes are where the robot is. A model's probabilities are those of a return from anywhere on its
+/// training drives; where gravel is everywhere and paving rare, what could be either is gravel. Frequencies are
+/// estimated from the probabilities themselves by expectation maximisation (Saerens, Latinne and Decaestecker 2002),
+/// over the returns of the last minute or so. Half of their logarithm is used: neighbouring returns err together. Not
+/// thread-safe.
+class ClassFrequencies {
+ public:
+  /// A model that does not know the frequencies of its training (LabelModel::samples) leaves all as it is.
+  explicit ClassFrequencies(const LabelModel& model);
+
+  /// Corrects the log probabilities of some returns, one row of all classes each, to the frequencies of those before
+  /// and of these.
+  void correct(std::vector<float>& logs);
+
+ private:
+  /// Adds what the frequencies `sums` say to a row, and normalises it.
+  void correctRow(const std::vector<double>& sums, const float* from, float* to) const;
+
+  std::size_t classes_ = 0;
+  std::vector<double> trained_;  // share of each class; empty if unknown
+  std::vector<double> seen_;     // sum of the probabilities of each class
+};
+
+}  // namespace scene_labeler

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/labelling/class_frequencies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene_labeler/model/calibration.hpp"
+
+namespace scene_labeler {
+namespace {
+
+constexpr double trained_weight = 8000.0;  // returns, that the frequencies of training count for
+constexpr double memory = 4e5;             // returns, of some minute of one laser
+constexpr double used_share = 0.5;         // of the logarithm of frequencies
+constexpr int iterations = 5;
+
+double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+}  // namespace
+
+ClassFrequencies::ClassFrequencies(const LabelModel& model) : classes_(model.classes.size()) {
+  const std::vector<float>& counts = model.samples.frequencies;
+  const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+  if (counts.size() != classes_ || !(total > 0.0)) return;
+  for (const float count : counts) trained_.push_back(static_cast<double>(count) / total);
+  seen_.assign(classes_, 0.0);
+}
+
+void ClassFrequencies::correctRow(const std::vector<double>& sums, const float* from, float* to) const {
+  const double total = sumOf(sums) + trained_weight;
+  for (std::size_t k = 0; k < classes_; ++k) {
+    to[k] = from[k];
+    if (!(trained_[k] > 0.0)) continue;  // a class that was taught later: how frequent it is nobody knows
+    const double here = (sums[k] + trained_weight * trained_[k]) / total;
+    to[k] += static_cast<float>(used_share * std::log(here / trained_[k]));
+  }
+  normaliseLogs(to, classes_);
+}
+
+void ClassFrequencies::correct(std::vector<float>& logs) {
+  if (trained_.empty() || logs.empty()) return;
+  std::vector<double> sums = seen_;
+  std::vector<float> row(classes_), corrected;
+  for (int iteration = 0; iteration <= iterations; ++iteration) {
+    std::vector<double> next = seen_;
+    const bool is_last = iteration == iterations;
+    for (std::size_t i = 0; i < logs.size(); i += classes_) {
+      correctRow(sums, logs.data() + i, row.data());
+      for (std::size_t k = 0; k < classes_; ++k) next[k] += std::exp(static_cast<double>(row[k]));
+      if (is_last) std::copy(row.begin(), row.end(), logs.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    sums = std::move(next);
+  }
+  seen_ = std::move(sums);
+  const double total = sumOf(seen_);
+  if (total > memory)
+    for (double& sum : seen_) sum *= memory / total;
+}
+
+}  // namespace scene_labeler
