@@ -11,7 +11,7 @@ namespace scene_labeler {
 namespace {
 
 constexpr double trained_weight = 8000.0;  // returns, that the frequencies of training count for
-constexpr double memory = 4e5;             // returns, of some minute of one laser
+constexpr double memory = 1e5;             // returns, of 15 s of one laser, near
 constexpr double used_share = 0.5;         // of the logarithm of frequencies
 constexpr int iterations = 5;
 

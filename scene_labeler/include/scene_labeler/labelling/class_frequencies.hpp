@@ -10,8 +10,8 @@ namespace scene_labeler {
 /// How frequent the classes are where the robot is. A model's probabilities are those of a return from anywhere on its
 /// training drives; where gravel is everywhere and paving rare, what could be either is gravel. Frequencies are
 /// estimated from the probabilities themselves by expectation maximisation (Saerens, Latinne and Decaestecker 2002),
-/// over the returns of the last minute or so. Half of their logarithm is used: neighbouring returns err together. Not
-/// thread-safe.
+/// over the returns of the last quarter of a minute. Half of their logarithm is used: neighbouring returns err
+/// together. Not thread-safe.
 class ClassFrequencies {
  public:
   /// A model that does not know the frequencies of its training (LabelModel::samples) leaves all as it is.
