@@ -27,26 +27,28 @@ ClassFrequencies::ClassFrequencies(const LabelModel& model) : classes_(model.cla
   seen_.assign(classes_, 0.0);
 }
 
-void ClassFrequencies::correctRow(const std::vector<double>& sums, const float* from, float* to) const {
+std::vector<float> ClassFrequencies::shifts(const std::vector<double>& sums) const {
   const double total = sumOf(sums) + trained_weight;
+  std::vector<float> made(classes_, 0.0F);
   for (std::size_t k = 0; k < classes_; ++k) {
-    to[k] = from[k];
     if (!(trained_[k] > 0.0)) continue;  // a class that was taught later: how frequent it is nobody knows
     const double here = (sums[k] + trained_weight * trained_[k]) / total;
-    to[k] += static_cast<float>(used_share * std::log(here / trained_[k]));
+    made[k] = static_cast<float>(used_share * std::log(here / trained_[k]));
   }
-  normaliseLogs(to, classes_);
+  return made;
 }
 
 void ClassFrequencies::correct(std::vector<float>& logs) {
   if (trained_.empty() || logs.empty()) return;
   std::vector<double> sums = seen_;
-  std::vector<float> row(classes_), corrected;
+  std::vector<float> row(classes_);
   for (int iteration = 0; iteration <= iterations; ++iteration) {
     std::vector<double> next = seen_;
+    const std::vector<float> shift = shifts(sums);
     const bool is_last = iteration == iterations;
     for (std::size_t i = 0; i < logs.size(); i += classes_) {
-      correctRow(sums, logs.data() + i, row.data());
+      for (std::size_t k = 0; k < classes_; ++k) row[k] = logs[i + k] + shift[k];
+      normaliseLogs(row.data(), classes_);
       for (std::size_t k = 0; k < classes_; ++k) next[k] += std::exp(static_cast<double>(row[k]));
       if (is_last) std::copy(row.begin(), row.end(), logs.begin() + static_cast<std::ptrdiff_t>(i));
     }

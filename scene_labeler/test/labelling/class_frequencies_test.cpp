@@ -21,6 +21,22 @@ void addRow(const std::vector<double>& probabilities, std::vector<float>& logs) 
   for (const double p : probabilities) logs.push_back(static_cast<float>(std::log(p)));
 }
 
+/// Corrects so many returns that all look like this.
+void see(int count, const std::vector<double>& probabilities, ClassFrequencies& frequencies) {
+  std::vector<float> logs;
+  for (int i = 0; i < count; ++i) addRow(probabilities, logs);
+  frequencies.correct(logs);
+}
+
+/// The probabilities of one return, corrected.
+std::vector<float> corrected(const std::vector<double>& probabilities, ClassFrequencies& frequencies) {
+  std::vector<float> row;
+  addRow(probabilities, row);
+  frequencies.correct(row);
+  for (float& value : row) value = std::exp(value);
+  return row;
+}
+
 /// Log probabilities of returns whose classes have these frequencies, by a sensor of normally distributed readings, as
 /// a model would state them that was trained with other frequencies; and the classes.
 std::pair<std::vector<float>, std::vector<std::size_t>> readings(const std::vector<double>& here,
@@ -80,31 +96,17 @@ TEST(ClassFrequencies, HardlyChangesWhatIsAsInTraining) {
 TEST(ClassFrequencies, WhatIsSureStaysHoweverRare) {
   const LabelModel model = trainedWith({500, 200, 300});
   ClassFrequencies frequencies(model);
-  std::vector<float> logs;
-  for (int i = 0; i < 300000; ++i) addRow({0.001, 0.998, 0.001}, logs);
-  frequencies.correct(logs);
-  std::vector<float> rare;
-  addRow({0.99, 0.005, 0.005}, rare);
-  frequencies.correct(rare);
-  EXPECT_GT(std::exp(rare[0]), 0.7F);
+  see(300000, {0.001, 0.998, 0.001}, frequencies);
+  EXPECT_GT(corrected({0.99, 0.005, 0.005}, frequencies)[0], 0.7F);
 }
 
 TEST(ClassFrequencies, FollowsTheRobotToAnotherPlace) {
   const LabelModel model = trainedWith({500, 200, 300});
   ClassFrequencies frequencies(model);
-  const auto doubtful = [&](const std::vector<double>& usual) {
-    for (int stretch = 0; stretch < 20; ++stretch) {
-      std::vector<float> logs;
-      for (int i = 0; i < 50000; ++i) addRow(usual, logs);
-      frequencies.correct(logs);
-    }
-    std::vector<float> row;
-    addRow({0.5, 0.49, 0.01}, row);
-    frequencies.correct(row);
-    return std::exp(row[0]);
-  };
-  EXPECT_LT(doubtful({0.001, 0.998, 0.001}), 0.2F);
-  EXPECT_GT(doubtful({0.998, 0.001, 0.001}), 0.6F);
+  for (int stretch = 0; stretch < 20; ++stretch) see(50000, {0.001, 0.998, 0.001}, frequencies);
+  EXPECT_LT(corrected({0.5, 0.49, 0.01}, frequencies)[0], 0.2F);
+  for (int stretch = 0; stretch < 20; ++stretch) see(50000, {0.998, 0.001, 0.001}, frequencies);
+  EXPECT_GT(corrected({0.5, 0.49, 0.01}, frequencies)[0], 0.6F);
 }
 
 TEST(ClassFrequencies, AModelThatDoesNotKnowThoseOfItsTrainingChangesNothing) {
@@ -121,10 +123,8 @@ TEST(ClassFrequencies, AModelThatDoesNotKnowThoseOfItsTrainingChangesNothing) {
 TEST(ClassFrequencies, AClassThatTrainingHadNoFrequencyOfKeepsItsPlace) {
   const LabelModel model = trainedWith({500, 500, 0});
   ClassFrequencies frequencies(model);
-  std::vector<float> logs;
-  for (int i = 0; i < 1000; ++i) addRow({0.1, 0.1, 0.8}, logs);
-  frequencies.correct(logs);
-  EXPECT_GT(std::exp(logs[2]), 0.7F);
+  see(1000, {0.1, 0.1, 0.8}, frequencies);
+  EXPECT_GT(corrected({0.1, 0.1, 0.8}, frequencies)[2], 0.7F);
 }
 
 }  // namespace

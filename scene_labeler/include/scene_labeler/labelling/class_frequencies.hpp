@@ -22,8 +22,8 @@ class ClassFrequencies {
   void correct(std::vector<float>& logs);
 
  private:
-  /// Adds what the frequencies `sums` say to a row, and normalises it.
-  void correctRow(const std::vector<double>& sums, const float* from, float* to) const;
+  /// What these sums of probabilities add to the log probability of each class.
+  std::vector<float> shifts(const std::vector<double>& sums) const;
 
   std::size_t classes_ = 0;
   std::vector<double> trained_;  // share of each class; empty if unknown
