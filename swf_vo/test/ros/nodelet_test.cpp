@@ -116,7 +116,8 @@ TEST_F(SwfVoNodelet, aPartnerThatDoesNotComeIsNamedWithItsDelay) {
       }
     return false;
   };
-  for (int i = 6; i < 100 && !named(); ++i) {
+  // A frame is given out once later images show that its partner will not come.
+  for (int i = 6; i < 100 && !(named() && graph().frames.size() >= 8U); ++i) {
     graph().publish(sequence().frame(i), camera(), true, false);
     ros::WallDuration(0.05).sleep();
     ros::spinOnce();
@@ -133,8 +134,10 @@ TEST_F(SwfVoNodelet, timeGoingBackBeginsANewSession) {
   EXPECT_EQ(graph().frames.back().frame, 4U);
   ASSERT_TRUE(play(0, 5));
   EXPECT_EQ(graph().frames.back().frame, 4U) << "counts from 0 again";
-  EXPECT_EQ(graph().odometry.back().header.stamp, urban_nav_ros::toRosTime(sequence().stamp(4)));
-  EXPECT_EQ(graph().relative.size(), 4U) << "the session before was flushed";
+  // Topics come one by one: the frame may overtake what belongs to it.
+  const ros::Time last = urban_nav_ros::toRosTime(sequence().stamp(4));
+  EXPECT_TRUE(Graph::until([&] { return graph().odometry.back().header.stamp == last; }));
+  EXPECT_TRUE(Graph::until([&] { return graph().relative.size() == 4U; })) << "the session before was flushed";
 }
 
 TEST_F(SwfVoNodelet, anotherCalibrationBeginsANewSession) {
