@@ -304,6 +304,7 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   report.add("frames labelled", counts.frames);
   report.add("of these with an image", counts.imaged_frames);
   report.add("of these with a class image", counts.class_frames);
+  report.add("of these in a kind of place that the model was not trained in", counts.new_place_frames);
   report.add("black or saturated images", counts.blind_frames);
   const LiveTeaching& teaching = labels_->teaching();
   report.add("corrections", teaching.corrections());

@@ -44,6 +44,8 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
   const SceneLabels labels = labelScene(model_, drive.scene, parameters_.superpixel, table);
   if (take_image_) take_image_(frame, labels.image);
   ++frames_;
+  const bool is_new_place = isNewPlace(labels.share_unlike);
+  new_place_frames_ += is_new_place ? 1U : 0U;
   imaged_frames_ += drive.scene.view.image.empty() ? 0U : 1U;
   const std::vector<std::uint8_t>& is_shown = drive.scene.view.is_visible;
   std::uint32_t patches = 0;
@@ -60,6 +62,7 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
     votes.by_shape = !is_shown_here;
     ++votes.views;
     if (labels.unsure[point] != 0) ++votes.unsure;
+    if (is_new_place) ++votes.in_new_place;
     votes.patch = labels.patches[point] == no_patch ? no_patch : patches_ + labels.patches[point];
     if (labels.patches[point] != no_patch) patches = std::max(patches, labels.patches[point] + 1);
     for (std::size_t k = 0; k < classes; ++k)
@@ -88,14 +91,16 @@ void DriveLabeler::settle(std::size_t end) {
   labels.classes = model_.classes;
   std::vector<DriveReturn> answered;
   std::vector<float>& p = labels.probabilities;
+  std::vector<std::uint8_t> is_in_new_place;
   for (std::size_t i = 0; i < count; ++i) {
     if (votes_[i].views == 0) continue;
     answered.push_back(returns_[i]);
     labels.patches.push_back(votes_[i].patch);
+    is_in_new_place.push_back(2 * votes_[i].in_new_place > votes_[i].views ? 1 : 0);
     for (std::size_t k = 0; k < classes; ++k) p.push_back(logs_[i * classes + k] / static_cast<float>(votes_[i].views));
     normaliseLogs(p.data() + p.size() - classes, classes);
   }
-  frequencies_.correct(p);
+  frequencies_.correct(p, is_in_new_place);
   for (float& value : p) value = std::exp(value);
   auto row = p.begin();
   for (std::size_t i = 0; i < count; ++i) {

@@ -38,7 +38,7 @@ std::vector<float> ClassFrequencies::shifts(const std::vector<double>& sums) con
   return made;
 }
 
-void ClassFrequencies::correct(std::vector<float>& logs) {
+void ClassFrequencies::correct(std::vector<float>& logs, const std::vector<std::uint8_t>& is_left_out) {
   if (trained_.empty() || logs.empty()) return;
   std::vector<double> sums = seen_;
   std::vector<float> row(classes_);
@@ -47,6 +47,7 @@ void ClassFrequencies::correct(std::vector<float>& logs) {
     const std::vector<float> shift = shifts(sums);
     const bool is_last = iteration == iterations;
     for (std::size_t i = 0; i < logs.size(); i += classes_) {
+      if (!is_left_out.empty() && is_left_out[i / classes_] != 0) continue;
       for (std::size_t k = 0; k < classes_; ++k) row[k] = logs[i + k] + shift[k];
       normaliseLogs(row.data(), classes_);
       for (std::size_t k = 0; k < classes_; ++k) next[k] += std::exp(static_cast<double>(row[k]));

@@ -14,18 +14,17 @@ namespace {
 
 constexpr float sure_probability = 0.5F;
 /// In a scene that is unlike the training data, stated probabilities are too high.
-constexpr float novel_scene_share = 0.1F, sure_in_novel_scene = 0.7F, sure_of_other_device = 0.8F;
+constexpr float novel_scene_share = 0.1F, sure_in_novel_scene = 0.7F, sure_of_other_device = 0.8F,
+                sure_in_new_place = 0.8F;
 
 /// Returns the probability from which an answer counts as sure: more for another device than that of the training data,
 /// and for a scene with many returns unlike these.
-float leastSureProbability(const LabelModel& model, const Scene& scene, const std::vector<std::uint8_t>& is_novel) {
+float leastSureProbability(const LabelModel& model, const Scene& scene, const std::vector<std::uint8_t>& is_asked,
+                           const std::vector<std::uint8_t>& is_novel, double share_unlike) {
+  if (isNewPlace(share_unlike)) return sure_in_new_place;
   if (scene.device != model.device) return sure_of_other_device;
-  std::size_t asked = 0, novel = 0;
-  for (std::size_t i = 0; i < is_novel.size(); ++i) {
-    if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
-    ++asked;
-    novel += is_novel[i];
-  }
+  const auto asked = std::count(is_asked.begin(), is_asked.end(), std::uint8_t{1}),
+             novel = std::count(is_novel.begin(), is_novel.end(), std::uint8_t{1});
   return static_cast<float>(novel) > novel_scene_share * static_cast<float>(asked) ? sure_in_novel_scene
                                                                                    : sure_probability;
 }
@@ -120,13 +119,15 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
   result.labels.assign(count, SceneClass::None);
   result.unsure.assign(count, 0);
   result.probabilities.assign(count * classes, 0.0F);
-  std::vector<std::uint8_t> is_novel(count, 0);
+  std::vector<std::uint8_t> is_asked(count, 0), is_novel(count, 0);
+  for (std::size_t i = 0; i < count; ++i) is_asked[i] = scene.points[i].allFinite() && scene.isAsked(i) ? 1 : 0;
   urban_nav_core::forEach(count, 256, [&](std::size_t i) {
-    if (!scene.points[i].allFinite() || !scene.isAsked(i)) return;
+    if (is_asked[i] == 0) return;
     model.logProbabilities(table.row(i), logs.data() + i * classes);
     is_novel[i] = model.countOutside(table.row(i)) > model.novelty.limit ? 1 : 0;
   });
-  const float least_sure = leastSureProbability(model, scene, is_novel);
+  result.share_unlike = model.place_novelty.shareUnlike(model.bins, table, is_asked);
+  const float least_sure = leastSureProbability(model, scene, is_asked, is_novel, result.share_unlike);
   result.patches = makePatches(scene, superpixels);
   for (std::size_t i = 0; i < count; ++i)
     if (!scene.isAsked(i)) result.patches[i] = no_patch;
@@ -134,11 +135,12 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
   smoothInScene(scene, classes, logs);
   if (!scene.view.image.empty()) spreadInScene(scene, classes, logs);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
+    if (is_asked[i] == 0) continue;
     float sum = 0.0F;
     float* probabilities = result.probabilities.data() + i * classes;
     for (std::size_t k = 0; k < classes; ++k) sum += probabilities[k] = std::exp(logs[i * classes + k]);
     for (std::size_t k = 0; k < classes; ++k) probabilities[k] /= sum;
+    doubtLook(result.share_unlike, model.classes, probabilities);
     const auto best =
         static_cast<std::size_t>(std::max_element(probabilities, probabilities + classes) - probabilities);
     result.labels[i] = model.classes[best];

@@ -50,6 +50,7 @@ void MapLabeler::addPoints(const std::vector<Eigen::Vector3f>& points, const std
     square.logs.resize(square.logs.size() + model_.classes.size(), 0.0F);
     square.views.push_back(0);
     square.unsure.push_back(0);
+    square.in_new_place.push_back(0);
     ++held_;
   }
 }
@@ -82,6 +83,7 @@ void MapLabeler::vote(const std::vector<Member>& members, const SceneLabels& lab
     ++square.views[point];
     if (by_image) square.is_shown[point] = 1;
     if (labels.unsure[i] != 0) ++square.unsure[point];
+    if (isNewPlace(labels.share_unlike)) ++square.in_new_place[point];
     for (std::size_t k = 0; k < classes; ++k)
       square.logs[point * classes + k] += std::log(std::max(labels.probabilities[i * classes + k], least_fused));
   }
@@ -125,11 +127,13 @@ void MapLabeler::labelView(const PlacedView& view) {
   const FeatureTable table = measureSceneFeatures(model_, scene);
   MountingCheck& mounting = findMounting(view.device);
   mounting.add(scene, table);
-  if (mounting.isUpsideDown()) return callbacks_.take_view(view.image, {0, true, false});
-  vote(members, labelScene(model_, scene, options_.superpixel, table), true);
+  if (mounting.isUpsideDown()) return callbacks_.take_view(view.image, {0, true, false, false});
+  const SceneLabels labels = labelScene(model_, scene, options_.superpixel, table);
+  vote(members, labels, true);
   const bool has_classes = voteByClasses(view, scene.view, members);
   const auto labelled = std::count(scene.is_asked.begin(), scene.is_asked.end(), std::uint8_t{1});
-  callbacks_.take_view(view.image, {static_cast<std::size_t>(labelled), false, has_classes});
+  callbacks_.take_view(view.image,
+                       {static_cast<std::size_t>(labelled), false, isNewPlace(labels.share_unlike), has_classes});
 }
 
 bool MapLabeler::voteByClasses(const PlacedView& view, const SceneView& shown, const std::vector<Member>& members) {
@@ -163,11 +167,15 @@ void MapLabeler::labelHidden(const Square& square, const SquarePoints& own) {
 void MapLabeler::giveLabels(const SquarePoints& square) {
   const std::size_t classes = model_.classes.size();
   std::vector<float> logs;
-  for (std::size_t i = 0; i < square.points.size(); ++i)
-    for (std::size_t k = 0; k < classes && square.views[i] > 0; ++k)
+  std::vector<std::uint8_t> is_in_new_place;
+  for (std::size_t i = 0; i < square.points.size(); ++i) {
+    if (square.views[i] == 0) continue;
+    is_in_new_place.push_back(2 * square.in_new_place[i] > square.views[i] ? 1 : 0);
+    for (std::size_t k = 0; k < classes; ++k)
       logs.push_back(square.logs[i * classes + k] / static_cast<float>(square.views[i]));
+  }
   for (std::size_t at = 0; at < logs.size(); at += classes) normaliseLogs(logs.data() + at, classes);
-  frequencies_.correct(logs);
+  frequencies_.correct(logs, is_in_new_place);
   const float* p = logs.data();
   for (std::size_t i = 0; i < square.points.size(); ++i) {
     PointLabel label;

@@ -146,6 +146,7 @@ void LiveLabels::count(const LiveSide& side, Counts& counts) const {
   counts.imaged_frames += side.labeler->imagedFrames();
   counts.blind_frames += side.labeler->blindFrames();
   counts.upside_down_frames += side.labeler->upsideDownFrames();
+  counts.new_place_frames += side.labeler->newPlaceFrames();
   counts.class_frames += side.labeler->classFrames();
 }
 

@@ -30,7 +30,8 @@ class LiveLabels {
   struct Counts {
     std::size_t scans = 0, images = 0, poses = 0;
     std::size_t dropped = 0;  ///< scans and images for which odometry never came
-    std::size_t frames = 0, imaged_frames = 0, blind_frames = 0, upside_down_frames = 0, class_frames = 0;
+    std::size_t frames = 0, imaged_frames = 0, blind_frames = 0, upside_down_frames = 0, class_frames = 0,
+                new_place_frames = 0;
   };
 
   LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs);

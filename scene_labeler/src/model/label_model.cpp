@@ -82,6 +82,7 @@ LabelModel parseModel(std::string_view bytes, const std::string& name) {
     model.archive(archive);
     if (unsealed.version > oldest_version) model.samples.archive(archive, model.bins.columns(), model.classes.size());
     archive.finish();
+    model.place_novelty = PlaceNovelty(model.features, model.bins, model.samples);
   } catch (const urban_nav_core::DataError& error) {
     throw urban_nav_core::UserError(name, error.what(), "a model of `urban_nav labels train`");
   }

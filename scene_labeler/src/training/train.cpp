@@ -397,6 +397,7 @@ TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& 
   model.novelty = measureRanges(pool);
   if (options.base) keepRanges(options.base->novelty, model.novelty);
   model.samples = keepSamples(pool, folds, model);
+  model.place_novelty = PlaceNovelty(model.features, model.bins, model.samples);
   std::vector<std::size_t> counts(pool.classes.size(), 0);
   for (const std::uint8_t label : pool.labels) ++counts[label];
   for (std::size_t k = 0; k < counts.size(); ++k) trained.samples.emplace_back(pool.classes[k], counts[k]);

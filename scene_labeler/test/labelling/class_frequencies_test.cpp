@@ -109,6 +109,19 @@ TEST(ClassFrequencies, FollowsTheRobotToAnotherPlace) {
   EXPECT_GT(corrected({0.5, 0.49, 0.01}, frequencies)[0], 0.6F);
 }
 
+TEST(ClassFrequencies, WhatIsLeftOutStaysAsItIsAndDoesNotCount) {
+  const LabelModel model = trainedWith({500, 200, 300});
+  ClassFrequencies frequencies(model), all(model);
+  std::vector<float> logs;
+  for (int i = 0; i < 100000; ++i) addRow({0.001, 0.998, 0.001}, logs);
+  std::vector<float> same = logs;
+  frequencies.correct(same, std::vector<std::uint8_t>(100000, 1));
+  EXPECT_EQ(same, logs);
+  EXPECT_NEAR(corrected({0.5, 0.49, 0.01}, frequencies)[0], 0.5F, 0.01F);
+  all.correct(logs);
+  EXPECT_LT(corrected({0.5, 0.49, 0.01}, all)[0], 0.2F);
+}
+
 TEST(ClassFrequencies, AModelThatDoesNotKnowThoseOfItsTrainingChangesNothing) {
   std::vector<float> logs;
   addRow({0.6, 0.3, 0.1}, logs);

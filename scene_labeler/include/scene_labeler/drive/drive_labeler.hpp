@@ -46,13 +46,15 @@ class DriveLabeler : public DriveObserver {
   std::size_t blindFrames() const { return blind_frames_; }
   /// Returns how many images were those of a camera that seems to be mounted upside down: they count as none.
   std::size_t upsideDownFrames() const { return upside_down_frames_; }
+  /// Returns the number of frames in a kind of place that the model was not trained in (isNewPlace).
+  std::size_t newPlaceFrames() const { return new_place_frames_; }
   /// Returns the number of frames with a class image of another source (SideView::classes).
   std::size_t classFrames() const { return class_frames_; }
 
  private:
   /// What the frames so far say of one return.
   struct Votes {
-    std::uint16_t views = 0, unsure = 0;
+    std::uint16_t views = 0, unsure = 0, in_new_place = 0;
     bool by_shape = false;  // the only view has no image of it
     std::uint32_t patch = 0;
   };
@@ -72,6 +74,7 @@ class DriveLabeler : public DriveObserver {
   std::vector<float> logs_;  // of each return one for each class, summed over views
   std::uint32_t patches_ = 0;
   std::size_t frames_ = 0, imaged_frames_ = 0, blind_frames_ = 0, upside_down_frames_ = 0, class_frames_ = 0;
+  std::size_t new_place_frames_ = 0;
 };
 
 /// Returns which points of a scene get a label from a frame: those that its image shows, and those of the stretch that

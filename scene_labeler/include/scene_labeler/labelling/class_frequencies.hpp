@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "scene_labeler/model/label_model.hpp"
@@ -18,8 +19,9 @@ class ClassFrequencies {
   explicit ClassFrequencies(const LabelModel& model);
 
   /// Corrects the log probabilities of some returns, one row of all classes each, to the frequencies of those before
-  /// and of these.
-  void correct(std::vector<float>& logs);
+  /// and of these. Rows whose `is_left_out` is 1 stay as they are and do not count: what a model says of a kind of
+  /// place that it was not trained in (isNewPlace) is no measurement. Empty: none is left out.
+  void correct(std::vector<float>& logs, const std::vector<std::uint8_t>& is_left_out = {});
 
  private:
   /// What these sums of probabilities add to the log probability of each class.

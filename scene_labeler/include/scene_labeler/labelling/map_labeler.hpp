@@ -33,6 +33,7 @@ struct PlacedView {
 struct ViewUse {
   std::size_t shown = 0;        ///< points that it labels; 0 of an image that is black, saturated, empty or upside down
   bool is_upside_down = false;  ///< its camera seems to be mounted upside down: it is not used
+  bool is_new_place = false;    ///< of a kind that the model was not trained in (isNewPlace)
   bool has_classes = false;     ///< a class image of another source was used as well
 };
 
@@ -81,7 +82,7 @@ class MapLabeler {
     std::vector<Eigen::Vector3f> points;
     std::vector<std::uint8_t> reflectance, is_shown;
     std::vector<float> logs;  // of each point one for each class, summed over views
-    std::vector<std::uint16_t> views, unsure;
+    std::vector<std::uint16_t> views, unsure, in_new_place;
   };
   struct Member {
     SquarePoints* square = nullptr;

@@ -10,6 +10,7 @@
 #include "scene_labeler/model/calibration.hpp"
 #include "scene_labeler/model/feature_bins.hpp"
 #include "scene_labeler/model/model_samples.hpp"
+#include "scene_labeler/model/place_novelty.hpp"
 #include "scene_labeler/model/svm_bank.hpp"
 #include "scene_labeler/model/tree_ensemble.hpp"
 
@@ -41,6 +42,7 @@ struct LabelModel {
   std::string device;                ///< whose reflectance it was trained with; that of other devices is not used
   std::vector<std::string> sources;  ///< names of the scenes or sessions it was trained on
   ModelSamples samples;              ///< to continue training from; empty in models of version 2
+  PlaceNovelty place_novelty;        ///< of the samples; not in the file
 
   /// Writes log probabilities of a row of features, one for each class.
   void logProbabilities(const float* row, float* logs) const;

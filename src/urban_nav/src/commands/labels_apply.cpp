@@ -29,6 +29,11 @@ void writeLabelImage(const cv::Mat& image, const std::string& path) {
   urban_nav_core::writeAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+void warnOfNewPlace(const LabelRun& run, Console& console) {
+  const std::string warning = scene_labeler::newPlaceWarning(run.new_place_frames, run.frames);
+  if (!warning.empty()) console.warn(warning);
+}
+
 /// Labels a bag into two files, which appear when both are complete.
 void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
                 const std::filesystem::path& folder, Console& console, LabelRun& run) {
@@ -75,6 +80,7 @@ int runLabelsApply(const Arguments& arguments, Console& console) {
   console.info(std::to_string(run.labelled) + " of " + std::to_string(run.points) + " points in " +
                std::to_string(run.frames) + " scenes are labelled, " + std::to_string(run.unsure) + " of them unsure" +
                (run.has_look ? "" : "; without images: by shape only"));
+  warnOfNewPlace(run, console);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), run.toJson().print());
   return 0;
 }
@@ -129,6 +135,7 @@ int runLabelsEvaluate(const Arguments& arguments, Console& console) {
   if (score.points() == 0)
     throw urban_nav_core::DataError("SRC", "no point has a label to compare with", "labelled scenes");
   console.print(score.print());
+  warnOfNewPlace(run, console);
   if (arguments.has("json")) {
     Json json = run.toJson();
     score.addTo(json);

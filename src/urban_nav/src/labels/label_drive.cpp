@@ -154,6 +154,7 @@ void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, 
   if (!parameters.class_topic.empty())
     console.info(bag + ": class images for " + std::to_string(left.classFrames() + right.classFrames()) + " of " +
                  std::to_string(left.imagedFrames() + right.imagedFrames()) + " images");
+  run.new_place_frames += left.newPlaceFrames() + right.newPlaceFrames();
   for (const auto& [labeler, side] : {std::pair(&left, DriveSide::Left), std::pair(&right, DriveSide::Right)}) {
     if (labeler->upsideDownFrames() > 0)
       console.warn(bag + ": the " + toString(side) + " camera seems to be mounted upside down: " +

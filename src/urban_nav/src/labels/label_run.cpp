@@ -31,6 +31,7 @@ Json LabelRun::toJson() const {
   if (has_look) modalities.append("look");
   json["modalities"] = std::move(modalities);
   json["unsure_share"] = labelled == 0 ? 0.0 : static_cast<double>(unsure) / static_cast<double>(labelled);
+  json["new_place_frames"] = new_place_frames;
   return json;
 }
 
@@ -48,6 +49,7 @@ void labelScenes(const scene_labeler::LabelModel& model, const std::vector<Scene
     run.milliseconds.push_back(1e3 * seconds);
     run.has_look = run.has_look || !scene.view.image.empty();
     ++run.frames;
+    run.new_place_frames += scene_labeler::isNewPlace(labels.share_unlike) ? 1U : 0U;
     run.points += scene.points.size();
     for (std::size_t point = 0; point < labels.labels.size(); ++point) {
       run.labelled += labels.labels[point] != scene_labeler::SceneClass::None ? 1U : 0U;

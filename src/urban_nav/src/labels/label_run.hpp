@@ -15,11 +15,13 @@ namespace urban_nav {
 /// What labelling some scenes took and gave.
 struct LabelRun {
   std::size_t frames = 0, points = 0, labelled = 0, unsure = 0;
+  std::size_t new_place_frames = 0;  ///< of a kind of place that the model was not trained in
   double seconds = 0.0;              ///< of labelling, without files
   std::vector<double> milliseconds;  ///< of each scene
   bool has_look = false;             ///< whether any scene has an image
 
-  /// `frames`, `points`, `ms_per_frame_median`, `us_per_point`, `modalities`, `unsure_share`.
+  /// `frames`, `points`, `ms_per_frame_median`, `us_per_point`, `modalities`, `unsure_share`,
+  /// `new_place_frames`.
   Json toJson() const;
 };
 

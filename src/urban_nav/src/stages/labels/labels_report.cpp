@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/plot.hpp"
+#include "scene_labeler/model/place_novelty.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 
 namespace urban_nav {
@@ -67,6 +68,8 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
     warnings.push_back("a side camera seems to be mounted upside down, or to have the calibration of one that is: " +
                        std::to_string(run.upsideDown()) + " of " + std::to_string(run.views()) +
                        " images of the side cameras are not used");
+  if (const std::string warning = scene_labeler::newPlaceWarning(run.inNewPlace(), run.views()); !warning.empty())
+    warnings.push_back(warning);
   if (!run.class_topic.empty() && run.classImages() == 0)
     warnings.push_back("no class image is used: " + run.class_topic +
                        " has none in mono8 with the frame, stamp and size of an image that is labelled, or there is no "
@@ -114,6 +117,7 @@ Json toJson(const LabelsRun& run) {
   std::vector<double> sorted = run.milliseconds;
   std::sort(sorted.begin(), sorted.end());
   json["ms_median"] = sorted.empty() ? Json() : Json(sorted[sorted.size() / 2]);
+  json["new_place_frames"] = run.inNewPlace();
   json["points_labelled"] = run.labelled();
   json["unsure_share"] = labelShare(run.unsure(), run.labelled());
   json["model"] = run.model;

@@ -195,6 +195,7 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
     made.shown += use.shown;
     made.unusable += use.shown == 0 && !use.is_upside_down ? 1U : 0U;
     made.upside_down += use.is_upside_down ? 1U : 0U;
+    made.in_new_place += use.is_new_place ? 1U : 0U;
     made.class_images += use.has_classes ? 1U : 0U;
     ++made.views;
     milliseconds.push_back(millisecondsSince(begin));
@@ -262,6 +263,7 @@ std::size_t LabelsRun::points() const { return sumOverMaps(*this, &LabelledMap::
 std::size_t LabelsRun::labelled() const { return sumOverMaps(*this, &LabelledMap::labelled); }
 std::size_t LabelsRun::unusable() const { return sumOverMaps(*this, &LabelledMap::unusable); }
 std::size_t LabelsRun::upsideDown() const { return sumOverMaps(*this, &LabelledMap::upside_down); }
+std::size_t LabelsRun::inNewPlace() const { return sumOverMaps(*this, &LabelledMap::in_new_place); }
 std::size_t LabelsRun::classImages() const { return sumOverMaps(*this, &LabelledMap::class_images); }
 std::size_t LabelsRun::unsure() const { return sumOverMaps(*this, &LabelledMap::unsure); }
 

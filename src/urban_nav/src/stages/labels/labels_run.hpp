@@ -28,6 +28,7 @@ struct LabelledMap {
   std::size_t views = 0, shown = 0;  ///< images, and points that these show
   std::size_t unusable = 0;          ///< images that show no point, or are black or saturated
   std::size_t upside_down = 0;       ///< images whose camera seems to be mounted upside down
+  std::size_t in_new_place = 0;      ///< images of a kind of place that the model was not trained in
   std::size_t class_images = 0;      ///< images of which a class image of another source was used
   std::array<ClassExtent, scene_labeler::class_count> extents;
   std::vector<PagePicture> pictures;
@@ -48,6 +49,7 @@ struct LabelsRun {
   std::size_t views() const { return milliseconds.size(); }
   std::size_t unusable() const;
   std::size_t upsideDown() const;
+  std::size_t inNewPlace() const;
   std::size_t classImages() const;
 };
 
