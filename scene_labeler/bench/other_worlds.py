@@ -11,8 +11,7 @@ import simulated
 
 def main():
     folder = sys.argv[1]
-    print("| tried on | mean F1, % | F1 by class, % | not unsure, % | of these right, % | unknown class: called something else and not unsure, % |")
-    print("|---|---|---|---|---|---|")
+    print("| tried on | frames of a new place, % | mean F1, % | F1 by class, % | not unsure, % | of these right, % | wrong and not unsure, % of all |\n|---|---|---|---|---|---|---|")
     for world in simulated.WORLDS:
         result = simulated.evaluated(simulated.model_without(folder, world), simulated.training_drives(folder, world))
         names, rows, sure = result["confusion"]["names"], result["confusion"]["rows"], result["sure_confusion"]["rows"]
@@ -22,9 +21,9 @@ def main():
         known_rows = [k for k in range(len(rows)) if names[k] in known]
         returns, told = sum(sum(rows[k]) for k in known_rows), sum(sum(sure[k]) for k in known_rows)
         right = sum(sure[k][k] for k in known_rows)
-        unknown = [f"{name} {100 * sum(sure[names.index(name)]) / sum(rows[names.index(name)]):.0f}" for name in scored if name not in known]
-        print(f"| {world} | {sum(f1.values()) / len(f1):.0f} | " + ", ".join(f"{name} {value:.0f}" for name, value in f1.items())
-              + f" | {100 * told / returns:.0f} | {100 * right / max(1, told):.0f} | {', '.join(unknown) or 'none'} |", flush=True)
+        fresh = result["new_place_frames"] / result["frames"]
+        print(f"| {world} | {100 * fresh:.0f} | {sum(f1.values()) / len(f1):.0f} | " + ", ".join(f"{name} {value:.0f}" for name, value in f1.items())
+              + f" | {100 * told / returns:.0f} | {100 * right / max(1, told):.0f} | {100 * (told - right) / returns:.0f} |", flush=True)
 
 
 if __name__ == "__main__":
