@@ -140,7 +140,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
     float* probabilities = result.probabilities.data() + i * classes;
     for (std::size_t k = 0; k < classes; ++k) sum += probabilities[k] = std::exp(logs[i * classes + k]);
     for (std::size_t k = 0; k < classes; ++k) probabilities[k] /= sum;
-    doubtLook(result.share_unlike, model.classes, probabilities);
+    doubtKinds(result.share_unlike, model.classes, probabilities);
     const auto best =
         static_cast<std::size_t>(std::max_element(probabilities, probabilities + classes) - probabilities);
     result.labels[i] = model.classes[best];

@@ -11,14 +11,15 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_returns = 200, least_returns = 20;
+constexpr std::size_t drawn_returns = 200, least_judged = 20;
 constexpr std::size_t reference_samples = 300;  // whose distances give the limit
-constexpr std::size_t least_samples = 50;       // with an aspect, to judge by it
+constexpr std::size_t least_with_aspect = 50;   // with an aspect, to judge by it
 constexpr double reference_share = 0.95;
 constexpr double usual_share = 0.1, new_place_share = 0.3;
 constexpr double most_doubt = 0.5;  // scene_labeler/bench/other_worlds.py
 const std::vector<SceneClass> kinds_of_ground = {SceneClass::Grass, SceneClass::Paved, SceneClass::DirtPath};
-const std::vector<SceneClass> kinds_of_wall = {SceneClass::TexturedWall, SceneClass::SmoothWall};
+const std::vector<SceneClass> other_kinds = {SceneClass::Other,   SceneClass::TexturedWall, SceneClass::SmoothWall,
+                                             SceneClass::Foliage, SceneClass::Vehicle,      SceneClass::Wall};
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -78,7 +79,7 @@ void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_len
   }
   std::vector<int> distances;
   const std::size_t wanted = std::min(reference_samples, samples.size());
-  for (std::size_t n = 0; n < wanted && samples.size() >= least_samples; ++n) {
+  for (std::size_t n = 0; n < wanted && samples.size() >= least_with_aspect; ++n) {
     const std::size_t one = n * samples.size() / wanted;
     int nearest = std::numeric_limits<int>::max();
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -105,8 +106,8 @@ double PlaceNovelty::Aspect::shareUnlike(const FeatureBins& bins, const FeatureT
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < is_asked.size(); ++i)
     if (is_asked[i] != 0 && !std::isnan(table.row(i)[columns.front()])) rows.push_back(i);
-  if (rows.size() < least_returns) return 0.0;
-  const std::size_t drawn = std::min(most_returns, rows.size());
+  if (rows.size() < least_judged) return 0.0;
+  const std::size_t drawn = std::min(drawn_returns, rows.size());
   std::size_t unlike = 0;
   for (std::size_t n = 0; n < drawn; ++n)
     unlike += hasNear(encode(bins, table.row(rows[n * rows.size() / drawn]))) ? 0U : 1U;
@@ -123,15 +124,15 @@ bool isNewPlace(double share_unlike) { return 2.0 * share_unlike > usual_share +
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
   if (new_place_frames == 0 || 4 * new_place_frames < frames) return "";
   return std::to_string(new_place_frames) + " of " + std::to_string(frames) +
-         " frames show a kind of place that the model was not trained in: it is unsure of kinds of ground and of wall "
-         "there. Corrections teach it (labels train --add)";
+         " frames show a kind of place that the model was not trained in: its answers there are unsure. "
+         "Corrections teach it (labels train --add)";
 }
 
-void doubtLook(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {
+void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {
   const double novelty = std::clamp((share_unlike - usual_share) / (new_place_share - usual_share), 0.0, 1.0);
   if (novelty == 0.0) return;
   const auto doubt = static_cast<float>(most_doubt * novelty);
-  for (const std::vector<SceneClass>& kinds : {kinds_of_ground, kinds_of_wall}) {
+  for (const std::vector<SceneClass>& kinds : {kinds_of_ground, other_kinds}) {
     const auto isKind = [&](std::size_t k) { return std::find(kinds.begin(), kinds.end(), classes[k]) != kinds.end(); };
     float sum = 0.0F, count = 0.0F;
     for (std::size_t k = 0; k < classes.size(); ++k) {

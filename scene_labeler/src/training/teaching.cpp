@@ -12,6 +12,41 @@ namespace {
 
 constexpr float patch_weight = 50.0F;  // of a superpixel in one frame: large ones do not outweigh all other samples
 
+constexpr std::size_t most_anchors = 100;  // of a scene
+
+SceneClass findAnswer(const LabelModel& model, const float* row) {
+  std::vector<float> logs(model.classes.size());
+  model.logProbabilities(row, logs.data());
+  return model.classes[static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin())];
+}
+
+/// Adds returns whose answer is none of those that were corrected, the rows from `first` on. In a new place most of
+/// what nobody corrected may be wrong as well.
+void addAnchors(const LabelModel& model, const Scene& scene, const FeatureTable& table, std::size_t first,
+                FoldRows& rows) {
+  std::vector<std::size_t> asked;
+  std::vector<std::uint8_t> is_asked(scene.points.size(), 0);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
+    is_asked[i] = 1;
+    asked.push_back(i);
+  }
+  if (isNewPlace(model.place_novelty.shareUnlike(model.bins, table, is_asked))) return;
+  std::vector<SceneClass> wrong;
+  for (std::size_t i = first; i < rows.labels.size(); ++i)
+    wrong.push_back(findAnswer(model, rows.values.data() + i * table.columns()));
+  const std::size_t drawn = std::min(most_anchors, asked.size());
+  for (std::size_t n = 0; n < drawn; ++n) {
+    const float* row = table.row(asked[n * asked.size() / drawn]);
+    const SceneClass answer = findAnswer(model, row);
+    if (std::find(wrong.begin(), wrong.end(), answer) != wrong.end()) continue;
+    rows.values.insert(rows.values.end(), row, row + table.columns());
+    rows.labels.push_back(answer);
+    rows.patches.push_back(no_patch);
+    rows.weights.push_back(anchor_weight);
+  }
+}
+
 }  // namespace
 
 std::vector<TrainingFold> restoreFolds(const LabelModel& model) {
@@ -72,6 +107,7 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
       std::find(model.classes.begin(), model.classes.end(), SceneClass::Wall) != model.classes.end();
   std::size_t added = 0;
   FoldRows& rows = fold.samples;
+  const std::size_t first = rows.labels.size();
   for (const PatchCorrection& correction : corrections) {
     const std::size_t before = rows.labels.size();
     for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -87,6 +123,7 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
     rows.weights.resize(rows.labels.size(), std::clamp(weight, 2.0F, correction_weight));
     added += members;
   }
+  if (model.kind == ClassifierKind::Boosted) addAnchors(model, scene, table, first, rows);
   return added;
 }
 

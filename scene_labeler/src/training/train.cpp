@@ -257,8 +257,10 @@ ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>
   ModelSamples kept;
   for (const TrainingFold& fold : folds) kept.folds.push_back(fold.name);
   std::vector<std::size_t> totals(classes, 0), seen(classes, 0);
-  for (const std::uint8_t label : pool.labels) ++totals[label];
+  const auto isKept = [&](std::size_t i) { return pool.weights[i] >= 1.0F; };  // an anchor is the model's own answer
+  for (std::size_t i = 0; i < pool.labels.size(); ++i) totals[pool.labels[i]] += isKept(i) ? 1U : 0U;
   for (std::size_t i = 0; i < pool.labels.size(); ++i) {
+    if (!isKept(i)) continue;
     const std::size_t total = totals[pool.labels[i]], number = seen[pool.labels[i]]++;
     const std::size_t wanted = std::min(total, limit);
     if ((number + 1) * wanted / total == number * wanted / total) continue;

@@ -117,6 +117,29 @@ TEST(Teaching, LearnsTheSuperpixelsAtCorrectedReturns) {
   EXPECT_GT(f1(taught, held_out, SceneClass::Vehicle), 0.8);
 }
 
+TEST(Teaching, KeepsAnswersThatNobodyCorrectedUnlessThePlaceIsNew) {
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const auto anchorsOf = [&](const testing::Yard& yard) {
+    std::size_t lawn = 0;  // paved ground, far from the wall
+    while (yard.scene.points[lawn].x() > 4.0F) ++lawn;
+    TrainingFold fold;
+    addPatchCorrections(model, yard.scene, {{lawn, SceneClass::Grass}}, 12, fold);
+    std::vector<SceneClass> labels;
+    for (std::size_t i = 0; i < fold.samples.labels.size(); ++i)
+      if (fold.samples.weights[i] == anchor_weight) labels.push_back(fold.samples.labels[i]);
+    return labels;
+  };
+  testing::Yard yard = testing::makeYard(14);
+  const std::vector<SceneClass> anchors = anchorsOf(yard);
+  EXPECT_LE(anchors.size(), 100U);
+  EXPECT_GT(std::count(anchors.begin(), anchors.end(), SceneClass::Wall), 10);
+  EXPECT_EQ(std::count(anchors.begin(), anchors.end(), SceneClass::Grass), 0);
+  EXPECT_EQ(std::count(anchors.begin(), anchors.end(), SceneClass::Paved), 0) << "other ground may be wrong as well";
+  for (Eigen::Vector3f& point : yard.scene.points)  // terraces on a slope
+    point = {2.0F * point.x(), 2.0F * point.y(), 4.0F * point.z() + 0.5F * std::floor(point.x()) + point.y()};
+  EXPECT_TRUE(anchorsOf(yard).empty());
+}
+
 TEST(ModelSamples, AreBoundedAndRestoreTheFoldsOfTheTraining) {
   for (const ClassifierKind kind : {ClassifierKind::Forest, ClassifierKind::Boosted}) {
     const LabelModel& model = testing::trainOnYards(kind);

@@ -14,7 +14,7 @@ struct SceneLabels {
   std::vector<std::uint8_t> unsure;  ///< 1: unlike the training data, or no class reaches 0.5 (0.7 in a scene unlike
                                      ///< it, 0.8 with another device)
   std::vector<std::uint32_t> patches;  ///< of makePatches()
-  double share_unlike = 0.0;           ///< of PlaceNovelty, for doubtLook()
+  double share_unlike = 0.0;           ///< of PlaceNovelty, for doubtKinds()
   cv::Mat image;  ///< CV_8U, class of each superpixel, 255 without laser returns; empty without image
 
   float probability(std::size_t i) const;

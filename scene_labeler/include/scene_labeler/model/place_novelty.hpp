@@ -55,10 +55,9 @@ bool isNewPlace(double share_unlike);
 /// Returns the warning that so many of the frames show such a place; empty if less than a quarter of them do.
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames);
 
-/// Takes back what only the look of a place can tell: which kind of ground, and which kind of wall. In a place of a new
-/// kind look misleads about as often as it tells: half of the probability of all kinds of ground (of walls) is divided
-/// evenly among them. Less of it from a tenth of unlike returns on, nothing below. `probabilities`: one for each of
-/// `classes`.
-void doubtLook(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities);
+/// Takes back half of what a model says of kinds of ground, and of kinds of other things: that much of the probability
+/// of all of them is divided evenly among them, as in a place of a new kind a model is right about half the time. Less
+/// of it from a tenth of unlike returns on, nothing below. `probabilities`: one for each of `classes`.
+void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities);
 
 }  // namespace scene_labeler

@@ -11,6 +11,9 @@ namespace scene_labeler {
 
 /// Weight of a corrected return; that of others is 1.
 constexpr float correction_weight = 10.0F;
+/// Weight of a return that stays what the model says it is, since nobody corrected it; it is learnt by trees that are
+/// added to those of the model, and not kept.
+constexpr float anchor_weight = 0.5F;
 
 /// Returns the samples that a model holds as training data, fold by fold: samples of weight 1 also serve calibration,
 /// in the frequencies of the data that the model was calibrated on. Empty if the model holds none.
@@ -36,6 +39,8 @@ struct PatchCorrection {
 /// Adds the returns of the superpixels of a scene at the given returns (without an image: of the cubes of
 /// makePatches()) to a fold, whatever the model's answer is. A superpixel of up to five returns has correction_weight,
 /// the returns of a larger one have less, so that all superpixels count about the same. Returns how many were added.
+/// Also adds 100 returns or fewer of the scene with anchor_weight, of classes that nobody took from the model here:
+/// their answers are right, as far as anybody knows, but in a kind of place that the model was not trained in.
 std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
                                 const std::vector<PatchCorrection>& corrections, int superpixel_size,
                                 TrainingFold& fold);
