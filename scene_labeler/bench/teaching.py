@@ -14,23 +14,25 @@ from pathlib import Path
 import simulated
 
 CLICKS = 20
+NEIGHBOURS = 3  # beams on either side of a return that is clicked, which are wrong as well
 TEACHING_DRIVES = 2  # of each world; the others are for the trial
 
 
 def wrong_returns(model, bag, names):
-    """Side, stamp, beam and true class of the returns that a model gets wrong."""
-    wrong = []
+    """Side, stamp, beam and true class of the returns that a model gets wrong, with their neighbours: what a person sees."""
+    seen = []
     with tempfile.TemporaryDirectory() as out:
         simulated.urban_nav("labels", "apply", model, *simulated.with_poses([bag]), "-o", out)
         for side in ("left", "right"):
             with open(simulated.truth(bag) / f"laser_{side}.csv") as file:
                 true = {(row["stamp_ns"], row["beam"]): row["class"] for row in csv.DictReader(file) if row["class"]}
             with open(Path(out) / f"laser_{side}_labels.csv") as file:
-                for row in csv.DictReader(file):
-                    label = true.get((row["stamp_ns"], row["beam"]))
-                    if label is not None and label != row["label"]:
-                        wrong.append((bag, side, row["stamp_ns"], row["beam"], names[int(label)]))
-    return wrong
+                wrong = {(row["stamp_ns"], int(row["beam"])): true[row["stamp_ns"], row["beam"]] for row in csv.DictReader(file)
+                         if row["label"] != true.get((row["stamp_ns"], row["beam"]), row["label"])}
+            for (stamp, beam), label in wrong.items():
+                if all(wrong.get((stamp, beam + step)) == label for step in (-NEIGHBOURS, -1, 1, NEIGHBOURS)):
+                    seen.append((bag, side, stamp, beam, names[int(label)]))
+    return seen
 
 
 def taught(folder, world, model, bags, names):

@@ -40,6 +40,11 @@ std::string classNames();
 /// Returns Wall for textured and smooth walls, and other classes unchanged.
 SceneClass withOneWall(SceneClass scene_class);
 
+/// Whether it is grass, paving or dirt.
+constexpr bool isKindOfGround(SceneClass scene_class) {
+  return scene_class == SceneClass::Grass || scene_class == SceneClass::Paved || scene_class == SceneClass::DirtPath;
+}
+
 /// One number for each class, by toIndex().
 using ClassValues = std::array<float, class_count>;
 

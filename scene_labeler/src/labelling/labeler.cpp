@@ -62,7 +62,7 @@ void smoothInScene(const Scene& scene, std::size_t classes, std::vector<float>& 
   smoothLabels(scene.points, is_labelled, classes, logs);
 }
 
-void spreadInScene(const Scene& scene, std::size_t classes, std::vector<float>& logs) {
+void spreadInScene(const Scene& scene, const std::vector<SceneClass>& classes, std::vector<float>& logs) {
   std::vector<std::uint8_t> is_shown = scene.view.is_visible, is_hidden(is_shown.size(), 0);
   for (std::size_t i = 0; i < is_shown.size(); ++i) {
     is_hidden[i] = is_shown[i] == 0 && scene.isAsked(i) ? 1 : 0;
@@ -133,7 +133,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
     if (!scene.isAsked(i)) result.patches[i] = no_patch;
   fusePatches(model, result.patches, logs);
   smoothInScene(scene, classes, logs);
-  if (!scene.view.image.empty()) spreadInScene(scene, classes, logs);
+  if (!scene.view.image.empty()) spreadInScene(scene, model.classes, logs);
   for (std::size_t i = 0; i < count; ++i) {
     if (is_asked[i] == 0) continue;
     float sum = 0.0F;

@@ -101,7 +101,7 @@ void MapLabeler::spreadInSquare(const std::vector<Member>& members, const std::v
     const float share = 1.0F / static_cast<float>(std::max<std::uint16_t>(square.views[member.index], 1));
     for (std::size_t k = 0; k < classes; ++k) logs.push_back(share * square.logs[member.index * classes + k]);
   }
-  spreadToHidden(points, is_shown, is_asked, classes, logs);
+  spreadToHidden(points, is_shown, is_asked, model_.classes, logs);
   for (std::size_t i = 0; i < members.size(); ++i)
     if (is_asked[i] != 0)
       std::copy_n(logs.begin() + static_cast<std::ptrdiff_t>(i * classes), classes,

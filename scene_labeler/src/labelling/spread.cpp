@@ -18,7 +18,24 @@ struct SpreadSettings {
   float per_m = 1.0F / 1.6F;        // of cubes whose neighbours count as surroundings
   double least_sources = 5.0;       // points around
   float own = 1.0F, around = 1.0F;  // powers of the point's probabilities and of those around
+  std::vector<std::size_t> kinds;   // classes that a point without look hardly tells apart
 };
+
+constexpr float own_of_kinds = 0.5F;  // power of a point's probabilities among those
+
+/// Takes the logarithms of probabilities among some classes to a power; the sum of the probabilities of these stays.
+void flatten(const std::vector<std::size_t>& kinds, float power, float* logs) {
+  if (kinds.size() < 2) return;
+  float highest = logs[kinds.front()];
+  for (const std::size_t k : kinds) highest = std::max(highest, logs[k]);
+  float before = 0.0F, after = 0.0F;
+  for (const std::size_t k : kinds) {
+    before += std::exp(logs[k] - highest);
+    after += std::exp(power * (logs[k] - highest));
+  }
+  const float shift = std::log(before / after);
+  for (const std::size_t k : kinds) logs[k] = highest + power * (logs[k] - highest) + shift;
+}
 
 void spreadLogs(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_source,
                 const std::vector<std::uint8_t>& is_target, std::size_t classes, const SpreadSettings& settings,
@@ -51,6 +68,7 @@ void spreadLogs(const std::vector<Eigen::Vector3f>& points, const std::vector<st
           for (std::size_t n = 0; n < stride; ++n) around[n] += sums[cube * stride + n];
         }
     if (around[0] < settings.least_sources) continue;
+    flatten(settings.kinds, own_of_kinds, logs.data() + i * classes);
     for (std::size_t k = 0; k < classes; ++k)
       logs[i * classes + k] = settings.own * logs[i * classes + k] +
                               settings.around * static_cast<float>(std::log(around[1 + k] / around[0] + share_of_any));
@@ -61,13 +79,17 @@ void spreadLogs(const std::vector<Eigen::Vector3f>& points, const std::vector<st
 }  // namespace
 
 void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_shown,
-                    const std::vector<std::uint8_t>& is_hidden, std::size_t classes, std::vector<float>& logs) {
-  spreadLogs(points, is_shown, is_hidden, classes, {}, logs);
+                    const std::vector<std::uint8_t>& is_hidden, const std::vector<SceneClass>& classes,
+                    std::vector<float>& logs) {
+  SpreadSettings settings;
+  for (std::size_t k = 0; k < classes.size(); ++k)
+    if (isKindOfGround(classes[k])) settings.kinds.push_back(k);
+  spreadLogs(points, is_shown, is_hidden, classes.size(), settings, logs);
 }
 
 void smoothLabels(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_labelled,
                   std::size_t classes, std::vector<float>& logs) {
-  spreadLogs(points, is_labelled, is_labelled, classes, {2.0F, 5.0, 0.7F, 0.7F}, logs);
+  spreadLogs(points, is_labelled, is_labelled, classes, {2.0F, 5.0, 0.7F, 0.7F, {}}, logs);
 }
 
 }  // namespace scene_labeler

@@ -17,9 +17,6 @@ constexpr std::size_t least_with_aspect = 50;   // with an aspect, to judge by i
 constexpr double reference_share = 0.95;
 constexpr double usual_share = 0.1, new_place_share = 0.3;
 constexpr double most_doubt = 0.5;  // scene_labeler/bench/other_worlds.py
-const std::vector<SceneClass> kinds_of_ground = {SceneClass::Grass, SceneClass::Paved, SceneClass::DirtPath};
-const std::vector<SceneClass> other_kinds = {SceneClass::Other,   SceneClass::TexturedWall, SceneClass::SmoothWall,
-                                             SceneClass::Foliage, SceneClass::Vehicle,      SceneClass::Wall};
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -132,8 +129,8 @@ void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, flo
   const double novelty = std::clamp((share_unlike - usual_share) / (new_place_share - usual_share), 0.0, 1.0);
   if (novelty == 0.0) return;
   const auto doubt = static_cast<float>(most_doubt * novelty);
-  for (const std::vector<SceneClass>& kinds : {kinds_of_ground, other_kinds}) {
-    const auto isKind = [&](std::size_t k) { return std::find(kinds.begin(), kinds.end(), classes[k]) != kinds.end(); };
+  for (const bool of_ground : {true, false}) {
+    const auto isKind = [&](std::size_t k) { return isKindOfGround(classes[k]) == of_ground; };
     float sum = 0.0F, count = 0.0F;
     for (std::size_t k = 0; k < classes.size(); ++k) {
       if (!isKind(k)) continue;

@@ -10,9 +10,18 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float patch_weight = 50.0F;  // of a superpixel in one frame: large ones do not outweigh all other samples
+/// Of a superpixel in one frame: large ones do not outweigh all other samples.
+constexpr float patch_weight = 50.0F, known_patch_weight = 20.0F;  // the latter where most answers are right
 
-constexpr std::size_t most_anchors = 100;  // of a scene
+/// Whether a scene shows a kind of place that the model was not trained in: most of what nobody corrected may be wrong.
+bool showsNewPlace(const LabelModel& model, const Scene& scene, const FeatureTable& table) {
+  std::vector<std::uint8_t> is_asked(scene.points.size(), 0);
+  for (std::size_t i = 0; i < is_asked.size(); ++i)
+    is_asked[i] = scene.points[i].allFinite() && scene.isAsked(i) ? 1 : 0;
+  return isNewPlace(model.place_novelty.shareUnlike(model.bins, table, is_asked));
+}
+
+constexpr std::size_t most_anchors = 300;  // of a scene
 
 SceneClass findAnswer(const LabelModel& model, const float* row) {
   std::vector<float> logs(model.classes.size());
@@ -20,18 +29,12 @@ SceneClass findAnswer(const LabelModel& model, const float* row) {
   return model.classes[static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin())];
 }
 
-/// Adds returns whose answer is none of those that were corrected, the rows from `first` on. In a new place most of
-/// what nobody corrected may be wrong as well.
+/// Adds returns whose answer is none of those that were corrected, the rows from `first` on.
 void addAnchors(const LabelModel& model, const Scene& scene, const FeatureTable& table, std::size_t first,
                 FoldRows& rows) {
   std::vector<std::size_t> asked;
-  std::vector<std::uint8_t> is_asked(scene.points.size(), 0);
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
-    is_asked[i] = 1;
-    asked.push_back(i);
-  }
-  if (isNewPlace(model.place_novelty.shareUnlike(model.bins, table, is_asked))) return;
+  for (std::size_t i = 0; i < scene.points.size(); ++i)
+    if (scene.points[i].allFinite() && scene.isAsked(i)) asked.push_back(i);
   std::vector<SceneClass> wrong;
   for (std::size_t i = first; i < rows.labels.size(); ++i)
     wrong.push_back(findAnswer(model, rows.values.data() + i * table.columns()));
@@ -108,6 +111,7 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
   std::size_t added = 0;
   FoldRows& rows = fold.samples;
   const std::size_t first = rows.labels.size();
+  const bool is_new_place = showsNewPlace(model, scene, table);
   for (const PatchCorrection& correction : corrections) {
     const std::size_t before = rows.labels.size();
     for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -119,11 +123,11 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
       rows.patches.push_back(no_patch);
     }
     const std::size_t members = rows.labels.size() - before;
-    const float weight = std::round(patch_weight / static_cast<float>(members));
+    const float weight = std::round((is_new_place ? patch_weight : known_patch_weight) / static_cast<float>(members));
     rows.weights.resize(rows.labels.size(), std::clamp(weight, 2.0F, correction_weight));
     added += members;
   }
-  if (model.kind == ClassifierKind::Boosted) addAnchors(model, scene, table, first, rows);
+  if (model.kind == ClassifierKind::Boosted && !is_new_place) addAnchors(model, scene, table, first, rows);
   return added;
 }
 

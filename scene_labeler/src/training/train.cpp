@@ -171,9 +171,7 @@ void fitClassifier(const SamplePool& pool, std::size_t left_out, const TrialSett
     plain.values.insert(plain.values.end(), row, row + pool.columns);
     plain.labels.push_back(pool.labels[i]);
   }
-  for (const SceneClass of_class : pool.classes)
-    plain.is_ground.push_back(of_class == SceneClass::Grass || of_class == SceneClass::Paved ||
-                              of_class == SceneClass::DirtPath);
+  for (const SceneClass of_class : pool.classes) plain.is_ground.push_back(isKindOfGround(of_class));
   const std::vector<std::string>& names = featureNames(model.features);
   for (const char* name : {"over_ground", model.features == FeatureSet::Paper ? "normal_z" : "normal_z_0.4"})
     plain.ground_columns.push_back(

@@ -27,12 +27,29 @@ TEST(Spread, GivesHiddenPointsTheClassOfTheirSurroundings) {
   add(20.5F, false, 0.6F);
   add(80.0F, false, 0.4F);
   const std::vector<float> before = logs;
-  spreadToHidden(points, is_shown, is_hidden, 2, logs);
+  spreadToHidden(points, is_shown, is_hidden, {SceneClass::Wall, SceneClass::Foliage}, logs);
   EXPECT_GT(std::exp(logs[2 * 20]), 0.8F);
   EXPECT_GT(std::exp(logs[2 * 21 + 1]), 0.8F);
   EXPECT_EQ(logs[2 * 22], before[2 * 22]) << "nothing around it";
   for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(logs[i], before[i]) << "shown points stay";
   EXPECT_NEAR(std::exp(logs[40]) + std::exp(logs[41]), 1.0F, 1e-5F);
+}
+
+TEST(Spread, SurroundingsTellTheKindOfGroundAndShapeTheRest) {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> logs;
+  const auto add = [&](const std::vector<float>& p) {
+    points.emplace_back(0.02F * static_cast<float>(points.size()), 0.0F, 0.0F);
+    for (const float one : p) logs.push_back(std::log(one));
+  };
+  for (int i = 0; i < 10; ++i) add({0.03F, 0.95F, 0.02F});
+  add({0.97F, 0.02F, 0.01F});        // by shape a lawn
+  add({0.0001F, 0.0001F, 0.9998F});  // by shape a car
+  std::vector<std::uint8_t> is_shown(12, 1), is_hidden(12, 0);
+  for (const std::size_t i : {10U, 11U}) std::swap(is_shown[i], is_hidden[i]);
+  spreadToHidden(points, is_shown, is_hidden, {SceneClass::Grass, SceneClass::DirtPath, SceneClass::Vehicle}, logs);
+  EXPECT_GT(logs[3 * 10 + 1], logs[3 * 10]) << "dirt like all around";
+  EXPECT_GT(std::exp(logs[3 * 11 + 2]), 0.9F);
 }
 
 TEST(SmoothLabels, OutvotesAStrayLabelAndKeepsLogProbabilities) {

@@ -37,10 +37,10 @@ struct PatchCorrection {
 };
 
 /// Adds the returns of the superpixels of a scene at the given returns (without an image: of the cubes of
-/// makePatches()) to a fold, whatever the model's answer is. A superpixel of up to five returns has correction_weight,
-/// the returns of a larger one have less, so that all superpixels count about the same. Returns how many were added.
-/// Also adds 100 returns or fewer of the scene with anchor_weight, of classes that nobody took from the model here:
-/// their answers are right, as far as anybody knows, but in a kind of place that the model was not trained in.
+/// makePatches()) to a fold, whatever the model's answer is, with weights by which all superpixels count about the
+/// same: one return of the smallest has correction_weight in a kind of place that the model was not trained in. In
+/// others, where most answers are right, it has less, and 300 returns or fewer of the scene are added with
+/// anchor_weight, of classes that nobody took from the model here. Returns how many corrected returns were added.
 std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
                                 const std::vector<PatchCorrection>& corrections, int superpixel_size,
                                 TrainingFold& fold);

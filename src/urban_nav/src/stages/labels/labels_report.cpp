@@ -68,14 +68,14 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
     warnings.push_back("a side camera seems to be mounted upside down, or to have the calibration of one that is: " +
                        std::to_string(run.upsideDown()) + " of " + std::to_string(run.views()) +
                        " images of the side cameras are not used");
-  if (const std::string warning = scene_labeler::newPlaceWarning(run.inNewPlace(), run.views()); !warning.empty())
-    warnings.push_back(warning);
+  const std::string new_place = scene_labeler::newPlaceWarning(run.inNewPlace(), run.views());
+  if (!new_place.empty()) warnings.push_back(new_place);
   if (!run.class_topic.empty() && run.classImages() == 0)
     warnings.push_back("no class image is used: " + run.class_topic +
                        " has none in mono8 with the frame, stamp and size of an image that is labelled, or there is no "
                        "such topic in the bags of this run");
   const double unsure = labelShare(run.unsure(), run.labelled());
-  if (unsure > many_unsure)
+  if (unsure > many_unsure && new_place.empty())
     warnings.push_back(forPerson(100.0 * unsure, 3) +
                        " % of the labels are unsure: the place is unlike those that the model was trained on");
   return warnings;
