@@ -11,8 +11,8 @@ namespace scene_labeler {
 
 /// Uses what images say of the surroundings for points that no image shows: the log probabilities of such a point are
 /// multiplied by the mean probabilities of the shown points within some 2 m, if there are any. Which kind of ground it
-/// is shape hardly tells: there the power of the point's own answer is a half. `logs`: of each point one for each class.
-/// `is_shown`, `is_hidden`: of each point; others are neither.
+/// is shape hardly tells: there the power of the point's own answer is a half. `logs`: of each point one for each
+/// class. `is_shown`, `is_hidden`: of each point; others are neither.
 void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_shown,
                     const std::vector<std::uint8_t>& is_hidden, const std::vector<SceneClass>& classes,
                     std::vector<float>& logs);
