@@ -12,7 +12,7 @@ struct SceneLabels {
   std::vector<SceneClass> labels;    ///< one per return; None: no answer
   std::vector<float> probabilities;  ///< return by return, one for each class; they sum to one, or are 0 without answer
   std::vector<std::uint8_t> unsure;  ///< 1: unlike the training data, or no class reaches 0.5 (0.7 in a scene unlike
-                                     ///< it, 0.8 with another device)
+                                     ///< it, 0.8 with another device or in a new place)
   std::vector<std::uint32_t> patches;  ///< of makePatches()
   double share_unlike = 0.0;           ///< of PlaceNovelty, for doubtKinds()
   cv::Mat image;  ///< CV_8U, class of each superpixel, 255 without laser returns; empty without image

@@ -49,7 +49,8 @@ class PlaceNovelty {
   Aspect look_, shape_;
 };
 
-/// Whether so many returns are unlike the training data that this is a kind of place the model was not trained in.
+/// Whether so many returns, over a fifth, are unlike the training data that this is a kind of place the model was not
+/// trained in.
 bool isNewPlace(double share_unlike);
 
 /// Returns the warning that so many of the frames show such a place; empty if less than a quarter of them do.

@@ -88,6 +88,8 @@ Section labelsSection(const LabelsRun& run) {
   section.introduction = "Classes of the points of the map, with probabilities, from shape and images: " +
                          forPerson(100.0 * labelShare(run.unsure(), run.labelled()), 3) +
                          " % of them are unsure. They are in map.ply and labels.csv.";
+  const std::string new_place = scene_labeler::newPlaceWarning(run.inNewPlace(), run.views());
+  if (!new_place.empty()) section.introduction += " " + new_place + ".";
   for (const LabelledMap& map : run.maps)
     section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
   for (const LabelledMap& map : run.maps)
