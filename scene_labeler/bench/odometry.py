@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What visual odometry costs the default model, on simulated drives of 20 s with stereo: prints the table of README.md.
+"""What visual odometry costs the default model, on simulated drives of 20 s with stereo: prints the figures of README.md.
 
     odometry.py FOLDER     # for the bags: those that are there are not simulated again
 """
