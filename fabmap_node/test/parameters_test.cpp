@@ -9,7 +9,7 @@
 namespace fabmap_node {
 namespace {
 
-TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 

@@ -29,7 +29,7 @@ void PrintTo(const Start& start, std::ostream* out) { *out << start.name << ", n
 
 class Creep : public ::testing::TestWithParam<Start> {};
 
-TEST_P(Creep, theFirstFiveCentimetresAreRightToATenth) {
+TEST_P(Creep, TheFirstFiveCentimetresAreRightToATenth) {
   const Start& start = GetParam();
   const Pose first = lookingAlong({-RoomSize().freeX(), 0.3, 1.1}, start.yaw);
   const Motion motion = [&](double t) {

@@ -38,7 +38,7 @@ Eigen::Vector2d of(const std::vector<std::uint8_t>& pixels) {
 }
 
 // Straight edges all alike are where it says the most: their steepest places do not bend at all.
-TEST(EdgeVariance, growsByWhatTheLensAdds) {
+TEST(EdgeVariance, GrowsByWhatTheLensAdds) {
   for (const double sigma : {1.5, 2.0, 3.0}) {
     const Eigen::Vector2d seen = of(edges(sigma, sigma));
     EXPECT_GT(seen.minCoeff(), 0.5 * sigma * sigma) << sigma;
@@ -47,7 +47,7 @@ TEST(EdgeVariance, growsByWhatTheLensAdds) {
   EXPECT_LT(of(edges(0.5, 0.5)).maxCoeff(), 1.0);
 }
 
-TEST(EdgeVariance, knowsNothingOfContrastAndOfHowMuchIsSmooth) {
+TEST(EdgeVariance, KnowsNothingOfContrastAndOfHowMuchIsSmooth) {
   const Eigen::Vector2d usual = of(edges(0.5, 0.5));
   EXPECT_TRUE(widening(of(edges(0.5, 0.5, 30.0)), usual).isZero());
   EXPECT_TRUE(widening(of(edges(0.5, 0.5, 100.0, 1.0, 90.0)), usual).isZero()) << "smooth walls are not blurred";
@@ -55,13 +55,13 @@ TEST(EdgeVariance, knowsNothingOfContrastAndOfHowMuchIsSmooth) {
   EXPECT_GT(widening(of(edges(2.0, 2.0)), usual).minCoeff(), 0.0);
 }
 
-TEST(EdgeVariance, ofAnImageWithoutContrastIsNothing) {
+TEST(EdgeVariance, OfAnImageWithoutContrastIsNothing) {
   const std::vector<std::uint8_t> flat(edge_image_width * edge_image_height, 90);
   EXPECT_TRUE(of(flat).isZero());
   EXPECT_TRUE(edgeVariance({flat.data(), 2, 2, 2}).isZero());
 }
 
-TEST(Widening, isNoneForWhatScenesDifferBy) {
+TEST(Widening, IsNoneForWhatScenesDifferBy) {
   const Eigen::Vector2d sharp(0.4, 0.4), soft(3.0, 4.0);
   EXPECT_TRUE(widening({0.7, 1.3}, sharp).isZero());
   EXPECT_TRUE(widening({5.0, 7.0}, soft).isZero());

@@ -35,7 +35,7 @@ StereoFrame pastePiece(const StereoFrame& before, StereoFrame frame) {
   return frame;
 }
 
-TEST(Elsewhere, isNotTakenForThePlaceOfBefore) {
+TEST(Elsewhere, IsNotTakenForThePlaceOfBefore) {
   constexpr std::size_t before = 15, after = 5;
   constexpr StampNs gap = 1'500'000'000, period = 50'000'000;
   int trials = 0;

@@ -44,7 +44,7 @@ ExposureOutcome follow(const Recording& room, const Gain& gain) {
   return outcome;
 }
 
-TEST(ChangingExposure, isNotTakenForMotion) {
+TEST(ChangingExposure, IsNotTakenForMotion) {
   double usual = 0.0, changing = 0.0, nees = 0.0;
   for (const char* motion : {"loop", "turns"}) {
     const Recording& room = inTheRoom(motion, 1.0, 80);

@@ -76,7 +76,7 @@ double undisturbedError(const std::string& motion) {
 }
 
 // What was measured before frames were left out says nothing beside a pose of after.
-TEST(Darkness, saysNothingOfTheNoise) {
+TEST(Darkness, SaysNothingOfTheNoise) {
   double before = 0.0;
   playWithFault(inTheRoom("wander", 1.0, 80), "black:1.5:0.1", [&](const Played& played) {
     const double noise = played.frame.statistics.noise_scale;
@@ -89,7 +89,7 @@ TEST(Darkness, saysNothingOfTheNoise) {
 }
 
 // A clock that is set ten seconds forwards does not move the camera: the images say where it is.
-TEST(ClockJump, movesNothing) {
+TEST(ClockJump, MovesNothing) {
   for (const char* motion : {"loop", "wander"}) {
     const Recording& room = inTheRoom(motion, 1.0, 80);
     int seen = 0;
@@ -106,7 +106,7 @@ TEST(ClockJump, movesNothing) {
 
 // Wheels that are off by one and a half of what they claim bridge a second without images, and the images then have the
 // word: neither counts twice.
-TEST(GapOnWheels, isCrossed) {
+TEST(GapOnWheels, IsCrossed) {
   for (const char* motion : {"loop", "wander", "turns"}) {
     SCOPED_TRACE(motion);
     const Recording& room = inTheRoom(motion, 1.0, 80);
@@ -136,7 +136,7 @@ TEST(GapOnWheels, isCrossed) {
 class FaultsInTheRoom : public ::testing::TestWithParam<Trouble> {};
 
 // One end point is a throw of dice: three of them, root mean square.
-TEST_P(FaultsInTheRoom, areNamedWithinTwoFramesAndOvercome) {
+TEST_P(FaultsInTheRoom, AreNamedWithinTwoFramesAndOvercome) {
   constexpr int count = 3;
   double squares = 0.0, usual = 0.0, nees = 0.0;
   for (const char* motion : {"loop", "wander", "turns"}) {
@@ -208,7 +208,7 @@ bool isWithinWhatIsStated(const FaultOutcome& outcome, double length) {
 
 class FaultsInTheStreet : public ::testing::TestWithParam<Trouble> {};
 
-TEST_P(FaultsInTheStreet, areNamedWithinTwoFramesAndOvercome) {
+TEST_P(FaultsInTheStreet, AreNamedWithinTwoFramesAndOvercome) {
   if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
   const FaultOutcome outcome = play(street()->faults, GetParam());
   expectNamedAndOvercome(outcome);
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
 // A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of
 // all, turns through the bend at 59 deg/s, and goes at 20 m/s. From each of the first four frames, root mean square,
 // since one end point is a throw of dice.
-TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
+TEST(Turning, SixtyDegreesASecondAreFollowedInTheStreet) {
   if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
   const Recording& whole = street()->turning;
   double squares = 0.0, usual = 0.0;
@@ -251,7 +251,7 @@ TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
   EXPECT_LT(std::sqrt(squares), 2.0 * std::sqrt(usual));
 }
 
-TEST(Turning, sixtyDegreesASecondAreFollowedInTheRoom) {
+TEST(Turning, SixtyDegreesASecondAreFollowedInTheRoom) {
   const Recording& room = inTheRoom("spin", 1.0, 70);
   const FaultOutcome outcome = undisturbed(room);
   EXPECT_EQ(outcome.last.status.health, Health::Ok) << outcome.last.status;
@@ -261,7 +261,7 @@ TEST(Turning, sixtyDegreesASecondAreFollowedInTheRoom) {
 }
 
 // Two frames in the wrong order: the later is used, the earlier refused.
-TEST(FramesInTheWrongOrder, areRefused) {
+TEST(FramesInTheWrongOrder, AreRefused) {
   Recording room = inTheRoom("loop", 1.0, 80);
   room.frames.resize(40);
   room.truth.resize(40);

@@ -44,7 +44,7 @@ double shareOnTheVan(const Frame& frame, double distance) {
   return static_cast<double>(on) / static_cast<double>(frame.features.size());
 }
 
-TEST_P(Van, doesNotCarryTheEstimateAway) {
+TEST_P(Van, DoesNotCarryTheEstimateAway) {
   const Pose start = lookingAlong({-RoomSize().freeX(), 0.0, 1.1}, 0.0);
   const Motion motion = straight(start, 0.5);
   const auto own = [&](double t) { return (start.inverse() * motion(t)).t().z(); };

@@ -13,11 +13,11 @@ namespace {
 
 using urban_nav_core::parseSetting;
 
-TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
-TEST(Parameters, theYamlFileGivesTheDefaults) {
+TEST(Parameters, TheYamlFileGivesTheDefaults) {
   const auto loaded = load(table(), urban_nav_core::readParameters("config/swf_vo.yaml"));
   const Parameters defaults;
   for (const auto& row : table().rows())
@@ -25,7 +25,7 @@ TEST(Parameters, theYamlFileGivesTheDefaults) {
         << row.name;
 }
 
-TEST(Parameters, aValueOutOfRangeIsNamedWithWhatIsAllowed) {
+TEST(Parameters, AValueOutOfRangeIsNamedWithWhatIsAllowed) {
   try {
     load(table(), {parseSetting("swf_vo.window=0")});
     FAIL();

@@ -25,7 +25,7 @@ Vector6d twist(double vx, double vy, double vz, double wx, double wy, double wz)
   return v;
 }
 
-TEST(Prediction, goesOnAtTheVelocityOfTheLastStep) {
+TEST(Prediction, GoesOnAtTheVelocityOfTheLastStep) {
   Prediction prediction{Parameters(), Pose()};
   const Vector6d velocity = twist(0.3, 0.0, 5.0, 0.0, 0.4, 0.1);
   prediction.learn(expSe3(velocity * 0.1), 0.1, true);
@@ -33,7 +33,7 @@ TEST(Prediction, goesOnAtTheVelocityOfTheLastStep) {
   EXPECT_TRUE(isApprox(prediction.step(0.3, {}).T_from_to, expSe3(velocity * 0.3), 1e-12)) << "two frames were dropped";
 }
 
-TEST(Prediction, makesUpNoWayOverALongPause) {
+TEST(Prediction, MakesUpNoWayOverALongPause) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(expSe3(twist(0.0, 0.0, 5.0, 0.0, 0.0, 0.0) * 0.1), 0.1, true);
   const ProcessInput u = prediction.step(600.0, {});
@@ -41,7 +41,7 @@ TEST(Prediction, makesUpNoWayOverALongPause) {
   EXPECT_LT(u.information(2, 2), 1.0 / (1000.0 * 1000.0)) << "anything may have happened";
 }
 
-TEST(Prediction, trustsItselfLessTheLongerNothingWasMeasured) {
+TEST(Prediction, TrustsItselfLessTheLongerNothingWasMeasured) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(Pose(), 0.1, true);
   double last = prediction.step(0.1, {}).information(0, 0);
@@ -55,7 +55,7 @@ TEST(Prediction, trustsItselfLessTheLongerNothingWasMeasured) {
   EXPECT_GT(prediction.step(0.1, {}).information(0, 0), last);
 }
 
-TEST(Prediction, givesUpAVelocityThatFindsNothingInGoodImagesButNotInTheDark) {
+TEST(Prediction, GivesUpAVelocityThatFindsNothingInGoodImagesButNotInTheDark) {
   const Pose step = expSe3(twist(0.0, 0.0, 2.0, 0.0, 0.0, 0.0));
   Prediction seeing{Parameters(), Pose()}, blind{Parameters(), Pose()};
   seeing.learn(step, 0.1, true);
@@ -68,7 +68,7 @@ TEST(Prediction, givesUpAVelocityThatFindsNothingInGoodImagesButNotInTheDark) {
   EXPECT_TRUE(isApprox(blind.step(0.1, {}).T_from_to, step, 1e-12));
 }
 
-TEST(Prediction, aVelocityThatTurnsBackAllTheTimeFadesInTheDark) {
+TEST(Prediction, AVelocityThatTurnsBackAllTheTimeFadesInTheDark) {
   const auto stepInTheDark = [](const std::function<double(int)>& speed) {
     Prediction prediction{Parameters(), Pose()};
     const auto at = [&](int i) { return twist(speed(i), 0.0, 0.0, 0.0, speed(i), 0.0); };
@@ -85,7 +85,7 @@ TEST(Prediction, aVelocityThatTurnsBackAllTheTimeFadesInTheDark) {
   EXPECT_LT(shaken.norm(), 0.01);
 }
 
-TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {
+TEST(Prediction, TakesAGoodInputInsteadOfTheVelocity) {
   const Pose T_base_camera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Vector3d(0.1, 0.0, 1.1));
   Prediction prediction(Parameters(), T_base_camera);
   prediction.learn(Pose(), 0.1, true);
@@ -95,7 +95,7 @@ TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {
       isApprox(prediction.step(0.1, {input}).T_from_to, T_base_camera.inverse() * motion * T_base_camera, 1e-6));
 }
 
-TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
+TEST(Prediction, AGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(expSe3(twist(0.0, 0.0, 0.1, 0.0, 0.0, 0.0)), 0.1, true);
   Matrix6d information = Matrix6d::Zero();
@@ -109,7 +109,7 @@ TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
   EXPECT_TRUE(u.information.allFinite());
 }
 
-TEST(Prediction, ignoresInputsThatMakeNoSense) {
+TEST(Prediction, IgnoresInputsThatMakeNoSense) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(Pose(), 0.1, true);
   Matrix6d broken = Matrix6d::Identity();

@@ -42,7 +42,7 @@ RigConstants findRig(double roll_rad, double delay_s) {
   return found;
 }
 
-TEST(Rig, aGoodOneIsFoundGood) {
+TEST(Rig, AGoodOneIsFoundGood) {
   const RigConstants found = findRig(0.0, 0.0);
   EXPECT_LT(std::abs(found.roll_rad), 4.0 * found.roll_sigma_rad);
   EXPECT_LT(std::abs(found.delay_s), 4.0 * found.delay_sigma_s);
@@ -50,7 +50,7 @@ TEST(Rig, aGoodOneIsFoundGood) {
   EXPECT_LT(found.delay_sigma_s, 2e-3);
 }
 
-TEST(Rig, aRolledCameraIsFound) {
+TEST(Rig, ARolledCameraIsFound) {
   constexpr double roll = 0.2 * M_PI / 180.0;
   const RigConstants found = findRig(roll, 0.0);
   EXPECT_NEAR(found.roll_rad, roll, 0.1 * roll);
@@ -58,7 +58,7 @@ TEST(Rig, aRolledCameraIsFound) {
 }
 
 // Of one camera and one room: what else errs is the same in both.
-TEST(Rig, aLateShutterIsToldFromAnEarlyOne) {
+TEST(Rig, ALateShutterIsToldFromAnEarlyOne) {
   constexpr double delay = 4e-3;
   const RigConstants late = findRig(0.0, delay), early = findRig(0.0, -delay);
   EXPECT_NEAR(late.delay_s - early.delay_s, 2.0 * delay, 0.6 * delay);

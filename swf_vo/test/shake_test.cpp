@@ -18,7 +18,7 @@ struct Shaking {
 
 class Shaken : public ::testing::TestWithParam<Shaking> {};
 
-TEST_P(Shaken, endsWithinAPerCentOfThePath) {
+TEST_P(Shaken, EndsWithinAPerCentOfThePath) {
   constexpr double rate = 5.0, hz = 0.7;
   urban_nav_core::testing::SequenceOptions options;
   options.camera = roomCamera();

@@ -35,7 +35,7 @@ void shimmer(const ImageView& image, cv::RNG& random, cv::Mat& moved) {
   cv::remap(whole, moved, field, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
 }
 
-TEST(Shimmer, isInTheCovariance) {
+TEST(Shimmer, IsInTheCovariance) {
   double nees = 0.0;
   constexpr int rooms = 2;
   for (int room = 1; room <= rooms; ++room) {

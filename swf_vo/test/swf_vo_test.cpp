@@ -19,7 +19,7 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 
-TEST(SwfVo, followsTheRobotAndSettlesEveryFrame) {
+TEST(SwfVo, FollowsTheRobotAndSettlesEveryFrame) {
   const Recording& room = inTheRoom("loop", 1.0, 70);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   std::vector<Settled> settled;
@@ -44,7 +44,7 @@ TEST(SwfVo, followsTheRobotAndSettlesEveryFrame) {
   }
 }
 
-TEST(SwfVo, standsStill) {
+TEST(SwfVo, StandsStill) {
   const Recording& room = inTheRoom("stand", 2.0, 40);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   for (const StereoFrame& frame : room.frames) {
@@ -54,7 +54,7 @@ TEST(SwfVo, standsStill) {
   }
 }
 
-TEST(SwfVo, theSameCallsGiveTheSameBits) {
+TEST(SwfVo, TheSameCallsGiveTheSameBits) {
   const Recording& room = inTheRoom("loop", 1.0, 30);
   SwfVo a(Parameters(), stereoCamera(), Pose()), b(Parameters(), stereoCamera(), Pose());
   for (int i = 0; i < 30; ++i) {
@@ -67,7 +67,7 @@ TEST(SwfVo, theSameCallsGiveTheSameBits) {
   }
 }
 
-TEST(SwfVo, movesTheBaseNotTheCamera) {
+TEST(SwfVo, MovesTheBaseNotTheCamera) {
   const Recording& room = inTheRoom("loop", 1.0, 20);
   const Pose T_base_camera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0.1, 0.0, 1.1));
   SwfVo camera(Parameters(), stereoCamera(), Pose()), base(Parameters(), stereoCamera(), T_base_camera);
@@ -82,7 +82,7 @@ TEST(SwfVo, movesTheBaseNotTheCamera) {
   }
 }
 
-TEST(SwfVo, refusesACameraThatIsNone) {
+TEST(SwfVo, RefusesACameraThatIsNone) {
   StereoCamera camera = stereoCamera();
   camera.baseline = 0.0;
   EXPECT_THROW(SwfVo(Parameters(), camera, Pose()), urban_nav_core::UserError);
@@ -91,7 +91,7 @@ TEST(SwfVo, refusesACameraThatIsNone) {
   EXPECT_THROW(SwfVo(Parameters(), camera, Pose()), urban_nav_core::UserError);
 }
 
-TEST(SwfVo, livesOnNothingAtAll) {
+TEST(SwfVo, LivesOnNothingAtAll) {
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   std::size_t settled = 0;
   for (int i = 0; i < 15; ++i) {
@@ -104,7 +104,7 @@ TEST(SwfVo, livesOnNothingAtAll) {
   EXPECT_EQ(settled + filter.flush().size(), 15U);
 }
 
-TEST(SwfVo, allocatesNothingAfterFrame50) {
+TEST(SwfVo, AllocatesNothingAfterFrame50) {
   if (!countsAllocations()) GTEST_SKIP() << "the sanitizer's allocator cannot be counted";
   const Recording& room = inTheRoom("loop", 1.0, 70);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
@@ -127,7 +127,7 @@ void PrintTo(const Effort& effort, std::ostream* out) {
 class SwfVoEfforts : public ::testing::TestWithParam<Effort> {};
 
 // For a while the window holds nothing but poses that only the process model ties together.
-TEST_P(SwfVoEfforts, overcomeAPauseInTheMeasurements) {
+TEST_P(SwfVoEfforts, OvercomeAPauseInTheMeasurements) {
   const Recording& room = inTheRoom("loop", 1.0, 70);
   for (const char* fault : {"blur:1:0.5", "blur:0.5:1.5", "black:0.7:1.5"}) {
     Parameters parameters;

@@ -76,7 +76,7 @@ class DenseStereoNodelet : public ::testing::Test {
   RenderedSequence sequence = room();
 };
 
-TEST_F(DenseStereoNodelet, publishesWhatTheCoreComputes) {
+TEST_F(DenseStereoNodelet, PublishesWhatTheCoreComputes) {
   ASSERT_TRUE(play(0, 3));
   NearSceneEstimator estimator(Parameters(), camera());
   const Pose mounting(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d::Zero());
@@ -103,7 +103,7 @@ TEST_F(DenseStereoNodelet, publishesWhatTheCoreComputes) {
   }
 }
 
-TEST_F(DenseStereoNodelet, publishesPointsAsTheDisparitiesAndTheCameraHaveThem) {
+TEST_F(DenseStereoNodelet, PublishesPointsAsTheDisparitiesAndTheCameraHaveThem) {
   ASSERT_TRUE(play(0, 1));
   const sensor_msgs::PointCloud2& cloud = graph.points.back();
   const stereo_msgs::DisparityImage& disparity = graph.disparities.back();
@@ -123,7 +123,7 @@ TEST_F(DenseStereoNodelet, publishesPointsAsTheDisparitiesAndTheCameraHaveThem) 
   EXPECT_GT(valid, 320U * 240U / 2);
 }
 
-TEST_F(DenseStereoNodelet, reportsSwappedImagesInItsStatus) {
+TEST_F(DenseStereoNodelet, ReportsSwappedImagesInItsStatus) {
   ASSERT_TRUE(play(0, 2));
   urban_nav_core::testing::StereoFrame swapped = sequence.frame(2);
   std::swap(swapped.left, swapped.right);

@@ -170,7 +170,7 @@ class FabmapNodelet : public ::testing::Test {
 };
 std::unique_ptr<Head> FabmapNodelet::shared_;
 
-TEST_F(FabmapNodelet, recognisesARevisitAndProposesIt) {
+TEST_F(FabmapNodelet, RecognisesARevisitAndProposesIt) {
   for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(place, first_stamp + place * half_second));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
   for (const auto& belief : head.beliefs) EXPECT_TRUE(belief.places.empty()) << "nothing is older than the mask";
@@ -184,13 +184,13 @@ TEST_F(FabmapNodelet, recognisesARevisitAndProposesIt) {
   EXPECT_NEAR(belief.p_new + belief.probabilities[0], 1.0, 1e-9);
 }
 
-TEST_F(FabmapNodelet, forgetsOnResetAndContinuesWithFourCameras) {
+TEST_F(FabmapNodelet, ForgetsOnResetAndContinuesWithFourCameras) {
   for (unsigned place = 10; place < 15; ++place) head.show(place, first_stamp + place * half_second, 2);
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() >= 3; })) << "the others may still be completed";
   for (const auto& belief : head.beliefs) EXPECT_EQ(belief.observation, "used");
 }
 
-TEST_F(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
+TEST_F(FabmapNodelet, RecognisesPlacesOfASessionThatWasSaved) {
   const TemporaryFolder folder;
   const std::string path = folder.file("places.db");
   EXPECT_FALSE(Head::command("save", path).success) << "there are no places yet";
@@ -211,7 +211,7 @@ TEST_F(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
   EXPECT_EQ(belief.places[0].session.size(), 20U) << "the id of an earlier session";
 }
 
-TEST_F(FabmapNodelet, drawsItsBeliefAlongThePathOfOdometry) {
+TEST_F(FabmapNodelet, DrawsItsBeliefAlongThePathOfOdometry) {
   const StampNs start = first_stamp + 15'000 * half_second;
   head.drive(start);
   for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(40 + place, start + place * half_second));
@@ -233,7 +233,7 @@ TEST_F(FabmapNodelet, drawsItsBeliefAlongThePathOfOdometry) {
   EXPECT_EQ(beliefs, 6U);
 }
 
-TEST_F(FabmapNodelet, knowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
+TEST_F(FabmapNodelet, KnowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
   std::string store;
   ASSERT_TRUE(ros::param::get("fabmap_node/store", store));
   const StampNs start = first_stamp + 20'000 * half_second;

@@ -39,7 +39,7 @@ class ClosureChecks : public ::testing::Test {
   Parameters parameters_;
 };
 
-TEST_F(ClosureChecks, aSingleClosureKeepsItsInformationEitherWay) {
+TEST_F(ClosureChecks, ASingleClosureKeepsItsInformationEitherWay) {
   std::vector<MetricClosure> batch = {closure(3)};
   applyChecks(batch, place_data_, parameters_);
   MetricClosure live = closure(3);
@@ -48,7 +48,7 @@ TEST_F(ClosureChecks, aSingleClosureKeepsItsInformationEitherWay) {
   EXPECT_TRUE(live.measured.information.isApprox(closure(3).measured.information));
 }
 
-TEST_F(ClosureChecks, equalClosuresTogetherKeepTheInformationOfOne) {
+TEST_F(ClosureChecks, EqualClosuresTogetherKeepTheInformationOfOne) {
   std::vector<MetricClosure> batch = {closure(3), closure(3)};
   applyChecks(batch, place_data_, parameters_);
   EXPECT_TRUE(batch[0].measured.information.isApprox(0.5 * closure(3).measured.information));
@@ -61,7 +61,7 @@ TEST_F(ClosureChecks, equalClosuresTogetherKeepTheInformationOfOne) {
   EXPECT_GT(second.measured.information(0, 0), 0.0);
 }
 
-TEST_F(ClosureChecks, aContradictionOfSeveralNeighboursIsRejectedEitherWay) {
+TEST_F(ClosureChecks, AContradictionOfSeveralNeighboursIsRejectedEitherWay) {
   const MetricClosure wrong = closure(4, at(2.0, 0.5));
   std::vector<MetricClosure> batch = {closure(2), closure(3), closure(5), wrong};
   applyChecks(batch, place_data_, parameters_);
@@ -77,7 +77,7 @@ TEST_F(ClosureChecks, aContradictionOfSeveralNeighboursIsRejectedEitherWay) {
   EXPECT_EQ(last.verdict, ClosureVerdict::Rejected);
 }
 
-TEST_F(ClosureChecks, rejectedClosuresAreNoEvidence) {
+TEST_F(ClosureChecks, RejectedClosuresAreNoEvidence) {
   SequentialChecks live;
   for (const int metre : {2, 3, 5}) {
     MetricClosure rejected = closure(metre, at(2.0, 0.5));

@@ -70,7 +70,7 @@ class SharedClouds : public ::testing::Test {
   std::vector<MetricClosure> closures_;
 };
 
-TEST_F(SharedClouds, thoseWithTheSameCloudsKnowWhatOneOfThemKnows) {
+TEST_F(SharedClouds, ThoseWithTheSameCloudsKnowWhatOneOfThemKnows) {
   for (int i = 0; i < 5; ++i) add(20, 120);
   add(20, 160);  // one cloud alone is the same
   add(60, 160);
@@ -80,7 +80,7 @@ TEST_F(SharedClouds, thoseWithTheSameCloudsKnowWhatOneOfThemKnows) {
   EXPECT_NEAR(shared[6], 1.0, 1e-9);
 }
 
-TEST_F(SharedClouds, partsCountAsParts) {
+TEST_F(SharedClouds, PartsCountAsParts) {
   add(20, 120);
   add(25, 110);  // 15 m and 10 m of 20 m
   add(115, 30);  // the other way about: 15 m and 10 m with the first, 15 m and 15 m with the second
@@ -90,14 +90,14 @@ TEST_F(SharedClouds, partsCountAsParts) {
   EXPECT_NEAR(shared[2], 1.0 + 0.75 * 0.5 + 0.75 * 0.75, 1e-9);
 }
 
-TEST_F(SharedClouds, viewsAndWhatWasRejectedHaveNoPartInIt) {
+TEST_F(SharedClouds, ViewsAndWhatWasRejectedHaveNoPartInIt) {
   add(20, 120);
   add(20, 120, ClosureMethod::Stereo);
   add(20, 120, ClosureMethod::Icp, ClosureVerdict::Rejected);
   EXPECT_EQ(sharing(), std::vector<double>(3, 1.0));
 }
 
-TEST_F(SharedClouds, oneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
+TEST_F(SharedClouds, OneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
   for (int i = 0; i < 100; ++i) add(20, 120);
   add(120, 20);  // the other way about
   add(20, 160);  // one cloud alone is the same
@@ -109,7 +109,7 @@ TEST_F(SharedClouds, oneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
   EXPECT_LT(keptTogether(), 2.2);
 }
 
-TEST_F(SharedClouds, oneAfterAnotherPartsCountAsParts) {
+TEST_F(SharedClouds, OneAfterAnotherPartsCountAsParts) {
   add(20, 120);
   add(25, 110);  // 15 m and 10 m of 20 m are discounted
   add(35,
@@ -121,7 +121,7 @@ TEST_F(SharedClouds, oneAfterAnotherPartsCountAsParts) {
   EXPECT_NEAR(each[2], 1.0 - 0.25 - 0.5 * 0.5 + 0.25 * 0.5, 1e-9);
 }
 
-TEST_F(SharedClouds, allTogetherTellTheSameInAnyOrder) {
+TEST_F(SharedClouds, AllTogetherTellTheSameInAnyOrder) {
   for (int i = 0; i < 60; ++i) add(20 + i, 160 - i + (i * 7) % 5);
   const double in_order = keptTogether();
   EXPECT_GT(in_order, 4.0);  // 60 m of both ways, of which a cloud has 20 m
@@ -133,7 +133,7 @@ TEST_F(SharedClouds, allTogetherTellTheSameInAnyOrder) {
   EXPECT_NEAR(keptTogether(), in_order, 0.05);
 }
 
-TEST_F(SharedClouds, oneAfterAnotherViewsAndWhatWasRejectedHaveNoPartInIt) {
+TEST_F(SharedClouds, OneAfterAnotherViewsAndWhatWasRejectedHaveNoPartInIt) {
   add(20, 120, ClosureMethod::Stereo);
   add(20, 120, ClosureMethod::Icp, ClosureVerdict::Rejected);
   add(20, 120);

@@ -6,7 +6,7 @@
 namespace loop_metric {
 namespace {
 
-TEST(LoopsReport, theMostSevereFaultComesFirst) {
+TEST(LoopsReport, TheMostSevereFaultComesFirst) {
   LoopsState state;
   EXPECT_EQ(makeReport(state).reason_name, "None");
   state.laser_pose_fault = "no static tf";
@@ -25,14 +25,14 @@ TEST(LoopsReport, theMostSevereFaultComesFirst) {
   EXPECT_TRUE(makeReport(state).is_error);
 }
 
-TEST(LoopsReport, unusedSensorsAreNoFault) {
+TEST(LoopsReport, UnusedSensorsAreNoFault) {
   LoopsState state;
   state.stereo = state.clouds = false;
   state.image_fault = state.camera_fault = state.laser_fault = state.laser_pose_fault = "missing";
   EXPECT_EQ(makeReport(state).reason_name, "None");
 }
 
-TEST(LoopsReport, aPauseIsNoFault) {
+TEST(LoopsReport, APauseIsNoFault) {
   LoopsState state;
   state.paused = true;
   state.store.fault = "disk full";

@@ -31,7 +31,7 @@ RelativePose stepTo(int i) {
   return step;
 }
 
-TEST(SessionOdometry, aGapBeginsAPartOfItsOwn) {
+TEST(SessionOdometry, AGapBeginsAPartOfItsOwn) {
   SessionOdometry odometry;
   EXPECT_TRUE(odometry.empty());
   for (const int i : {1, 2, 3, 5, 6}) EXPECT_TRUE(odometry.add(stepTo(i)));
@@ -46,7 +46,7 @@ TEST(SessionOdometry, aGapBeginsAPartOfItsOwn) {
   EXPECT_FALSE(odometry.add(broken));
 }
 
-TEST(SessionOdometry, comesBackFromAStoreWithItsGaps) {
+TEST(SessionOdometry, ComesBackFromAStoreWithItsGaps) {
   const std::string path = ::testing::TempDir() + "loop_metric_session_odometry.db";
   urban_nav_store::removeStore(path);
   SessionOdometry expected;

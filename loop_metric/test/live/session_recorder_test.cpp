@@ -71,7 +71,7 @@ class SessionRecorderTest : public ::testing::Test {
   std::unique_ptr<SessionRecorder> recorder_;
 };
 
-TEST_F(SessionRecorderTest, stepsBecomePosesOfASessionThatEndsComplete) {
+TEST_F(SessionRecorderTest, StepsBecomePosesOfASessionThatEndsComplete) {
   drive(0, 5);
   ASSERT_EQ(stored().size(), 1U);
   EXPECT_EQ(stored()[0].robot, "lisa");
@@ -84,7 +84,7 @@ TEST_F(SessionRecorderTest, stepsBecomePosesOfASessionThatEndsComplete) {
   EXPECT_EQ(recorder_->state().session, "");
 }
 
-TEST_F(SessionRecorderTest, aJumpBackInTimeBeginsAnotherSession) {
+TEST_F(SessionRecorderTest, AJumpBackInTimeBeginsAnotherSession) {
   drive(0, 5, start + 100 * period);
   drive(0, 5, start);
   ASSERT_EQ(stored().size(), 2U);
@@ -92,7 +92,7 @@ TEST_F(SessionRecorderTest, aJumpBackInTimeBeginsAnotherSession) {
   for (const Session& session : stored()) EXPECT_EQ(nodes(session), 6U);
 }
 
-TEST_F(SessionRecorderTest, odometryThatContinuesAStoredSessionExtendsIt) {
+TEST_F(SessionRecorderTest, OdometryThatContinuesAStoredSessionExtendsIt) {
   drive(0, 5);
   restart();
   drive(5, 8);
@@ -100,14 +100,14 @@ TEST_F(SessionRecorderTest, odometryThatContinuesAStoredSessionExtendsIt) {
   EXPECT_EQ(nodes(stored()[0]), 9U);
 }
 
-TEST_F(SessionRecorderTest, odometryElsewhereInTimeIsAnotherSession) {
+TEST_F(SessionRecorderTest, OdometryElsewhereInTimeIsAnotherSession) {
   drive(0, 5);
   restart();
   drive(0, 3, start + 1000 * period);
   EXPECT_EQ(stored().size(), 2U);
 }
 
-TEST_F(SessionRecorderTest, invalidStepsAreRefusedAndCounted) {
+TEST_F(SessionRecorderTest, InvalidStepsAreRefusedAndCounted) {
   drive(0, 3);
   RelativePose broken;
   broken.from = start + 3 * period;
@@ -117,7 +117,7 @@ TEST_F(SessionRecorderTest, invalidStepsAreRefusedAndCounted) {
   EXPECT_EQ(nodes(stored()[0]), 4U);
 }
 
-TEST_F(SessionRecorderTest, scansFromBeforeTheFirstStepBelongToTheSession) {
+TEST_F(SessionRecorderTest, ScansFromBeforeTheFirstStepBelongToTheSession) {
   urban_nav_core::Scan scan;
   scan.stamp = start;
   recorder_->addScan("laser_left", scan);
@@ -131,7 +131,7 @@ TEST_F(SessionRecorderTest, scansFromBeforeTheFirstStepBelongToTheSession) {
   EXPECT_EQ(file.sessions().extrinsics(stored()[0].id).size(), 1U);
 }
 
-TEST_F(SessionRecorderTest, scansAfterAJumpBackWaitForTheNextSession) {
+TEST_F(SessionRecorderTest, ScansAfterAJumpBackWaitForTheNextSession) {
   drive(0, 2, start + 1000 * period);
   urban_nav_core::Scan scan;
   for (const StampNs stamp : {start + 1000 * period, start}) {

@@ -110,7 +110,7 @@ class LoopMetricNodelet : public ::testing::Test {
 };
 Robot* LoopMetricNodelet::robot_ = nullptr;
 
-TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
+TEST_F(LoopMetricNodelet, ARevisitIsUpgradedAndAFalsePairIsNot) {
   robot().drive(0, lap + 7);
   robot().recognise(3, lap + 3);
   robot().recognise(3, 15);  // the other side of the room
@@ -131,7 +131,7 @@ TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
   EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
 }
 
-TEST_F(LoopMetricNodelet, theViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
+TEST_F(LoopMetricNodelet, TheViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
   constexpr int count = 12;
   robot().drive(0, count);
   KeyframeSelector selector((urban_nav_registration::Parameters()));
@@ -155,7 +155,7 @@ TEST_F(LoopMetricNodelet, theViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
     EXPECT_TRUE(store.keyframes().get(toId(robot().toStamp(0)), keyframe_camera, view.stamp) == view) << view.stamp;
 }
 
-TEST_F(LoopMetricNodelet, momentsThatAreNotKnownAreNamed) {
+TEST_F(LoopMetricNodelet, MomentsThatAreNotKnownAreNamed) {
   robot().recognise(0, 5);  // no odometry yet: it waits for the patience by the clock
   ASSERT_TRUE(robot().judged(1));
   expectRejected(robot().closures[0], "unknown_moment");
@@ -169,14 +169,14 @@ TEST_F(LoopMetricNodelet, momentsThatAreNotKnownAreNamed) {
   EXPECT_EQ(robot().closures[2].a.session, "0123456789abcdef0123");
 }
 
-TEST_F(LoopMetricNodelet, withoutImagesThereIsNothingToGoBy) {
+TEST_F(LoopMetricNodelet, WithoutImagesThereIsNothingToGoBy) {
   robot().drive(0, lap + 8, false);
   robot().recognise(2, lap + 2);
   ASSERT_TRUE(robot().judged(1));
   expectRejected(robot().closures[0], "nothing_kept");
 }
 
-TEST_F(LoopMetricNodelet, afterAGapInOdometryViewsAloneDecide) {
+TEST_F(LoopMetricNodelet, AfterAGapInOdometryViewsAloneDecide) {
   robot().drive(0, lap + 7, true, 12);
   robot().recognise(3, lap + 3);
   ASSERT_TRUE(robot().judged(1));
@@ -188,7 +188,7 @@ TEST_F(LoopMetricNodelet, afterAGapInOdometryViewsAloneDecide) {
   for (const auto& each : parseEvidence(robot().closures[0].evidence).tries) EXPECT_EQ(each.keyframe_a.session, "");
 }
 
-TEST_F(LoopMetricNodelet, aResetJudgesWhatWaits) {
+TEST_F(LoopMetricNodelet, AResetJudgesWhatWaits) {
   robot().drive(0, 4);
   robot().recognise(0, 3);
   ASSERT_TRUE(robot().call("reset"));
@@ -196,7 +196,7 @@ TEST_F(LoopMetricNodelet, aResetJudgesWhatWaits) {
   EXPECT_EQ(robot().closures[0].b.stamp, urban_nav_ros::toRosTime(robot().toStamp(3)));
 }
 
-TEST_F(LoopMetricNodelet, aPauseDropsCandidatesAndCountsThem) {
+TEST_F(LoopMetricNodelet, APauseDropsCandidatesAndCountsThem) {
   robot().drive(0, 4);
   ASSERT_TRUE(robot().call("pause"));
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "None"; }));
@@ -207,7 +207,7 @@ TEST_F(LoopMetricNodelet, aPauseDropsCandidatesAndCountsThem) {
   EXPECT_TRUE(robot().closures.empty());
 }
 
-TEST_F(LoopMetricNodelet, lasersThatDoNotComeAreNamed) {
+TEST_F(LoopMetricNodelet, LasersThatDoNotComeAreNamed) {
   robot().drive(0, 4);
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "NoLasers"; }));
   const auto& status = robot().statuses.back();
@@ -216,7 +216,7 @@ TEST_F(LoopMetricNodelet, lasersThatDoNotComeAreNamed) {
   EXPECT_NE(status.text.find("/laser_left/scan has not come"), std::string::npos) << status.text;
 }
 
-TEST_F(LoopMetricNodelet, aFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
+TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
   {
     const FullDisk disk(findProcess("/loop_metric"));
     robot().drive(0, lap + 7);
@@ -239,7 +239,7 @@ TEST_F(LoopMetricNodelet, aFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
   expectTrue(robot().closures[1], 3, lap + 3);
 }
 
-TEST_F(LoopMetricNodelet, anEarlierSessionOfTheStoreIsKnownAgain) {
+TEST_F(LoopMetricNodelet, AnEarlierSessionOfTheStoreIsKnownAgain) {
   robot().drive(0, lap / 3);
   const std::string earlier = toId(robot().toStamp(0));
   const StampNs there = robot().toStamp(5);

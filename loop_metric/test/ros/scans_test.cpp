@@ -18,7 +18,7 @@ Eigen::Matrix<double, 6, 6, Eigen::RowMajor> toInformation(const MetricClosure& 
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(closure.information.data());
 }
 
-TEST(LoopMetricNodeletScans, whereNoViewsAreCloudsOfOppositeDirectionsAreAligned) {
+TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned) {
   Scanning robot;
   ASSERT_TRUE(robot.scanning());
   ASSERT_TRUE(robot.call("reset"));

@@ -80,13 +80,13 @@ void expectWhatTheWholeGraphGives(const Problem<D>& problem, Start start) {
   expectSamePlaces<D>(condensed->poses, whole.poses, 1e-4);
 }
 
-TEST(Condensed, isTheWholeGraphsOptimum) {
+TEST(Condensed, IsTheWholeGraphsOptimum) {
   expectWhatTheWholeGraphGives<3>(problemFrom(condensedDrive()), Start::Auto);
   expectWhatTheWholeGraphGives<3>(problemFrom(condensedDrive()), Start::Vertices);
   expectWhatTheWholeGraphGives<2>(flattened(problemFrom(condensedDrive())), Start::Auto);
 }
 
-TEST(Condensed, takesEdgesThatRunBackwards) {
+TEST(Condensed, TakesEdgesThatRunBackwards) {
   Problem<3> problem = problemFrom(condensedDrive());
   const Problem<3> forwards = problem;
   for (std::size_t e = 0; e < problem.edges.size(); e += 3) {
@@ -100,7 +100,7 @@ TEST(Condensed, takesEdgesThatRunBackwards) {
   expectWhatTheWholeGraphGives<3>(problem, Start::Auto);
 }
 
-TEST(Condensed, hasNoErrorWithoutNoise) {
+TEST(Condensed, HasNoErrorWithoutNoise) {
   urban_nav_core::testing::GraphNoise none = urban_nav_core::testing::streetNoise();
   none.drawn = 0.0;
   const SimulatedGraph graph = urban_nav_core::testing::streetGraph(12000, 40, none, 5);
@@ -112,7 +112,7 @@ TEST(Condensed, hasNoErrorWithoutNoise) {
     ASSERT_LT((solution->poses[i].t - graph.truth[i].t()).norm(), 1e-6) << i;
 }
 
-TEST(Condensed, comesBackFromABendOfTheStart) {
+TEST(Condensed, ComesBackFromABendOfTheStart) {
   Problem<3> problem = problemFrom(condensedDrive());
   const auto straight = solveCondensed(problem, {}, {});
   // The odometry turns 60 deg too far in the middle: the first guess is far off.
@@ -128,7 +128,7 @@ TEST(Condensed, comesBackFromABendOfTheStart) {
   EXPECT_NEAR(bent->cost, straight->cost, 1e-5 * straight->cost);
 }
 
-TEST(Chains, holdEveryPoseAndEdgeOnce) {
+TEST(Chains, HoldEveryPoseAndEdgeOnce) {
   const Problem<3> problem = problemFrom(condensedDrive());
   std::vector<char> invertible(problem.edges.size(), 1);
   invertible[5000] = 0;
@@ -167,7 +167,7 @@ Problem<2> shape(int poses, const std::vector<std::pair<int, int>>& pairs) {
   return problem;
 }
 
-TEST(Chains, knowTreesAndRings) {
+TEST(Chains, KnowTreesAndRings) {
   const auto find = [](const Problem<2>& problem) {
     return findChains(problem, std::vector<char>(problem.edges.size(), 1));
   };
@@ -184,7 +184,7 @@ TEST(Chains, knowTreesAndRings) {
   EXPECT_EQ(lone.core.size(), 2u);
 }
 
-TEST(Condensed, solvesTreesRingsAndTwins) {
+TEST(Condensed, SolvesTreesRingsAndTwins) {
   for (const auto& pairs : std::vector<std::vector<std::pair<int, int>>>{
            {{0, 1}, {1, 2}, {1, 3}, {4, 3}}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}}, {{0, 1}, {2, 3}}}) {
     Problem<2> problem = shape(5, pairs);

@@ -29,7 +29,7 @@ GpsDrive realisticDrive(unsigned seed, double reflected = 0.0) {
   return drive;
 }
 
-TEST(UseFixes, moveNothingWhereOdometryAndFixesAgree) {
+TEST(UseFixes, MoveNothingWhereOdometryAndFixesAgree) {
   GpsDrive drive;
   makeDrive(1, 900.0, drive);
   const PoseGraph graph = relaxDrive(drive, true);
@@ -40,7 +40,7 @@ TEST(UseFixes, moveNothingWhereOdometryAndFixesAgree) {
   EXPECT_EQ(graph.fixUse().sigma_factor, 1.0);
 }
 
-TEST(UseFixes, boundTheDriftOfALongWay) {
+TEST(UseFixes, BoundTheDriftOfALongWay) {
   double without = 0.0, with = 0.0;
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const GpsDrive drive = realisticDrive(seed);
@@ -51,7 +51,7 @@ TEST(UseFixes, boundTheDriftOfALongWay) {
   EXPECT_LT(with / 2.0, 3.0);
 }
 
-TEST(UseFixes, areOffByDefault) {
+TEST(UseFixes, AreOffByDefault) {
   const GpsDrive drive = realisticDrive(1);
   PoseGraph graph{Parameters()};
   graph.beginSession("a");
@@ -63,7 +63,7 @@ TEST(UseFixes, areOffByDefault) {
   for (std::size_t i = 0; i < before.size(); ++i) ASSERT_EQ(graph.tracks()[0].map[i].t(), before[i].t()) << i;
 }
 
-TEST(UseFixes, leaveOutReflections) {
+TEST(UseFixes, LeaveOutReflections) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const GpsDrive clean = realisticDrive(seed), reflected = realisticDrive(seed, 40.0);
     const PoseGraph graph = relaxDrive(reflected, true);
@@ -74,7 +74,7 @@ TEST(UseFixes, leaveOutReflections) {
   }
 }
 
-TEST(UseFixes, ofAReceiverThatPromisesTooMuchAreNoWorseThanOdometry) {
+TEST(UseFixes, OfAReceiverThatPromisesTooMuchAreNoWorseThanOdometry) {
   GpsDrive drive;  // an odometry that drifts by some decimetres, fixes that are off by metres and say they are not
   drive.turn_drift = 1e-4;
   drive.slow = 5.0;
@@ -86,7 +86,7 @@ TEST(UseFixes, ofAReceiverThatPromisesTooMuchAreNoWorseThanOdometry) {
   EXPECT_LT(positionError(drive, graph.tracks()[0]), 3.0);
 }
 
-TEST(UseFixes, countWhatHasNoPlaceOrNoMeaning) {
+TEST(UseFixes, CountWhatHasNoPlaceOrNoMeaning) {
   GpsDrive drive;
   makeDrive(6, 120.0, drive);
   const std::size_t sound = drive.fixes.size();
@@ -106,7 +106,7 @@ TEST(UseFixes, countWhatHasNoPlaceOrNoMeaning) {
   for (const Pose& pose : graph.tracks()[0].map) ASSERT_TRUE(pose.t().allFinite());
 }
 
-TEST(UseFixes, aClosureOfCentimetresOutweighsFixesOfMetres) {
+TEST(UseFixes, AClosureOfCentimetresOutweighsFixesOfMetres) {
   GpsDrive drive = realisticDrive(7);
   Parameters parameters;
   parameters.gps = true;
@@ -130,7 +130,7 @@ TEST(UseFixes, aClosureOfCentimetresOutweighsFixesOfMetres) {
   EXPECT_LT(positionError(drive, track), 3.0);
 }
 
-TEST(UseFixes, leaveWhatComesAfterThemWhereTheyHaveIt) {
+TEST(UseFixes, LeaveWhatComesAfterThemWhereTheyHaveIt) {
   const GpsDrive drive = realisticDrive(8);
   PoseGraph graph = relaxDrive(drive, true);
   const std::vector<Pose> relaxed = graph.tracks()[0].map;

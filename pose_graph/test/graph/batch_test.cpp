@@ -24,7 +24,7 @@ void expectBatch(PoseGraph& live, PoseGraph& fresh) {
   testing::expectSameMap(live, fresh);
 }
 
-TEST(Batch, takenAtOnceIsRelax) {
+TEST(Batch, TakenAtOnceIsRelax) {
   PoseGraph in_steps = driven(3), at_once = driven(3);
   Batch batch = in_steps.batch();
   run(batch);
@@ -33,7 +33,7 @@ TEST(Batch, takenAtOnceIsRelax) {
   testing::expectSameMap(in_steps, at_once);
 }
 
-TEST(Batch, whatCameMeanwhileFollows) {
+TEST(Batch, WhatCameMeanwhileFollows) {
   PoseGraph live = driven(2);
   Batch batch = live.batch();
   std::thread elsewhere([&] { run(batch); });
@@ -54,7 +54,7 @@ TEST(Batch, whatCameMeanwhileFollows) {
   expectBatch(live, whole);
 }
 
-TEST(Batch, posesAreTheBatchSToTheLastDigitAndNewOnesTheirOdometry) {
+TEST(Batch, PosesAreTheBatchSToTheLastDigitAndNewOnesTheirOdometry) {
   PoseGraph live = driven(2), still = driven(2);
   Batch batch = live.batch();
   drive(live, "a", 2 * kLap, 2 * kLap + 20);
@@ -67,7 +67,7 @@ TEST(Batch, posesAreTheBatchSToTheLastDigitAndNewOnesTheirOdometry) {
     EXPECT_TRUE(isApprox(more.map[i - 1].inverse() * more.map[i], more.odom[i - 1].inverse() * more.odom[i], 1e-9));
 }
 
-TEST(Batch, aSessionThatBeganAndJoinedMeanwhileStaysInTheMap) {
+TEST(Batch, ASessionThatBeganAndJoinedMeanwhileStaysInTheMap) {
   PoseGraph live = driven(2);
   live.relax();
   Batch batch = live.batch();
@@ -82,7 +82,7 @@ TEST(Batch, aSessionThatBeganAndJoinedMeanwhileStaysInTheMap) {
   EXPECT_TRUE(isApprox(live.tracks()[1].map.back(), before, 1e-2));
 }
 
-TEST(Batch, aClosureThatIsGoneOrMeasuredAnewIsNotWhatTheBatchSaid) {
+TEST(Batch, AClosureThatIsGoneOrMeasuredAnewIsNotWhatTheBatchSaid) {
   PoseGraph live = driven(2);
   Batch batch = live.batch();
   ASSERT_TRUE(live.removeClosure(1));
@@ -98,7 +98,7 @@ TEST(Batch, aClosureThatIsGoneOrMeasuredAnewIsNotWhatTheBatchSaid) {
   EXPECT_EQ(live.closures().at(id).reason, "agrees with what is accepted");
 }
 
-TEST(Batch, ofNothingIsNothing) {
+TEST(Batch, OfNothingIsNothing) {
   PoseGraph graph{Parameters()};
   Batch batch = graph.batch();
   run(batch);

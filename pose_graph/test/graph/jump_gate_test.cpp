@@ -44,7 +44,7 @@ bool isAccepted(const PoseGraph& graph, ClosureId id) {
   return graph.closures().at(id).verdict == ClosureVerdict::Accepted && graph.closures().at(id).weight > 0.0;
 }
 
-TEST(JumpGate, aSecondOneThatAgreesEndsTheWaitAtOnce) {
+TEST(JumpGate, ASecondOneThatAgreesEndsTheWaitAtOnce) {
   PoseGraph live = driven(), batch = driven();
   const Pose before = live.tracks()[0].map.back();
   const ClosureId first = live.addClosure(large(20));
@@ -65,7 +65,7 @@ TEST(JumpGate, aSecondOneThatAgreesEndsTheWaitAtOnce) {
     EXPECT_TRUE(isApprox(live.tracks()[0].map[i], batch.tracks()[0].map[i], 1e-2)) << i;
 }
 
-TEST(JumpGate, oneThatDisagreesIsNoWitness) {
+TEST(JumpGate, OneThatDisagreesIsNoWitness) {
   PoseGraph live = driven();
   const ClosureId false_one = live.addClosure(wrong(30, 0.0, 2.0));
   live.update();
@@ -80,7 +80,7 @@ TEST(JumpGate, oneThatDisagreesIsNoWitness) {
   EXPECT_FALSE(isAccepted(live, false_one));
 }
 
-TEST(JumpGate, oneThatMayActAloneIsAWitness) {
+TEST(JumpGate, OneThatMayActAloneIsAWitness) {
   PoseGraph live = driven();
   const ClosureId first = live.addClosure(large(20));
   live.update();
@@ -90,7 +90,7 @@ TEST(JumpGate, oneThatMayActAloneIsAWitness) {
   EXPECT_TRUE(isAccepted(live, first));
 }
 
-TEST(JumpGate, moreThanAreTriedAreForTheBatch) {
+TEST(JumpGate, MoreThanAreTriedAreForTheBatch) {
   PoseGraph live = driven();
   int a = 10;
   for (const auto& [ahead, sideways] :

@@ -44,7 +44,7 @@ double computeTilt(const PoseGraph& graph, std::size_t track = 0) {
   return std::acos(std::min(1.0, up.z()));
 }
 
-TEST(Levelling, turnsTheMapAboutItsFirstPoseOnceItIsKnown) {
+TEST(Levelling, TurnsTheMapAboutItsFirstPoseOnceItIsKnown) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 20);
   graph.putForces("a", forcesAlong(graph.tracks()[0]));
@@ -68,7 +68,7 @@ TEST(Levelling, turnsTheMapAboutItsFirstPoseOnceItIsKnown) {
   EXPECT_FALSE(graph.level()) << "once";
 }
 
-TEST(Levelling, theBatchLevelsByAllForces) {
+TEST(Levelling, TheBatchLevelsByAllForces) {
   PoseGraph graph{Parameters()}, plain{Parameters()};
   for (PoseGraph* each : {&graph, &plain}) {
     drive(*each, "a", 0, 2 * kLap);
@@ -91,7 +91,7 @@ TEST(Levelling, theBatchLevelsByAllForces) {
   }
 }
 
-TEST(Levelling, closuresComeIntoTheLevelMap) {
+TEST(Levelling, ClosuresComeIntoTheLevelMap) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 2 * kLap);
   graph.putForces("a", forcesAlong(graph.tracks()[0]));
@@ -107,7 +107,7 @@ TEST(Levelling, closuresComeIntoTheLevelMap) {
   EXPECT_TRUE(isApprox(graph.tracks()[0].map.back(), live, 2e-2));
 }
 
-TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
+TEST(Levelling, OneSessionLevelsTheMapOfAllThatAreInIt) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 2 * kLap);
   drive(graph, "b", 0, 2 * kLap);
@@ -122,7 +122,7 @@ TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
   EXPECT_EQ(findMap(graph.tracks(), 1), 0u);
 }
 
-TEST(Levelling, theGroundLevelsAMapOfWhichNoSessionHasForces) {
+TEST(Levelling, TheGroundLevelsAMapOfWhichNoSessionHasForces) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 2 * kLap);
   std::vector<GroundNormal> ground;
@@ -142,7 +142,7 @@ TEST(Levelling, theGroundLevelsAMapOfWhichNoSessionHasForces) {
   EXPECT_THROW(graph.putGround("b", ground), urban_nav_core::UserError);
 }
 
-TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
+TEST(Levelling, LaterForcesTakeThePlaceOfWhatWasKnownThere) {
   PoseGraph graph{Parameters()}, whole{Parameters()};
   for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);
   const std::vector<SpecificForce> all = forcesAlong(whole.tracks()[0]);
@@ -195,7 +195,7 @@ struct Leaning {
   }
 };
 
-TEST(Levelling, takesTheDriftOfRollAndPitchOutOfOdometry) {
+TEST(Levelling, TakesTheDriftOfRollAndPitchOutOfOdometry) {
   const Leaning drive;
   Parameters without;
   without.gravity = false;
@@ -209,7 +209,7 @@ TEST(Levelling, takesTheDriftOfRollAndPitchOutOfOdometry) {
   EXPECT_TRUE(isApprox(graph.tracks()[0].odom.back(), plain.tracks()[0].odom.back(), 0.0)) << "odometry is what it was";
 }
 
-TEST(Levelling, aBatchLeavesNoTraceInTheNextOne) {
+TEST(Levelling, ABatchLeavesNoTraceInTheNextOne) {
   const Leaning drive;
   PoseGraph graph{Parameters()}, once{Parameters()};
   for (PoseGraph* each : {&graph, &once}) {
@@ -220,7 +220,7 @@ TEST(Levelling, aBatchLeavesNoTraceInTheNextOne) {
   testing::expectSameMap(graph, once);
 }
 
-TEST(Levelling, anUpdateGoesOnFromTheLevelledSteps) {
+TEST(Levelling, AnUpdateGoesOnFromTheLevelledSteps) {
   const Leaning drive;
   PoseGraph graph{Parameters()};
   drive.into(graph);

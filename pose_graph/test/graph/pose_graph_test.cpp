@@ -69,7 +69,7 @@ double worstError(const Track& track, int first) {
   return worst;
 }
 
-TEST(PoseGraph, closesALoop) {
+TEST(PoseGraph, ClosesALoop) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 5e-4);
   const double before = worstError(graph.tracks()[0], 0);
@@ -88,7 +88,7 @@ TEST(PoseGraph, closesALoop) {
   EXPECT_TRUE(isApprox(graph.mapFromOdom("a") * graph.tracks()[0].odom.back(), graph.tracks()[0].map.back(), 1e-9));
 }
 
-TEST(PoseGraph, saysWhyTheRobotJumped) {
+TEST(PoseGraph, SaysWhyTheRobotJumped) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 5e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 20, "a", 20 + kRound));
@@ -117,7 +117,7 @@ TEST(PoseGraph, saysWhyTheRobotJumped) {
   EXPECT_FALSE(graph.relax().jump);
 }
 
-TEST(PoseGraph, relaxesThePapersWayAndByCeresToo) {
+TEST(PoseGraph, RelaxesThePapersWayAndByCeresToo) {
   const auto relaxedBy = [](const std::string& solver) {
     Parameters parameters;
     parameters.solver = solver;
@@ -131,7 +131,7 @@ TEST(PoseGraph, relaxesThePapersWayAndByCeresToo) {
   EXPECT_NEAR(relaxedBy("ceres"), cost, 1e-4 * cost);
 }
 
-TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
+TEST(PoseGraph, LeavesNoTraceOfEarlierRelaxations) {
   PoseGraph once{Parameters()}, often{Parameters()};
   for (PoseGraph* graph : {&once, &often}) driveRounds(*graph, "a", 0, 2 * kRound, 2e-4);
   for (int i = 20; i < kRound; i += 40) {
@@ -146,7 +146,7 @@ TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
   }
 }
 
-TEST(PoseGraph, takesAddedClosuresAsTheBatchDoes) {
+TEST(PoseGraph, TakesAddedClosuresAsTheBatchDoes) {
   PoseGraph live{Parameters()}, batch{Parameters()};
   for (PoseGraph* graph : {&live, &batch}) driveRounds(*graph, "a", 0, 2 * kRound, 2e-4);
   for (int i = 20; i < kRound; i += 40) {
@@ -171,7 +171,7 @@ TEST(PoseGraph, takesAddedClosuresAsTheBatchDoes) {
   EXPECT_TRUE(isApprox(live.tracks()[0].map.back(), before, 1e-2));
 }
 
-TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
+TEST(PoseGraph, WaitsForASecondWitnessOfALargeCorrection) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 3e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 100, "a", 100 + kRound));
@@ -191,7 +191,7 @@ TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
   EXPECT_EQ(trusting.relax().accepted, 1u);
 }
 
-TEST(PoseGraph, fusesSessionsByTwoClosures) {
+TEST(PoseGraph, FusesSessionsByTwoClosures) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "monday", 0, kRound, 0.0);
   driveRounds(graph, "tuesday", 100, 300, 0.0);  // begins elsewhere, in an odom of its own
@@ -206,7 +206,7 @@ TEST(PoseGraph, fusesSessionsByTwoClosures) {
   EXPECT_EQ(graph.tracks()[1].part.back(), 0);
 }
 
-TEST(PoseGraph, saysWhatIsWrongWithAClosure) {
+TEST(PoseGraph, SaysWhatIsWrongWithAClosure) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 100, 0.0);
   const auto message = [&](Closure closure) {
@@ -232,7 +232,7 @@ TEST(PoseGraph, saysWhatIsWrongWithAClosure) {
   EXPECT_TRUE(graph.closures().empty());
 }
 
-TEST(PoseGraph, replacesAndRemovesClosures) {
+TEST(PoseGraph, ReplacesAndRemovesClosures) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 100, 0.0);
   const ClosureId id = graph.addClosure(closureBetween("a", 10, "a", 60));
@@ -242,7 +242,7 @@ TEST(PoseGraph, replacesAndRemovesClosures) {
   EXPECT_FALSE(graph.removeClosure(id));
 }
 
-TEST(PoseGraph, takesBadOdometryForWhatItIs) {
+TEST(PoseGraph, TakesBadOdometryForWhatItIs) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 50, 0.0);
   RelativePose step = stepAt(50, 0.0);
@@ -255,7 +255,7 @@ TEST(PoseGraph, takesBadOdometryForWhatItIs) {
   for (const Pose& pose : graph.tracks()[0].map) EXPECT_TRUE(pose.isFinite());
 }
 
-TEST(ClosureInformation, addsTheNoiseOfTheEndsAndLeavesFreeWhatIsFree) {
+TEST(ClosureInformation, AddsTheNoiseOfTheEndsAndLeavesFreeWhatIsFree) {
   urban_nav_core::Constraint measured;
   measured.T_a_b = Pose(expSo3(Vector3d(0.1, -0.2, 0.9)), Vector3d(3.0, -1.0, 0.5));
   Vector6d weight;

@@ -48,7 +48,7 @@ double tiltBetween(const Rigid<3>& a, const Rigid<3>& b, const Vector3d& up) {
   return (a.R.transpose() * up - b.R.transpose() * up).norm();
 }
 
-TEST(LevelOdometry, turnsStepsAndLaysPosesAlongThem) {
+TEST(LevelOdometry, TurnsStepsAndLaysPosesAlongThem) {
   Dice dice(1);
   Drive drive;
   drive.frames = 4000;
@@ -75,7 +75,7 @@ TEST(LevelOdometry, turnsStepsAndLaysPosesAlongThem) {
   EXPECT_LT(lost_after, 0.3 * lost_before);
 }
 
-TEST(LevelOdometry, takesTracksAndTheirPiecesEachForItself) {
+TEST(LevelOdometry, TakesTracksAndTheirPiecesEachForItself) {
   Dice dice(2);
   Drive drive;
   drive.frames = 1500;

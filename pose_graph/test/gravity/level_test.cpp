@@ -24,7 +24,7 @@ using urban_nav_core::testing::Dice;
 
 double degreesBetween(const Vector3d& a, const Vector3d& b) { return std::asin(a.cross(b).norm()) * 180.0 / M_PI; }
 
-TEST(Level, isExactWhereNothingIsWrong) {
+TEST(Level, IsExactWhereNothingIsWrong) {
   Dice dice(1);
   const Drive drive;
   const Level level = drive.level(dice);
@@ -33,7 +33,7 @@ TEST(Level, isExactWhereNothingIsWrong) {
   EXPECT_NEAR(level.gravity, kGravity, 1e-3);
 }
 
-TEST(Level, mapIsLevelWithTheHeadingOfTheFirstPose) {
+TEST(Level, MapIsLevelWithTheHeadingOfTheFirstPose) {
   Dice dice(1);
   const Drive drive;
   const Level level = drive.level(dice);
@@ -45,7 +45,7 @@ TEST(Level, mapIsLevelWithTheHeadingOfTheFirstPose) {
   EXPECT_GT(ahead.x(), 0.9);
 }
 
-TEST(Level, tellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
+TEST(Level, TellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
   Dice dice(1);
   Drive drive;
   drive.fault = {0.1, -0.15, 0.05};
@@ -62,7 +62,7 @@ TEST(Level, tellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
   EXPECT_LT(error, 3.0 * level.sigma * 180.0 / M_PI) << "and it says so";
 }
 
-TEST(Level, doesNotDependOnTheFrameOfTheTrajectory) {
+TEST(Level, DoesNotDependOnTheFrameOfTheTrajectory) {
   Dice dice(1);
   const Drive drive;
   const std::vector<SpecificForce> forces = drive.forces(dice);
@@ -75,7 +75,7 @@ TEST(Level, doesNotDependOnTheFrameOfTheTrajectory) {
   EXPECT_LT((later.R().transpose() * level.up - from_later.up).norm(), 1e-9);
 }
 
-TEST(Level, standsShocksAndRubbish) {
+TEST(Level, StandsShocksAndRubbish) {
   Dice dice(3);
   Drive drive;
   drive.noise = 0.05;
@@ -92,7 +92,7 @@ TEST(Level, standsShocksAndRubbish) {
   EXPECT_TRUE(level.covariance.allFinite());
 }
 
-TEST(Level, itsCovarianceIsRight) {
+TEST(Level, ItsCovarianceIsRight) {
   Dice dice(7);
   double sum = 0.0;
   constexpr int kDrives = 100;
@@ -115,7 +115,7 @@ TEST(Level, itsCovarianceIsRight) {
   EXPECT_TRUE(urban_nav_core::testing::meanChiSquareFits(sum / kDrives, 2, 30));
 }
 
-TEST(Level, rotationsThatAreNotExactAddToItsCovariance) {
+TEST(Level, RotationsThatAreNotExactAddToItsCovariance) {
   Dice dice(1);
   const Level level = Drive().level(dice);
   const Level same = withRotations(level, Matrix3d::Zero());
@@ -134,7 +134,7 @@ TEST(Level, rotationsThatAreNotExactAddToItsCovariance) {
   EXPECT_FALSE(withRotations(Level(), covariance).known());
 }
 
-TEST(Level, saysWhyItIsNotKnown) {
+TEST(Level, SaysWhyItIsNotKnown) {
   Dice dice(1);
   Drive drive;
   EXPECT_EQ(estimateLevel(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);

@@ -16,7 +16,7 @@ using urban_nav_core::Trajectory;
 
 constexpr StampNs kMs = 1'000'000;
 
-TEST(ForcesAt, areMeansOfForcesAroundEachStamp) {
+TEST(ForcesAt, AreMeansOfForcesAroundEachStamp) {
   std::vector<SpecificForce> samples;
   for (StampNs t = 0; t < 400; t += 10) samples.push_back({t * kMs, {static_cast<double>(t), 0.0, 1.0}});
   const std::vector<StampNs> stamps = {100 * kMs, 150 * kMs, 200 * kMs, 2000 * kMs};
@@ -34,7 +34,7 @@ TEST(ForcesAt, areMeansOfForcesAroundEachStamp) {
   EXPECT_TRUE(forcesAt(stamps, {}).empty());
 }
 
-TEST(Spans, takeTheAccelerationOfTheTrajectoryAway) {
+TEST(Spans, TakeTheAccelerationOfTheTrajectoryAway) {
   Trajectory trajectory;
   std::vector<SpecificForce> forces;
   for (int i = 0; i <= 100; ++i) {

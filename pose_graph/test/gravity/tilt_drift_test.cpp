@@ -77,7 +77,7 @@ Drive noisyDrive(double noise) {
   return drive;
 }
 
-TEST(TiltDrift, isFoundToWhatForcesCanTell) {
+TEST(TiltDrift, IsFoundToWhatForcesCanTell) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Dice dice(seed);
@@ -93,7 +93,7 @@ TEST(TiltDrift, isFoundToWhatForcesCanTell) {
       << "the forces of a span are good to 0.3, the fault among them is not known";
 }
 
-TEST(TiltDrift, doesNotBelieveOdometryThatPromisesTooMuch) {
+TEST(TiltDrift, DoesNotBelieveOdometryThatPromisesTooMuch) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Dice dice(seed);
     const Drive drive = noisyDrive(0.02);
@@ -106,7 +106,7 @@ TEST(TiltDrift, doesNotBelieveOdometryThatPromisesTooMuch) {
   }
 }
 
-TEST(TiltDrift, leavesGoodOdometryAlone) {
+TEST(TiltDrift, LeavesGoodOdometryAlone) {
   Dice dice(1);
   const Drive drive = noisyDrive(0.3);
   const Odometry odometry = drifting(drive, 2e-5, dice);
@@ -114,7 +114,7 @@ TEST(TiltDrift, leavesGoodOdometryAlone) {
   EXPECT_LT(lost.after, 0.8 * kMilli) << "a force of a span is good to 3 mrad at best";
 }
 
-TEST(TiltDrift, findsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
+TEST(TiltDrift, FindsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
   Dice dice(2);
   const Drive drive = noisyDrive(0.005);
   const Odometry odometry = drifting(drive, 3e-4, dice);
@@ -132,7 +132,7 @@ TEST(TiltDrift, findsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
   EXPECT_LT(lost(far), 1.2 * lost(near));
 }
 
-TEST(TiltDrift, standsAFaultThatWanders) {
+TEST(TiltDrift, StandsAFaultThatWanders) {
   Dice dice(4);
   const Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
@@ -144,7 +144,7 @@ TEST(TiltDrift, standsAFaultThatWanders) {
   EXPECT_LT(lost.after, 1.2 * kMilli) << "of which the fault alone would be 2";
 }
 
-TEST(TiltDrift, standsShocks) {
+TEST(TiltDrift, StandsShocks) {
   Dice dice(3);
   const Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
@@ -155,7 +155,7 @@ TEST(TiltDrift, standsShocks) {
   EXPECT_LT(lost.after, 1.0 * kMilli);
 }
 
-TEST(TiltDrift, saysNothingWhereNothingIsKnown) {
+TEST(TiltDrift, SaysNothingWhereNothingIsKnown) {
   Dice dice(1);
   Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
@@ -167,7 +167,7 @@ TEST(TiltDrift, saysNothingWhereNothingIsKnown) {
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, forces).empty()) << "in other units";
 }
 
-TEST(TiltAt, isStraightBetweenAndSteadyAfter) {
+TEST(TiltAt, IsStraightBetweenAndSteadyAfter) {
   const std::vector<Tilt> tilts = {{10, Vector3d(1, 0, 0)}, {20, Vector3d(3, 0, 0)}};
   EXPECT_EQ(tiltAt(tilts, 0, 0).x(), 0.0);
   EXPECT_EQ(tiltAt(tilts, 0, 5).x(), 0.5);

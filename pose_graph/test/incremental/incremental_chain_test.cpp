@@ -50,7 +50,7 @@ double leastCost(const std::vector<ChainStep>& steps, const Rigid<3>& end) {
   return solve(problem, options, std::vector<double>(problem.edges.size(), 1.0 + 1e-15)).cost;
 }
 
-TEST(IncrementalChain, isOneEdgeThatCostsWhatItsLinksDo) {
+TEST(IncrementalChain, IsOneEdgeThatCostsWhatItsLinksDo) {
   const std::vector<ChainStep> steps = arc(40);
   IncrementalChain chain(steps.data(), laidBy(steps));
   EXPECT_NEAR(chain.bend(laidBy(steps).back()), 0.0, 1e-12);
@@ -67,7 +67,7 @@ TEST(IncrementalChain, isOneEdgeThatCostsWhatItsLinksDo) {
   EXPECT_NEAR(cost(one, one.poses, Objective::Geodesic), expected, 1e-4 * expected);
 }
 
-TEST(IncrementalChain, splitsWhereItLies) {
+TEST(IncrementalChain, SplitsWhereItLies) {
   const std::vector<ChainStep> steps = arc(20);
   IncrementalChain chain(steps.data(), laidBy(steps));
   const Rigid<3> wanted = moved<3>(laidBy(steps).back(), Tangent<3>::Constant(0.02));

@@ -121,7 +121,7 @@ void expectRelaxed(const Tracks& tracks, const std::vector<ClosureEdge>& closure
   EXPECT_LT(farthest, 0.01);
 }
 
-TEST(IncrementalSolver, isTheBatchAfterEachClosure) {
+TEST(IncrementalSolver, IsTheBatchAfterEachClosure) {
   Tracks tracks;
   std::vector<ClosureEdge> closure_edges;
   std::size_t next = 0;
@@ -143,7 +143,7 @@ TEST(IncrementalSolver, isTheBatchAfterEachClosure) {
   EXPECT_NEAR(IncrementalSolver(tracks, closure_edges, 100).cost(), core->cost(), 0.01);
 }
 
-TEST(IncrementalSolver, takesBackWhatIsNotKept) {
+TEST(IncrementalSolver, TakesBackWhatIsNotKept) {
   Tracks tracks, untouched;
   for (const ChainStep& step : liveDrive().steps)
     for (Tracks* each : {&tracks, &untouched}) each->add(0, step);
@@ -172,7 +172,7 @@ TEST(IncrementalSolver, takesBackWhatIsNotKept) {
     EXPECT_EQ(tracks.pose({0, i}).t, untouched.pose({0, i}).t) << i;
 }
 
-TEST(IncrementalSolver, takesSeveralOnTrialBackOneByOne) {
+TEST(IncrementalSolver, TakesSeveralOnTrialBackOneByOne) {
   Tracks tracks;
   for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
   const std::vector<ClosureEdge> half(liveDrive().closure_edges.begin(), liveDrive().closure_edges.begin() + 15);
@@ -200,7 +200,7 @@ TEST(IncrementalSolver, takesSeveralOnTrialBackOneByOne) {
   }
 }
 
-TEST(IncrementalSolver, saysWhereAPoseIsBeforeItIsWritten) {
+TEST(IncrementalSolver, SaysWhereAPoseIsBeforeItIsWritten) {
   Tracks tracks;
   for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
   IncrementalSolver core(tracks, liveDrive().closure_edges, 100);
@@ -210,7 +210,7 @@ TEST(IncrementalSolver, saysWhereAPoseIsBeforeItIsWritten) {
   for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
 }
 
-TEST(IncrementalSolver, takesStepsForAsUncertainAsStated) {
+TEST(IncrementalSolver, TakesStepsForAsUncertainAsStated) {
   Tracks tracks, wider;
   for (ChainStep step : liveDrive().steps) {
     tracks.add(0, step);
@@ -224,7 +224,7 @@ TEST(IncrementalSolver, takesStepsForAsUncertainAsStated) {
 
 // The second half of the drive as a session of its own, begun where its odometry has its origin: one closure puts it in
 // its place.
-TEST(IncrementalSolver, bringsPartsTogether) {
+TEST(IncrementalSolver, BringsPartsTogether) {
   const std::size_t half = liveDrive().steps.size() / 2;
   Tracks tracks;
   for (std::size_t i = 0; i < liveDrive().steps.size(); ++i)
@@ -248,7 +248,7 @@ TEST(IncrementalSolver, bringsPartsTogether) {
   expectRelaxed(tracks, closure_edges, cost);
 }
 
-TEST(IncrementalSolver, goesRoundGapsAndStepsWithoutInformation) {
+TEST(IncrementalSolver, GoesRoundGapsAndStepsWithoutInformation) {
   Tracks tracks;
   for (std::size_t i = 0; i < liveDrive().steps.size(); ++i) {
     ChainStep step = liveDrive().steps[i];

@@ -22,7 +22,7 @@ void addNormals(int first, int end, GroundNormalBuffer& buffer) {
   for (int i = first; i < end; ++i) buffer.add({i * kFrame, Eigen::Vector3d::UnitZ(), 1e-3});
 }
 
-TEST(GroundNormalBuffer, keepsWhatIsAheadOfThePoses) {
+TEST(GroundNormalBuffer, KeepsWhatIsAheadOfThePoses) {
   GroundNormalBuffer buffer;
   addNormals(0, 10, buffer);
   EXPECT_TRUE(buffer.takeAt(Track()).empty());
@@ -34,7 +34,7 @@ TEST(GroundNormalBuffer, keepsWhatIsAheadOfThePoses) {
   EXPECT_EQ(rest.back().stamp, 9 * kFrame);
 }
 
-TEST(GroundNormalBuffer, takesOneEveryQuarterMetreAndOneOfARobotThatStands) {
+TEST(GroundNormalBuffer, TakesOneEveryQuarterMetreAndOneOfARobotThatStands) {
   GroundNormalBuffer moving, standing;
   addNormals(0, 101, moving);
   addNormals(0, 101, standing);
@@ -42,7 +42,7 @@ TEST(GroundNormalBuffer, takesOneEveryQuarterMetreAndOneOfARobotThatStands) {
   EXPECT_EQ(standing.takeAt(makeTrack(101, 0.0)).size(), 1u);
 }
 
-TEST(GroundNormalBuffer, dropsStampsWithoutAPoseAndThoseThatAreLate) {
+TEST(GroundNormalBuffer, DropsStampsWithoutAPoseAndThoseThatAreLate) {
   GroundNormalBuffer buffer;
   buffer.add({kFrame / 2, Eigen::Vector3d::UnitZ(), 1e-3});
   addNormals(3, 4, buffer);
@@ -52,7 +52,7 @@ TEST(GroundNormalBuffer, dropsStampsWithoutAPoseAndThoseThatAreLate) {
   EXPECT_EQ(taken[0].stamp, 3 * kFrame);
 }
 
-TEST(GroundNormalBuffer, aSessionBeginsWithoutTheStampsOfTheLastOne) {
+TEST(GroundNormalBuffer, ASessionBeginsWithoutTheStampsOfTheLastOne) {
   GroundNormalBuffer buffer;
   addNormals(0, 10, buffer);
   buffer.takeAt(makeTrack(10, 1.0));

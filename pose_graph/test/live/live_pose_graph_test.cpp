@@ -99,7 +99,7 @@ class LivePoseGraphTest : public ::testing::Test {
   const StoreFolder place;
 };
 
-TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
+TEST_F(LivePoseGraphTest, ARecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
   auto whole = begin("monday", "");
   drive(*whole, 0, 2 * kLap);
   for (int i : {10, 60}) whole->add(seenAgain(i, i + kLap));
@@ -119,7 +119,7 @@ TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
   expectSame(cut->trajectory(0, 0, 0), whole->trajectory(0, 0, 0));
 }
 
-TEST_F(LivePoseGraphTest, aSessionResumesAfterItsNewestPose) {
+TEST_F(LivePoseGraphTest, ASessionResumesAfterItsNewestPose) {
   begin()->add(testing::stepAt(0));
   auto graph = begin();
   drive(*graph, 1, 30);
@@ -130,7 +130,7 @@ TEST_F(LivePoseGraphTest, aSessionResumesAfterItsNewestPose) {
   EXPECT_EQ(stored().chains[0].steps.size(), 30u);
 }
 
-TEST_F(LivePoseGraphTest, anotherRecordingIsAnotherSessionThatJoinsTheMapByClosures) {
+TEST_F(LivePoseGraphTest, AnotherRecordingIsAnotherSessionThatJoinsTheMapByClosures) {
   auto first = begin();
   drive(*first, 0, 2 * kLap);
   const SessionId earlier = first->trajectory(0, 0, 0).runs[0].session;
@@ -151,7 +151,7 @@ TEST_F(LivePoseGraphTest, anotherRecordingIsAnotherSessionThatJoinsTheMapByClosu
     EXPECT_EQ(store.sessions().anchor(session.id)->map, earlier) << session.id;
 }
 
-TEST_F(LivePoseGraphTest, aBagThatIsLoopedIsASessionEachTime) {
+TEST_F(LivePoseGraphTest, ABagThatIsLoopedIsASessionEachTime) {
   auto graph = begin();
   for (int round = 0; round < 3; ++round) drive(*graph, 0, 30);
   EXPECT_EQ(graph->trajectory(0, 0, 0).runs.size(), 3u);
@@ -165,7 +165,7 @@ TEST_F(LivePoseGraphTest, aBagThatIsLoopedIsASessionEachTime) {
   EXPECT_EQ(steps, 95u);
 }
 
-TEST_F(LivePoseGraphTest, whatLoopClosureRejectedIsKeptWithItsReason) {
+TEST_F(LivePoseGraphTest, WhatLoopClosureRejectedIsKeptWithItsReason) {
   auto graph = begin();
   urban_nav_core::MetricClosure rejected = seenAgain(3, 8);
   rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
@@ -189,7 +189,7 @@ TEST_F(LivePoseGraphTest, whatLoopClosureRejectedIsKeptWithItsReason) {
   EXPECT_EQ(reasons.rfind("TooFewMatches: 9 of 20", 0), 0u) << reasons;
 }
 
-TEST_F(LivePoseGraphTest, aStoreThatCannotBeUsedIsNamedAndTheGraphGoesOn) {
+TEST_F(LivePoseGraphTest, AStoreThatCannotBeUsedIsNamedAndTheGraphGoesOn) {
   std::ofstream(place.file("damaged.db")) << "SQLite format 3, or so it seems";
   for (const std::string file : {"damaged.db", "no/such/folder/s.db"}) {
     auto graph = begin("monday", file);
@@ -204,7 +204,7 @@ TEST_F(LivePoseGraphTest, aStoreThatCannotBeUsedIsNamedAndTheGraphGoesOn) {
   EXPECT_NE(second->storeState().fault.find("another program"), std::string::npos) << second->storeState().fault;
 }
 
-TEST_F(LivePoseGraphTest, savesWithAndWithoutAStoreAndLoadsIntoAnotherGraph) {
+TEST_F(LivePoseGraphTest, SavesWithAndWithoutAStoreAndLoadsIntoAnotherGraph) {
   for (const std::string file : {"", "s.db"}) {
     auto graph = begin("monday", file);
     drive(*graph, 0, 2 * kLap);
@@ -228,7 +228,7 @@ TEST_F(LivePoseGraphTest, savesWithAndWithoutAStoreAndLoadsIntoAnotherGraph) {
   }
 }
 
-TEST_F(LivePoseGraphTest, takesInWhileABatchIsAtWork) {
+TEST_F(LivePoseGraphTest, TakesInWhileABatchIsAtWork) {
   auto graph = begin("monday", ""), still = begin("monday", "");
   for (LivePoseGraph* each : {graph.get(), still.get()}) {
     drive(*each, 0, 2 * kLap);
@@ -252,7 +252,7 @@ TEST_F(LivePoseGraphTest, takesInWhileABatchIsAtWork) {
   expectSame(graph->trajectory(0, 0, 0), still->trajectory(0, 0, 0));
 }
 
-TEST_F(LivePoseGraphTest, theBatchOfAGraphThatIsNoMoreIsNotTaken) {
+TEST_F(LivePoseGraphTest, TheBatchOfAGraphThatIsNoMoreIsNotTaken) {
   auto graph = begin("monday", "");
   drive(*graph, 0, 2 * kLap);
   graph->add(seenAgain(10, 10 + kLap));
@@ -264,7 +264,7 @@ TEST_F(LivePoseGraphTest, theBatchOfAGraphThatIsNoMoreIsNotTaken) {
   EXPECT_EQ(countPoses(*graph), 6u);
 }
 
-TEST_F(LivePoseGraphTest, aSessionEndsWithABatch) {
+TEST_F(LivePoseGraphTest, ASessionEndsWithABatch) {
   auto graph = begin("monday", "");
   drive(*graph, 0, 2 * kLap);
   EXPECT_FALSE(graph->isBatchPending());
@@ -274,7 +274,7 @@ TEST_F(LivePoseGraphTest, aSessionEndsWithABatch) {
   EXPECT_FALSE(graph->isBatchPending());
 }
 
-TEST_F(LivePoseGraphTest, levelsOnceItIsKnownWhichWayIsUp) {
+TEST_F(LivePoseGraphTest, LevelsOnceItIsKnownWhichWayIsUp) {
   auto graph = begin("monday", "");
   feel(*graph, 3 * kLap);
   drive(*graph, 0, 100);
@@ -289,7 +289,7 @@ TEST_F(LivePoseGraphTest, levelsOnceItIsKnownWhichWayIsUp) {
   EXPECT_FALSE(graph->isRelaxationPending()) << "once";
 }
 
-TEST_F(LivePoseGraphTest, forcesLevelTheMapAfterARestartToo) {
+TEST_F(LivePoseGraphTest, ForcesLevelTheMapAfterARestartToo) {
   auto graph = begin();
   feel(*graph, 4 * kLap);
   drive(*graph, 0, 3 * kLap);
@@ -305,7 +305,7 @@ TEST_F(LivePoseGraphTest, forcesLevelTheMapAfterARestartToo) {
   expectSame(graph->trajectory(0, 0, 0), before);
 }
 
-TEST_F(LivePoseGraphTest, theGroundLevelsTheMapWithoutAnAccelerometer) {
+TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   auto graph = begin("monday", "");
   seeGround(*graph, 2 * kLap);
   drive(*graph, 0, 2 * kLap);
@@ -318,7 +318,7 @@ TEST_F(LivePoseGraphTest, theGroundLevelsTheMapWithoutAnAccelerometer) {
   EXPECT_LT(tilt(*graph), 0.02);
 }
 
-TEST_F(LivePoseGraphTest, anAccelerometerIsBelievedBeforeTheGround) {
+TEST_F(LivePoseGraphTest, AnAccelerometerIsBelievedBeforeTheGround) {
   auto graph = begin("monday", ""), alone = begin("monday", "");
   for (LivePoseGraph* each : {graph.get(), alone.get()}) {
     feel(*each, 3 * kLap);
@@ -330,7 +330,7 @@ TEST_F(LivePoseGraphTest, anAccelerometerIsBelievedBeforeTheGround) {
   EXPECT_GT(tilt(*graph), 0.05);
 }
 
-TEST_F(LivePoseGraphTest, theGroundLevelsTheMapAfterARestartToo) {
+TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapAfterARestartToo) {
   auto graph = begin();
   seeGround(*graph, 2 * kLap);
   drive(*graph, 0, 2 * kLap);
@@ -347,7 +347,7 @@ TEST_F(LivePoseGraphTest, theGroundLevelsTheMapAfterARestartToo) {
   expectSame(graph->trajectory(0, 0, 0), before);
 }
 
-TEST_F(LivePoseGraphTest, fixesBendTheWayAndAreThereAfterARestart) {
+TEST_F(LivePoseGraphTest, FixesBendTheWayAndAreThereAfterARestart) {
   testing::GpsDrive way;
   way.turn_drift = 0.003;
   way.white = 0.3;
@@ -380,7 +380,7 @@ TEST_F(LivePoseGraphTest, fixesBendTheWayAndAreThereAfterARestart) {
   expectSame(graph->trajectory(0, 0, 0), before);
 }
 
-TEST_F(LivePoseGraphTest, mapFromOdomIsThatOfTheStampWhereverOdomBegins) {
+TEST_F(LivePoseGraphTest, MapFromOdomIsThatOfTheStampWhereverOdomBegins) {
   auto graph = begin("monday", "");
   const Pose T_odom_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, 0.2, 0.9)), Eigen::Vector3d(30.0, -7.0, 1.0));
   Pose T;

@@ -37,7 +37,7 @@ void expectTied(MapToOdomEstimator& estimator, const Track& track, int newest) {
   EXPECT_TRUE(isApprox(*T * at(newest), track.map[place], 1e-9));
 }
 
-TEST(MapToOdomEstimator, isOfTheNewestPoseWhoseOdometryIsKnown) {
+TEST(MapToOdomEstimator, IsOfTheNewestPoseWhoseOdometryIsKnown) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 50);
   expectTied(estimator, track(0, 26), 25);
@@ -48,7 +48,7 @@ TEST(MapToOdomEstimator, isOfTheNewestPoseWhoseOdometryIsKnown) {
   expectTied(estimator, track(0, 80), 59);
 }
 
-TEST(MapToOdomEstimator, nothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMeet) {
+TEST(MapToOdomEstimator, NothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMeet) {
   MapToOdomEstimator estimator;
   EXPECT_FALSE(estimator.estimate(nullptr));
   receive(estimator, 100, 130);
@@ -58,13 +58,13 @@ TEST(MapToOdomEstimator, nothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMe
   expectTied(estimator, late, 109);
 }
 
-TEST(MapToOdomEstimator, whereOdomBeginsTheMapDoes) {
+TEST(MapToOdomEstimator, WhereOdomBeginsTheMapDoes) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 20);
   EXPECT_TRUE(isApprox(*estimator.estimate(nullptr), Pose(), 0.0));
 }
 
-TEST(MapToOdomEstimator, aNewSessionIsTiedAtItsFirstPose) {
+TEST(MapToOdomEstimator, ANewSessionIsTiedAtItsFirstPose) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 100);
   expectTied(estimator, track(0, 76), 75);
@@ -75,7 +75,7 @@ TEST(MapToOdomEstimator, aNewSessionIsTiedAtItsFirstPose) {
   expectTied(estimator, next, 76);
 }
 
-TEST(MapToOdomEstimator, anOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
+TEST(MapToOdomEstimator, AnOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 40);
   const Track before = track(0, 40);
@@ -88,7 +88,7 @@ TEST(MapToOdomEstimator, anOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
   EXPECT_TRUE(isApprox(*estimator.estimate(&after) * at(1), kMoved, 1e-9));
 }
 
-TEST(MapToOdomEstimator, aRecordingThatBeginsAgainHasNothingToDoWithTheSessionBefore) {
+TEST(MapToOdomEstimator, ARecordingThatBeginsAgainHasNothingToDoWithTheSessionBefore) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 100);
   const Track before = track(0, 100), again = track(0, 10, "b");
@@ -98,7 +98,7 @@ TEST(MapToOdomEstimator, aRecordingThatBeginsAgainHasNothingToDoWithTheSessionBe
   expectTied(estimator, again, 9);
 }
 
-TEST(MapToOdomEstimator, aSessionOfAnEmptiedGraphMayHaveTheIdOfOneBefore) {
+TEST(MapToOdomEstimator, ASessionOfAnEmptiedGraphMayHaveTheIdOfOneBefore) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 100);
   expectTied(estimator, track(0, 100), 99);
@@ -109,7 +109,7 @@ TEST(MapToOdomEstimator, aSessionOfAnEmptiedGraphMayHaveTheIdOfOneBefore) {
   expectTied(estimator, track(0, 10), 9);
 }
 
-TEST(MapToOdomEstimator, isBounded) {
+TEST(MapToOdomEstimator, IsBounded) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 20'000);
   const Track early = track(0, 100), late = track(0, 19'000);

@@ -36,7 +36,7 @@ void expectSame(const std::vector<SpecificForce>& a, const std::vector<SpecificF
   }
 }
 
-TEST(SpecificForceBuffer, endsWithTheBitsOfAllAtOnce) {
+TEST(SpecificForceBuffer, EndsWithTheBitsOfAllAtOnce) {
   SpecificForceBuffer buffer;
   std::vector<SpecificForce> all, known;
   int poses = 0;
@@ -54,7 +54,7 @@ TEST(SpecificForceBuffer, endsWithTheBitsOfAllAtOnce) {
   EXPECT_LT(buffer.meansAt(posesUpTo(poses + 20)).size(), 300u);
 }
 
-TEST(SpecificForceBuffer, aRecordingThatBeginsAgainIsForTheNextSession) {
+TEST(SpecificForceBuffer, ARecordingThatBeginsAgainIsForTheNextSession) {
   SpecificForceBuffer buffer;
   std::vector<SpecificForce> first, second;
   for (int i = 0; i < 500; ++i) first.push_back(sampleAt(i * kSample));
@@ -69,7 +69,7 @@ TEST(SpecificForceBuffer, aRecordingThatBeginsAgainIsForTheNextSession) {
       << "a session that begins by hand continues with the same samples";
 }
 
-TEST(SpecificForceBuffer, withoutForcesNothingIsKnown) {
+TEST(SpecificForceBuffer, WithoutForcesNothingIsKnown) {
   SpecificForceBuffer buffer;
   EXPECT_TRUE(buffer.meansAt(posesUpTo(10)).empty());
   buffer.add(sampleAt(0));

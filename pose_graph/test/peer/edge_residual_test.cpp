@@ -41,7 +41,7 @@ void expectSquareAndDerivatives() {
   }
 }
 
-TEST(EdgeResidual, hasTheEdgesCostAndExactDerivatives) {
+TEST(EdgeResidual, HasTheEdgesCostAndExactDerivatives) {
   expectSquareAndDerivatives<Objective::Geodesic, 2>();
   expectSquareAndDerivatives<Objective::Geodesic, 3>();
   expectSquareAndDerivatives<Objective::Chordal, 2>();

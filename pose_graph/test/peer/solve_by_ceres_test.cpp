@@ -23,12 +23,12 @@ void expectTheSameOptimum() {
   }
 }
 
-TEST(SolveByCeres, endsAtTheSameOptimum) {
+TEST(SolveByCeres, EndsAtTheSameOptimum) {
   expectTheSameOptimum<2>();
   expectTheSameOptimum<3>();
 }
 
-TEST(SolveByCeres, leavesWeightlessEdgesAndOtherPartsAlone) {
+TEST(SolveByCeres, LeavesWeightlessEdgesAndOtherPartsAlone) {
   Dice dice(3);
   Problem<3> problem = drawProblem<3>(dice, 20, 10, 0.05, 0.05);
   const Problem<3> other = drawProblem<3>(dice, 10, 4, 0.05, 0.05);
@@ -46,7 +46,7 @@ TEST(SolveByCeres, leavesWeightlessEdgesAndOtherPartsAlone) {
   EXPECT_EQ(theirs.poses[20].t, problem.poses[20].t);
 }
 
-TEST(SolveByCeres, stopsWhenAsked) {
+TEST(SolveByCeres, StopsWhenAsked) {
   Dice dice(5);
   const Problem<3> problem = drawProblem<3>(dice, 40, 20, 0.3, 0.3);
   SolveOptions options;

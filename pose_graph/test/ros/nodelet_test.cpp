@@ -128,7 +128,7 @@ class PoseGraphNodelet : public ::testing::Test {
 Listener* PoseGraphNodelet::listener_ = nullptr;
 
 /// Without a place of the camera in /tf_static it is at base_link.
-TEST_F(PoseGraphNodelet, theGroundLevelsTheMapWithoutAnAccelerometer) {
+TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   constexpr int poses = 80;
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
   const auto publish = [&](int i) {
@@ -156,7 +156,7 @@ TEST_F(PoseGraphNodelet, theGroundLevelsTheMapWithoutAnAccelerometer) {
   EXPECT_LT((first.R() * up - Eigen::Vector3d::UnitZ()).norm(), 0.01);
 }
 
-TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
+TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
   drive(0, lap);
   ASSERT_TRUE(driven(lap + 1));
   EXPECT_TRUE(isApprox(mapFromOdom(lap), Pose(), 1e-12)) << "nothing says otherwise yet";
@@ -188,7 +188,7 @@ TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
   EXPECT_EQ(listener().jumps.back().text, "a closure is believed now");
 }
 
-TEST_F(PoseGraphNodelet, positionsOfSatellitesBringTheRobotHome) {
+TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
   constexpr int last = 8 * lap, again = 7 * lap;  // the fixes of 30 s are used at once
   const urban_nav_core::LocalTangent tangent({0.9, -0.02, 120.0});
   const Pose T_east_map(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, 0.7)), Eigen::Vector3d(30.0, -8.0, 1.0));
@@ -217,7 +217,7 @@ TEST_F(PoseGraphNodelet, positionsOfSatellitesBringTheRobotHome) {
   EXPECT_TRUE(Listener::until([&] { return apart() < 1.0; })) << apart() << " m between equal places";
 }
 
-TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
+TEST_F(PoseGraphNodelet, AClosureThatIsAheadOfOdometryWaitsForIt) {
   drive(0, 10);
   ASSERT_TRUE(driven(11));
   close(toClosure(0, lap, Pose()));
@@ -229,7 +229,7 @@ TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
   EXPECT_LT(listener().updates.back().runs.back().T_map_base.back().position.x, 0.1);
 }
 
-TEST_F(PoseGraphNodelet, aRejectedClosureIsNone) {
+TEST_F(PoseGraphNodelet, ARejectedClosureIsNone) {
   drive(0, lap);
   auto rejected = toClosure(0, lap, Pose());
   rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
@@ -240,7 +240,7 @@ TEST_F(PoseGraphNodelet, aRejectedClosureIsNone) {
   EXPECT_TRUE(listener().updates.empty());
 }
 
-TEST_F(PoseGraphNodelet, givesTheTrajectoryOrWhatChangedOfIt) {
+TEST_F(PoseGraphNodelet, GivesTheTrajectoryOrWhatChangedOfIt) {
   drive(0, lap);
   ASSERT_TRUE(driven(lap + 1));
   const auto before = trajectory();
@@ -261,7 +261,7 @@ TEST_F(PoseGraphNodelet, givesTheTrajectoryOrWhatChangedOfIt) {
   EXPECT_EQ(poses(now), 3U) << "new poses are new";
 }
 
-TEST_F(PoseGraphNodelet, edgesAreAddedAndRemovedByHand) {
+TEST_F(PoseGraphNodelet, EdgesAreAddedAndRemovedByHand) {
   drive(0, lap);
   ASSERT_TRUE(driven(lap + 1));
   urban_nav_msgs::AddEdge add;
@@ -289,7 +289,7 @@ TEST_F(PoseGraphNodelet, edgesAreAddedAndRemovedByHand) {
   EXPECT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() > 0.5; }));
 }
 
-TEST_F(PoseGraphNodelet, anEdgeThatCannotBeIsRefusedWithTheReason) {
+TEST_F(PoseGraphNodelet, AnEdgeThatCannotBeIsRefusedWithTheReason) {
   drive(0, 5);
   ASSERT_TRUE(driven(6));
   urban_nav_msgs::AddEdge add;
@@ -310,7 +310,7 @@ TEST_F(PoseGraphNodelet, anEdgeThatCannotBeIsRefusedWithTheReason) {
   EXPECT_FALSE(add.response.success);
 }
 
-TEST_F(PoseGraphNodelet, showsPathAndClosures) {
+TEST_F(PoseGraphNodelet, ShowsPathAndClosures) {
   drive(0, lap);
   close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] {
@@ -324,7 +324,7 @@ TEST_F(PoseGraphNodelet, showsPathAndClosures) {
   EXPECT_EQ(picture.back().ns, "trajectory");
 }
 
-TEST_F(PoseGraphNodelet, aNewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
+TEST_F(PoseGraphNodelet, ANewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
   drive(0, 5);
   ASSERT_TRUE(driven(6));
   urban_nav_msgs::NewSession begin;
@@ -342,7 +342,7 @@ TEST_F(PoseGraphNodelet, aNewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
   EXPECT_EQ(trajectory().runs.size(), 3U);
 }
 
-TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTheWay) {
+TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTheWay) {
   for (int i = 0; i <= 20; ++i) receive(i, odomPose(i));
   drive(0, 10);
   ASSERT_TRUE(driven(11));
@@ -356,7 +356,7 @@ TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTh
   EXPECT_TRUE(isApprox(mapFromOdom(21) * odomPose(15), newest, 1e-9));
 }
 
-TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedInTheMiddle) {
+TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedInTheMiddle) {
   for (int i = 0; i <= 20; ++i) receive(i, odomPose(i));
   drive(0, 18);
   ASSERT_TRUE(driven(19));
@@ -380,7 +380,7 @@ TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
   EXPECT_TRUE(isApprox(mapFromOdom(36) * odomPose(33), newest, 1e-9));
 }
 
-TEST_F(PoseGraphNodelet, pauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
+TEST_F(PoseGraphNodelet, PauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
   drive(0, 5);
   ASSERT_TRUE(driven(6));
   ASSERT_TRUE(listener().call("pause"));
@@ -424,7 +424,7 @@ class Store : public PoseGraphNodelet {
   }
 };
 
-TEST_F(Store, hasWhatWasTakenInASecondAgo) {
+TEST_F(Store, HasWhatWasTakenInASecondAgo) {
   drive(0, lap);
   ASSERT_TRUE(driven(lap + 1));
   ros::WallTime begin = ros::WallTime::now();
@@ -433,7 +433,7 @@ TEST_F(Store, hasWhatWasTakenInASecondAgo) {
   EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("store", path()); }));
 }
 
-TEST_F(Store, savesTheGraphAndGoesOnFromIt) {
+TEST_F(Store, SavesTheGraphAndGoesOnFromIt) {
   drive(0, lap);
   close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
@@ -452,7 +452,7 @@ TEST_F(Store, savesTheGraphAndGoesOnFromIt) {
   EXPECT_NE(refused.message.find("/nothing.db"), std::string::npos) << refused.message;
 }
 
-TEST_F(PoseGraphNodelet, optimizesFromTheEdgesAndTheStatusWaitsForLateSubscribers) {
+TEST_F(PoseGraphNodelet, OptimizesFromTheEdgesAndTheStatusWaitsForLateSubscribers) {
   drive(0, lap);
   close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().states.empty(); }));

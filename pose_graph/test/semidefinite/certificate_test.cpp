@@ -38,14 +38,14 @@ void expectCertifiedAtTheOptimum() {
   }
 }
 
-TEST(Certificate, isGivenAtTheOptimum) {
+TEST(Certificate, IsGivenAtTheOptimum) {
   expectCertifiedAtTheOptimum<2>();
   expectCertifiedAtTheOptimum<3>();
 }
 
-TEST(Certificate, isGivenWhereEverythingFits) { EXPECT_TRUE(certify(ring(30, 1), ring(30, 1).poses).certified); }
+TEST(Certificate, IsGivenWhereEverythingFits) { EXPECT_TRUE(certify(ring(30, 1), ring(30, 1).poses).certified); }
 
-TEST(Certificate, isNotGivenToAKnot) {
+TEST(Certificate, IsNotGivenToAKnot) {
   // Turned once more than measured: no small motion undoes it, and its cost is far from the best, which is zero.
   const Problem<2> knotted = ring(30, 2);
   const Solution<2> solution = solve(knotted, chordal(Start::Vertices));
@@ -59,7 +59,7 @@ TEST(Certificate, isNotGivenToAKnot) {
 }
 
 /// One edge that is stiffer than the others by far hides what the others cost in round-off: nothing is certified then.
-TEST(Certificate, isNotGivenWhereRoundOffHidesTheCost) {
+TEST(Certificate, IsNotGivenWhereRoundOffHidesTheCost) {
   Dice dice(31);
   Problem<2> problem = drawProblem<2>(dice, 20, 10, 0.05, 0.05);
   problem.edges.push_back(problem.edges.front());
@@ -72,7 +72,7 @@ TEST(Certificate, isNotGivenWhereRoundOffHidesTheCost) {
 }
 
 /// A minimisation that ends early leaves the bound wide; the same poses, converged, have a narrow one.
-TEST(Certificate, isNarrowWherePosesHaveConverged) {
+TEST(Certificate, IsNarrowWherePosesHaveConverged) {
   Dice dice(29);
   const Problem<3> problem = drawProblem<3>(dice, 50, 30, 0.1, 0.1);
   SolveOptions early = chordal();
@@ -89,7 +89,7 @@ TEST(Certificate, isNarrowWherePosesHaveConverged) {
   EXPECT_DOUBLE_EQ(narrow.cost, cost(problem, poses, Objective::Chordal)) << "poses are those of the certificate";
 }
 
-TEST(Certificate, leavesOutWhatHasNoWeightAndKnowsParts) {
+TEST(Certificate, LeavesOutWhatHasNoWeightAndKnowsParts) {
   Dice dice(23);
   Problem<3> problem = drawProblem<3>(dice, 20, 10, 0.05, 0.05);
   const std::size_t edges = problem.edges.size();

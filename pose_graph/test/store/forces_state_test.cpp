@@ -10,7 +10,7 @@
 namespace pose_graph {
 namespace {
 
-TEST(ForcesState, comeBackToTheLastBit) {
+TEST(ForcesState, ComeBackToTheLastBit) {
   const std::vector<urban_nav_core::SpecificForce> forces = {{5, {0.1, 0.2, 9.8}}, {7, {-0.1, 1e-9, 9.7}}};
   const auto back = unpackForces(packForces(forces));
   ASSERT_TRUE(back);
@@ -20,7 +20,7 @@ TEST(ForcesState, comeBackToTheLastBit) {
   EXPECT_TRUE(unpackForces(packForces({})).value().empty());
 }
 
-TEST(ForcesState, whatIsNotWholeIsNothing) {
+TEST(ForcesState, WhatIsNotWholeIsNothing) {
   const std::string whole = packForces({{5, {0.1, 0.2, 9.8}}, {7, {-0.1, 1e-9, 9.7}}});
   for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_FALSE(unpackForces(whole.substr(0, size))) << size;
   EXPECT_FALSE(unpackForces(whole.substr(1)));
@@ -48,7 +48,7 @@ std::string versionOne() {
   return bytes;
 }
 
-TEST(ForcesState, version1IsRead) {
+TEST(ForcesState, Version1IsRead) {
   const std::string bytes = versionOne();
   ASSERT_EQ(urban_nav_store::sha256(bytes), "3a27bd5842754495ee2b45b9671d56787bb2d3a26e083080e9424f4ff3e78d40")
       << "as the program of that version wrote them";

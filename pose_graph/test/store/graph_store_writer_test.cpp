@@ -45,7 +45,7 @@ class GraphStoreWriterTest : public ::testing::Test {
   PoseGraph graph{Parameters()};
 };
 
-TEST_F(GraphStoreWriterTest, aGraphComesBackAndRelaxesToTheSameBits) {
+TEST_F(GraphStoreWriterTest, AGraphComesBackAndRelaxesToTheSameBits) {
   {
     GraphStoreWriter writer = open();
     for (const char* id : {"a", "b"}) {
@@ -91,7 +91,7 @@ TEST_F(GraphStoreWriterTest, aGraphComesBackAndRelaxesToTheSameBits) {
   EXPECT_EQ(store.sessions().anchor("b")->map, "a") << "joined by closures";
 }
 
-TEST_F(GraphStoreWriterTest, nothingMoreThanOdometryWhileNothingIsRelaxed) {
+TEST_F(GraphStoreWriterTest, NothingMoreThanOdometryWhileNothingIsRelaxed) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
   writer.put(session("a"));
@@ -104,7 +104,7 @@ TEST_F(GraphStoreWriterTest, nothingMoreThanOdometryWhileNothingIsRelaxed) {
   EXPECT_EQ(store.graph().node({"a", 3 * testing::kPeriod})->T_odom_base.t(), graph.tracks()[0].odom[3].t());
 }
 
-TEST_F(GraphStoreWriterTest, onlyPosesThatMoveAreWrittenAgain) {
+TEST_F(GraphStoreWriterTest, OnlyPosesThatMoveAreWrittenAgain) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
   writer.put(session("a"));
@@ -122,7 +122,7 @@ TEST_F(GraphStoreWriterTest, onlyPosesThatMoveAreWrittenAgain) {
   EXPECT_GE(relaxedPoses("a", 2), static_cast<std::size_t>(kLap));
 }
 
-TEST_F(GraphStoreWriterTest, closuresCarryTheirVerdictsAndGoWhenTheyAreRemoved) {
+TEST_F(GraphStoreWriterTest, ClosuresCarryTheirVerdictsAndGoWhenTheyAreRemoved) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
   writer.put(session("a"));
@@ -158,7 +158,7 @@ TEST_F(GraphStoreWriterTest, closuresCarryTheirVerdictsAndGoWhenTheyAreRemoved) 
   EXPECT_EQ(edges()[0].a.stamp, 30 * testing::kPeriod);
 }
 
-TEST_F(GraphStoreWriterTest, whatItsStageRejectedIsEvidenceAndNoPartOfTheGraph) {
+TEST_F(GraphStoreWriterTest, WhatItsStageRejectedIsEvidenceAndNoPartOfTheGraph) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
   writer.put(session("a"));
@@ -175,7 +175,7 @@ TEST_F(GraphStoreWriterTest, whatItsStageRejectedIsEvidenceAndNoPartOfTheGraph) 
   EXPECT_TRUE(readGraph(store).closures.empty());
 }
 
-TEST_F(GraphStoreWriterTest, aGapStaysAGap) {
+TEST_F(GraphStoreWriterTest, AGapStaysAGap) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
   writer.put(session("a"));
@@ -190,7 +190,7 @@ TEST_F(GraphStoreWriterTest, aGapStaysAGap) {
   EXPECT_NE(again.tracks()[0].part.front(), again.tracks()[0].part.back());
 }
 
-TEST_F(GraphStoreWriterTest, goesOnWhereThereIsRoomAgain) {
+TEST_F(GraphStoreWriterTest, GoesOnWhereThereIsRoomAgain) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
   writer.put(session("a"));
@@ -216,7 +216,7 @@ TEST_F(GraphStoreWriterTest, goesOnWhereThereIsRoomAgain) {
   EXPECT_EQ(writer.lost(), 0);
 }
 
-TEST_F(GraphStoreWriterTest, theRevisionsOfAnotherGraphContinueAfterThoseOfTheFirst) {
+TEST_F(GraphStoreWriterTest, TheRevisionsOfAnotherGraphContinueAfterThoseOfTheFirst) {
   GraphStoreWriter writer = open();
   for (const char* id : {"a", "b"}) {
     graph = PoseGraph(Parameters(), graph.revision());

@@ -9,7 +9,7 @@
 namespace urban_nav_localization {
 namespace {
 
-TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 

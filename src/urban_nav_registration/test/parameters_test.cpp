@@ -8,7 +8,7 @@
 namespace urban_nav_registration {
 namespace {
 
-TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows()), "");
 }
 

@@ -28,7 +28,7 @@ tf2_msgs::TFMessage place() {
   return message;
 }
 
-TEST(Accelerometer, turnsIntoTheAxesOfTheRobotAndWaitsForItsPlace) {
+TEST(Accelerometer, TurnsIntoTheAxesOfTheRobotAndWaitsForItsPlace) {
   Accelerometer accelerometer("base_link");
   EXPECT_TRUE(accelerometer.add(imu(1)).empty());
   EXPECT_TRUE(accelerometer.add(imu(2)).empty());
@@ -40,7 +40,7 @@ TEST(Accelerometer, turnsIntoTheAxesOfTheRobotAndWaitsForItsPlace) {
   EXPECT_EQ(accelerometer.add(imu(3)).size(), 1u);
 }
 
-TEST(Accelerometer, withoutOneOrWithoutItsPlaceThereIsNothing) {
+TEST(Accelerometer, WithoutOneOrWithoutItsPlaceThereIsNothing) {
   Accelerometer accelerometer("base_link");
   accelerometer.add(place());
   sensor_msgs::Imu none = imu(1);

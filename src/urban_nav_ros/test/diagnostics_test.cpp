@@ -12,14 +12,14 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using urban_nav_core::Health;
 
-TEST(Diagnostics, healthHasALevel) {
+TEST(Diagnostics, HealthHasALevel) {
   EXPECT_EQ(toDiagnosticLevel(Health::Ok), DiagnosticStatus::OK);
   EXPECT_EQ(toDiagnosticLevel(Health::Recovered), DiagnosticStatus::OK);
   EXPECT_EQ(toDiagnosticLevel(Health::Degraded), DiagnosticStatus::WARN);
   EXPECT_EQ(toDiagnosticLevel(Health::Lost), DiagnosticStatus::ERROR);
 }
 
-TEST(Arrival, saysWhatHasNotComeAndWhatIsSilent) {
+TEST(Arrival, SaysWhatHasNotComeAndWhatIsSilent) {
   Arrival arrival("/camera/image");
   EXPECT_EQ(arrival.absence(), "/camera/image has not come yet");
   EXPECT_EQ(arrival.silence(0.0), "") << "that is another thing";
@@ -33,7 +33,7 @@ TEST(Arrival, saysWhatHasNotComeAndWhatIsSilent) {
   EXPECT_EQ(arrival.silence(0.01).rfind("/camera/image has been silent for 0.", 0), 0U) << arrival.silence(0.01);
 }
 
-TEST(Arrival, nothingIsWrongWithATopicWithoutSubscribers) {
+TEST(Arrival, NothingIsWrongWithATopicWithoutSubscribers) {
   Arrival none;
   EXPECT_EQ(none.absence(), "");
   none.happen();

@@ -13,7 +13,7 @@ using urban_nav_core::Vector3d;
 
 Pose at(double x, double yaw) { return Pose(urban_nav_core::expSo3(Vector3d(0, 0, yaw)), Vector3d(x, 0.5, 0)); }
 
-TEST(StaticTransforms, walkUpAndDownTheTree) {
+TEST(StaticTransforms, WalkUpAndDownTheTree) {
   StaticTransforms transforms;
   transforms.add(toStaticTransform("base_link", "mast", at(1.0, 0.3)));
   transforms.add(toStaticTransform("/mast", "/camera", at(2.0, -0.8)));
@@ -27,7 +27,7 @@ TEST(StaticTransforms, walkUpAndDownTheTree) {
   EXPECT_EQ(transforms.frames().size(), 4U);
 }
 
-TEST(StaticTransforms, takeTheLaterOfTwoAndNameWhatIsNone) {
+TEST(StaticTransforms, TakeTheLaterOfTwoAndNameWhatIsNone) {
   StaticTransforms transforms;
   transforms.add(toStaticTransform("base_link", "camera", at(1.0, 0.0)));
   transforms.add(toStaticTransform("base_link", "camera", at(2.0, 0.0)));
@@ -43,14 +43,14 @@ TEST(StaticTransforms, takeTheLaterOfTwoAndNameWhatIsNone) {
   EXPECT_FALSE(transforms.has("imu"));
 }
 
-TEST(StaticTransforms, surviveARing) {
+TEST(StaticTransforms, SurviveARing) {
   StaticTransforms transforms;
   transforms.add(toStaticTransform("a", "b", Pose()));
   transforms.add(toStaticTransform("b", "a", Pose()));
   EXPECT_FALSE(transforms.lookup("a", "b"));
 }
 
-TEST(OpticalInBody, turnsForwardIntoDepth) {
+TEST(OpticalInBody, TurnsForwardIntoDepth) {
   EXPECT_LT((opticalInBody() * Vector3d(0, 0, 1) - Vector3d(1, 0, 0)).norm(), 1e-12);   // ahead
   EXPECT_LT((opticalInBody() * Vector3d(1, 0, 0) - Vector3d(0, -1, 0)).norm(), 1e-12);  // right
   EXPECT_LT((opticalInBody() * Vector3d(0, 1, 0) - Vector3d(0, 0, -1)).norm(), 1e-12);  // down

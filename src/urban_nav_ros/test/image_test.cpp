@@ -20,7 +20,7 @@ sensor_msgs::Image message(const std::string& encoding, std::uint32_t width, std
   return image;
 }
 
-TEST(ToGrey, sharesTheBytesOfMono8AndHeedsTheStep) {
+TEST(ToGrey, SharesTheBytesOfMono8AndHeedsTheStep) {
   const sensor_msgs::Image image = message("mono8", 2, 2, {1, 2, 99, 3, 4, 99}, 3);
   const GreyImage grey = toGrey(image);
   ASSERT_TRUE(grey.fault.empty()) << grey.fault;
@@ -28,14 +28,14 @@ TEST(ToGrey, sharesTheBytesOfMono8AndHeedsTheStep) {
   EXPECT_EQ(grey.pixels.at<std::uint8_t>(1, 0), 3);
 }
 
-TEST(ToGrey, weighsColoursByTheirNames) {
+TEST(ToGrey, WeighsColoursByTheirNames) {
   EXPECT_EQ(toGrey(message("rgb8", 1, 1, {255, 0, 0})).pixels.at<std::uint8_t>(0, 0), 76);
   EXPECT_EQ(toGrey(message("bgr8", 1, 1, {255, 0, 0})).pixels.at<std::uint8_t>(0, 0), 29);
   EXPECT_EQ(toGrey(message("rgba8", 1, 1, {255, 0, 0, 7})).pixels.at<std::uint8_t>(0, 0), 76);
   EXPECT_EQ(toGrey(message("bgra8", 1, 1, {255, 0, 0, 7})).pixels.at<std::uint8_t>(0, 0), 29);
 }
 
-TEST(ToGrey, knowsWhichPixelOfAMosaicIsRed) {
+TEST(ToGrey, KnowsWhichPixelOfAMosaicIsRed) {
   // Red light alone: the red pixels are bright, the others dark. Grey is 0.299 red wherever the pattern is read
   // rightly.
   const auto mosaic = [](int red_u, int red_v) {
@@ -51,7 +51,7 @@ TEST(ToGrey, knowsWhichPixelOfAMosaicIsRed) {
   EXPECT_NEAR(toGrey(message("bayer_gbrg8", 16, 16, mosaic(0, 1))).pixels.at<std::uint8_t>(8, 8), 60, 1);
 }
 
-TEST(ToGrey, keepsTheHighestEightOfTheBitsInUse) {
+TEST(ToGrey, KeepsTheHighestEightOfTheBitsInUse) {
   sensor_msgs::Image image = message("mono16", 2, 1, {0xff, 0x0f, 0x00, 0x01});  // 4095 and 256
   EXPECT_EQ(significantBits(image), 12);
   EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
@@ -64,7 +64,7 @@ TEST(ToGrey, keepsTheHighestEightOfTheBitsInUse) {
   EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
 }
 
-TEST(ToGrey, takesTheBrightnessOfYuv) {
+TEST(ToGrey, TakesTheBrightnessOfYuv) {
   const cv::Mat uyvy = toGrey(message("yuv422", 2, 1, {1, 20, 3, 40})).pixels;
   EXPECT_EQ(uyvy.at<std::uint8_t>(0, 0), 20);
   EXPECT_EQ(uyvy.at<std::uint8_t>(0, 1), 40);
@@ -73,7 +73,7 @@ TEST(ToGrey, takesTheBrightnessOfYuv) {
   EXPECT_EQ(yuyv.at<std::uint8_t>(0, 1), 40);
 }
 
-TEST(ToGrey, readsDeepColour) {
+TEST(ToGrey, ReadsDeepColour) {
   // Red, little-endian, 12 of 16 bits.
   const sensor_msgs::Image red = message("rgb16", 1, 1, {0xff, 0x0f, 0, 0, 0, 0});
   EXPECT_EQ(significantBits(red), 12);
@@ -83,7 +83,7 @@ TEST(ToGrey, readsDeepColour) {
   EXPECT_NEAR(toGrey(big, 12).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
 }
 
-TEST(ToGrey, saysWhatIsWrong) {
+TEST(ToGrey, SaysWhatIsWrong) {
   EXPECT_NE(toGrey(message("32FC1", 1, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos)
       << "names what is known";
   EXPECT_FALSE(toGrey(message("mono8", 4, 4, std::vector<std::uint8_t>(15), 4)).fault.empty());
@@ -95,7 +95,7 @@ TEST(ToGrey, saysWhatIsWrong) {
   EXPECT_FALSE(toGrey(huge).fault.empty());
 }
 
-TEST(ToGrey, decodesWhatIsCompressed) {
+TEST(ToGrey, DecodesWhatIsCompressed) {
   cv::Mat picture(8, 8, CV_8UC1);
   cv::randu(picture, 0, 255);
   sensor_msgs::CompressedImage compressed;
@@ -107,7 +107,7 @@ TEST(ToGrey, decodesWhatIsCompressed) {
   EXPECT_FALSE(toGrey(compressed).fault.empty());
 }
 
-TEST(ToImageMessage, comesBackTheSame) {
+TEST(ToImageMessage, ComesBackTheSame) {
   cv::Mat picture(5, 7, CV_8UC1);
   cv::randu(picture, 0, 255);
   const sensor_msgs::Image image = toImageMessage(picture(cv::Rect(1, 1, 5, 3)));

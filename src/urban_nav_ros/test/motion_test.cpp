@@ -37,7 +37,7 @@ sensor_msgs::Imu imu(StampNs stamp, const Vector3d& rate) {
   return message;
 }
 
-TEST(WheelMotion, incrementsMultiplyUpToThePoses) {
+TEST(WheelMotion, IncrementsMultiplyUpToThePoses) {
   WheelMotion wheels(0.05);
   Pose sum;
   const Pose first(Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitZ())), Vector3d(5, -2, 0));
@@ -58,7 +58,7 @@ TEST(WheelMotion, incrementsMultiplyUpToThePoses) {
   EXPECT_TRUE(isApprox(first * sum, pose, 1e-12));
 }
 
-TEST(WheelMotion, stampsThatDoNotAdvanceAndPosesThatAreNoneGiveNothing) {
+TEST(WheelMotion, StampsThatDoNotAdvanceAndPosesThatAreNoneGiveNothing) {
   WheelMotion wheels(0.05);
   wheels.add(odometry(second, Pose()));
   EXPECT_FALSE(wheels.add(odometry(second, Pose())));
@@ -71,7 +71,7 @@ TEST(WheelMotion, stampsThatDoNotAdvanceAndPosesThatAreNoneGiveNothing) {
   EXPECT_EQ(input->from, second);
 }
 
-TEST(GyroMotion, integratesTheMeanRateInBaseLink) {
+TEST(GyroMotion, IntegratesTheMeanRateInBaseLink) {
   // The device looks to the left: its x is base_link's y.
   Matrix3d R_base_imu;
   R_base_imu << 0, -1, 0, 1, 0, 0, 0, 0, 1;
@@ -85,7 +85,7 @@ TEST(GyroMotion, integratesTheMeanRateInBaseLink) {
   EXPECT_NEAR(input->information(4, 4), 1e6, 1e-3);
 }
 
-TEST(GyroMotion, aDeviceWithoutGyroscopeGivesNothing) {
+TEST(GyroMotion, ADeviceWithoutGyroscopeGivesNothing) {
   GyroMotion gyro(0.1, Matrix3d::Identity());
   gyro.add(imu(second, Vector3d::Zero()));
   sensor_msgs::Imu absent = imu(2 * second, Vector3d::Zero());

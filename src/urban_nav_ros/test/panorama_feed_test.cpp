@@ -56,7 +56,7 @@ std::vector<PanoramaArrival> shuffledArrivals(unsigned seed, std::size_t without
   return all;
 }
 
-TEST(PanoramaFeed, groupsShuffledImagesByStamp) {
+TEST(PanoramaFeed, GroupsShuffledImagesByStamp) {
   PanoramaFeed feed({});
   std::vector<Panorama> panoramas;
   for (const PanoramaArrival& image : shuffledArrivals(1)) {
@@ -78,7 +78,7 @@ TEST(PanoramaFeed, groupsShuffledImagesByStamp) {
   }
 }
 
-TEST(PanoramaFeed, leavesOutACameraThatIsDead) {
+TEST(PanoramaFeed, LeavesOutACameraThatIsDead) {
   PanoramaFeed feed({});
   std::size_t panoramas = 0;
   for (const PanoramaArrival& image : shuffledArrivals(2, 3)) {
@@ -93,7 +93,7 @@ TEST(PanoramaFeed, leavesOutACameraThatIsDead) {
   EXPECT_EQ(feed.missing(2), 0);
 }
 
-TEST(PanoramaFeed, continuesFromItsArchivedState) {
+TEST(PanoramaFeed, ContinuesFromItsArchivedState) {
   const std::vector<PanoramaArrival> arrivals = shuffledArrivals(3, 1);
   for (std::size_t cut = 0; cut <= arrivals.size(); cut += 7) {
     std::vector<StampNs> stamps;
@@ -119,7 +119,7 @@ TEST(PanoramaFeed, continuesFromItsArchivedState) {
   }
 }
 
-TEST(RecordedImage, decodesColourAndGreyOnDemand) {
+TEST(RecordedImage, DecodesColourAndGreyOnDemand) {
   const RecordedImage jpeg = colourJpeg(5 * feed_ms);
   EXPECT_EQ(jpeg.stamp(), 5 * feed_ms);
   const ColourImage colour = jpeg.colour();
@@ -132,7 +132,7 @@ TEST(RecordedImage, decodesColourAndGreyOnDemand) {
   EXPECT_EQ(RecordedImage(sensor_msgs::ImageConstPtr(rgb)).colour().pixels.at<cv::Vec3b>(0, 0), cv::Vec3b(3, 2, 1));
 }
 
-TEST(RecordedImage, reportsWhatDoesNotDecode) {
+TEST(RecordedImage, ReportsWhatDoesNotDecode) {
   auto broken = boost::make_shared<sensor_msgs::CompressedImage>();
   broken->data = {1, 2, 3};
   const RecordedImage image{sensor_msgs::CompressedImageConstPtr(broken)};

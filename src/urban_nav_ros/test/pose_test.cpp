@@ -15,20 +15,20 @@ using urban_nav_core::Health;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 
-TEST(Stamp, isExactBothWays) {
+TEST(Stamp, IsExactBothWays) {
   for (const urban_nav_core::StampNs stamp : {0LL, 1LL, 1225719873501685001LL, 4294967295999999999LL})
     EXPECT_EQ(toStampNs(toRosTime(stamp)), stamp);
   EXPECT_EQ(toStampNs(toRosTime(-5)), 0);
   EXPECT_EQ(toStampNs(toRosTime(std::numeric_limits<urban_nav_core::StampNs>::max())), 4294967295999999999LL);
 }
 
-TEST(PoseMessage, comesBackTheSame) {
+TEST(PoseMessage, ComesBackTheSame) {
   const Pose pose(urban_nav_core::expSo3(Vector3d(0.3, -2.0, 1.0)), Vector3d(1, 2, 3));
   EXPECT_TRUE(isApprox(*toPose(toPoseMessage(pose)), pose, 1e-15));
   EXPECT_TRUE(isApprox(*toPose(toTransformMessage(pose)), pose, 1e-15));
 }
 
-TEST(PoseMessage, refusesWhatIsNoPose) {
+TEST(PoseMessage, RefusesWhatIsNoPose) {
   geometry_msgs::Pose message;
   EXPECT_FALSE(toPose(message)) << "a quaternion of zeros";
   message.orientation.w = 0.9;
@@ -39,7 +39,7 @@ TEST(PoseMessage, refusesWhatIsNoPose) {
   EXPECT_FALSE(toPose(message));
 }
 
-TEST(RelativePoseMessage, comesBackTheSame) {
+TEST(RelativePoseMessage, ComesBackTheSame) {
   urban_nav_core::RelativePose relative;
   relative.from = 1'000'000'001;
   relative.to = 2'000'000'002;
@@ -56,7 +56,7 @@ TEST(RelativePoseMessage, comesBackTheSame) {
   EXPECT_EQ(back->source, "swf_vo");
 }
 
-TEST(HealthMessage, knowsFourStates) {
+TEST(HealthMessage, KnowsFourStates) {
   for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered})
     EXPECT_EQ(toHealth(toMessage(health)), health);
   EXPECT_FALSE(toHealth(4));

@@ -90,7 +90,7 @@ class RectificationTest : public ::testing::Test {
 };
 std::vector<ImagePair> RectificationTest::ideal_, RectificationTest::raw_;
 
-TEST_F(RectificationTest, imagesThatAreRectifiedAlreadyAreRecognised) {
+TEST_F(RectificationTest, ImagesThatAreRectifiedAlreadyAreRecognised) {
   const RectificationChoice choice = chooseRectification(ideal_, rectifying_);
   EXPECT_TRUE(choice.is_decided);
   EXPECT_TRUE(choice.is_rectified);
@@ -99,14 +99,14 @@ TEST_F(RectificationTest, imagesThatAreRectifiedAlreadyAreRecognised) {
   EXPECT_NE(choice.contradiction(false).find("rectified already"), std::string::npos);
 }
 
-TEST_F(RectificationTest, rawImagesAreRecognised) {
+TEST_F(RectificationTest, RawImagesAreRecognised) {
   const RectificationChoice choice = chooseRectification(raw_, rectifying_);
   EXPECT_TRUE(choice.is_decided);
   EXPECT_FALSE(choice.is_rectified);
   EXPECT_LT(choice.rectified_px, 0.5);
 }
 
-TEST_F(RectificationTest, fewPairsOrBlankImagesDecideNothing) {
+TEST_F(RectificationTest, FewPairsOrBlankImagesDecideNothing) {
   EXPECT_FALSE(chooseRectification({ideal_[0], ideal_[1]}, rectifying_).is_decided);
   const cv::Mat blank(180, 240, CV_8UC1, cv::Scalar(90));
   const RectificationChoice choice = chooseRectification({{blank, blank}, {blank, blank}, {blank, blank}}, rectifying_);
@@ -143,7 +143,7 @@ struct LiveCamera {
   int shown = 0, pairs = 0;
 };
 
-TEST_F(RectificationTest, liveTheFirstPairsDecideAndNoneIsLost) {
+TEST_F(RectificationTest, LiveTheFirstPairsDecideAndNoneIsLost) {
   for (const bool is_raw : {false, true})
     for (const bool named_as_rectified : {false, true}) {
       LiveCamera camera(named_as_rectified);
@@ -157,7 +157,7 @@ TEST_F(RectificationTest, liveTheFirstPairsDecideAndNoneIsLost) {
     }
 }
 
-TEST_F(RectificationTest, liveACameraWithoutPairsBeginsByItsName) {
+TEST_F(RectificationTest, LiveACameraWithoutPairsBeginsByItsName) {
   LiveCamera camera(false);
   camera.calibrate();
   for (int i = 0; i < 60; ++i) camera.show(ideal_[0], false);
@@ -166,7 +166,7 @@ TEST_F(RectificationTest, liveACameraWithoutPairsBeginsByItsName) {
   EXPECT_TRUE(camera.began[0].contradiction.empty());
 }
 
-TEST_F(RectificationTest, liveImagesBeforeTheCalibrationCount) {
+TEST_F(RectificationTest, LiveImagesBeforeTheCalibrationCount) {
   LiveCamera camera(false);
   for (const ImagePair& pair : ideal_) camera.show(pair);
   camera.calibrate();

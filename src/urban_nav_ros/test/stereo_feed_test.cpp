@@ -46,7 +46,7 @@ std::vector<DecodedPair> drain(StereoFeed& feed) {
   return pairs;
 }
 
-TEST(StereoFeed, aBagShuffledWithinTheLatenessGivesTheSamePairs) {
+TEST(StereoFeed, ABagShuffledWithinTheLatenessGivesTheSamePairs) {
   struct Message {
     double arrival;
     Side side;
@@ -80,7 +80,7 @@ TEST(StereoFeed, aBagShuffledWithinTheLatenessGivesTheSamePairs) {
   }
 }
 
-TEST(StereoFeed, liveAPairLeavesWithItsSecondImage) {
+TEST(StereoFeed, LiveAPairLeavesWithItsSecondImage) {
   StereoFeed::Options options;
   options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
   StereoFeed feed(options, calibration());
@@ -90,7 +90,7 @@ TEST(StereoFeed, liveAPairLeavesWithItsSecondImage) {
   EXPECT_EQ(drain(feed).size(), 1U);
 }
 
-TEST(StereoFeed, anImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
+TEST(StereoFeed, AnImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
   StereoFeed feed(StereoFeed::Options(), calibration());
   feed.add(Side::Left, image(1000 * ms, 1));
   feed.add(Side::Left, image(1100 * ms, 1));
@@ -114,7 +114,7 @@ TEST(StereoFeed, anImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
   EXPECT_NE(pairs[2].faults[0].find("right image: 100 bytes"), std::string::npos) << pairs[2].faults[0];
 }
 
-TEST(StereoFeed, rawImagesAreRectified) {
+TEST(StereoFeed, RawImagesAreRectified) {
   CameraInfo left = leftInfo(camera()), right = rightInfo(camera());
   left.distortion_model = right.distortion_model = "plumb_bob";
   left.D = right.D = {-0.2, 0.0, 0.0, 0.0, 0.0};
@@ -137,7 +137,7 @@ TEST(StereoFeed, rawImagesAreRectified) {
   }
 }
 
-TEST(StereoFeed, motionComesWithThePairThatItLeadsTo) {
+TEST(StereoFeed, MotionComesWithThePairThatItLeadsTo) {
   StereoFeed::Options options;
   options.motion = true;
   StereoFeed feed(options, calibration());
@@ -160,12 +160,12 @@ TEST(StereoFeed, motionComesWithThePairThatItLeadsTo) {
   EXPECT_EQ(pairs[3].assembled.inputs.size(), 2U);
 }
 
-TEST(StereoCalibration, aPairThatIsNoneIsTheUsersMistake) {
+TEST(StereoCalibration, APairThatIsNoneIsTheUsersMistake) {
   EXPECT_THROW(StereoCalibration(rightInfo(camera()), leftInfo(camera()), false, "topics"), urban_nav_core::UserError);
   EXPECT_THROW(StereoCalibration(CameraInfo(), CameraInfo(), false, "topics"), urban_nav_core::UserError);
 }
 
-TEST(CameraInfo, thereAndBack) {
+TEST(CameraInfo, ThereAndBack) {
   CameraInfo info = rightInfo(camera());
   info.distortion_model = "plumb_bob";
   info.D = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -179,7 +179,7 @@ TEST(CameraInfo, thereAndBack) {
   EXPECT_EQ(back.P, info.P);
 }
 
-TEST(CameraInfo, binningAndRegionOfInterestScaleTheProjection) {
+TEST(CameraInfo, BinningAndRegionOfInterestScaleTheProjection) {
   CameraInfo info = rightInfo(camera());
   sensor_msgs::CameraInfo message = toCameraInfoMessage(info);
   message.binning_x = message.binning_y = 2;
@@ -196,7 +196,7 @@ TEST(CameraInfo, binningAndRegionOfInterestScaleTheProjection) {
   EXPECT_NEAR(binned.K(0, 0), info.K(0, 0) / 2.0, 1e-12);
 }
 
-TEST(CameraInfo, aProjectionAloneIsOfARectifiedCamera) {
+TEST(CameraInfo, AProjectionAloneIsOfARectifiedCamera) {
   sensor_msgs::CameraInfo message = toCameraInfoMessage(rightInfo(camera()));
   message.K.fill(0.0);
   message.R.fill(0.0);
@@ -226,7 +226,7 @@ std::string toText(const std::vector<DecodedPair>& pairs) {
 }
 
 // Cut between any two messages and gone on with in another object: pairs, faults and counts are those of one object.
-TEST(StereoFeed, goesOnFromItsState) {
+TEST(StereoFeed, GoesOnFromItsState) {
   StereoFeed::Options options;
   options.motion = true;
   std::vector<std::function<void(StereoFeed&)>> messages;

@@ -49,7 +49,7 @@ int batchesIn(Store& store) {
   }
 }
 
-TEST(Crash, whatWasCommittedIsThere) {
+TEST(Crash, WhatWasCommittedIsThere) {
   const Folder folder;
   const std::string path = folder.file("s.db"), reference = folder.file("reference.db");
   std::mt19937 random(1);

@@ -17,7 +17,7 @@ using testing::fill;
 using testing::Folder;
 using urban_nav_core::testing::SmallDisk;
 
-TEST(FullDisk, isNamedAndLosesNothingThatWasCommitted) {
+TEST(FullDisk, IsNamedAndLosesNothingThatWasCommitted) {
   const Folder folder;
   for (const std::size_t room : {300'000U, 500'000U, 1'000'000U}) {
     const std::string path = folder.file(std::to_string(room) + ".db");
@@ -45,7 +45,7 @@ TEST(FullDisk, isNamedAndLosesNothingThatWasCommitted) {
   }
 }
 
-TEST(FullDisk, anErrorLeavesTheStoreReadableForOthers) {
+TEST(FullDisk, AnErrorLeavesTheStoreReadableForOthers) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   Store store(path, Access::Write);
@@ -62,7 +62,7 @@ TEST(FullDisk, anErrorLeavesTheStoreReadableForOthers) {
   EXPECT_TRUE(dump(reader) == committed);
 }
 
-TEST(FullDisk, makesNoHalfStore) {
+TEST(FullDisk, MakesNoHalfStore) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   {

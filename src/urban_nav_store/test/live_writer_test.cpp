@@ -28,7 +28,7 @@ LiveWriter::Write nodeAt(urban_nav_core::StampNs stamp) {
   };
 }
 
-TEST(LiveWriter, commitsWhatWasPostedInItsOrder) {
+TEST(LiveWriter, CommitsWhatWasPostedInItsOrder) {
   const Folder folder;
   Store expected(folder.file("expected.db"), Access::Write);
   {
@@ -51,7 +51,7 @@ TEST(LiveWriter, commitsWhatWasPostedInItsOrder) {
   }
 }
 
-TEST(LiveWriter, commitsWhenItEnds) {
+TEST(LiveWriter, CommitsWhenItEnds) {
   const Folder folder;
   {
     LiveWriter writer(Store(folder.file("s.db"), Access::Write), {1000, kNever});
@@ -60,7 +60,7 @@ TEST(LiveWriter, commitsWhenItEnds) {
   EXPECT_EQ(Store(folder.file("s.db"), Access::Read).graph().nodes("live"), 10);
 }
 
-TEST(LiveWriter, dropsAndCountsWhatHasNoRoom) {
+TEST(LiveWriter, DropsAndCountsWhatHasNoRoom) {
   const Folder folder;
   LiveWriter writer(Store(folder.file("s.db"), Access::Write), {5, kNever});
   for (int i = 0; i < 8; ++i) EXPECT_EQ(writer.post(nodeAt(i)), i < 5);
@@ -70,7 +70,7 @@ TEST(LiveWriter, dropsAndCountsWhatHasNoRoom) {
   EXPECT_TRUE(writer.post(nodeAt(9)));
 }
 
-TEST(LiveWriter, oneRefusedWriteCostsNoOther) {
+TEST(LiveWriter, OneRefusedWriteCostsNoOther) {
   const Folder folder;
   {
     LiveWriter writer(Store(folder.file("s.db"), Access::Write), {1000, kNever});
@@ -92,7 +92,7 @@ TEST(LiveWriter, oneRefusedWriteCostsNoOther) {
   EXPECT_FALSE(store.graph().node({"live", 100})) << "the first half of the refused one";
 }
 
-TEST(LiveWriter, aFullDiskDelaysAndLosesNothing) {
+TEST(LiveWriter, AFullDiskDelaysAndLosesNothing) {
   const Folder folder;
   LiveWriter writer(Store(folder.file("s.db"), Access::Write), {5000, kNever});
   {
@@ -110,7 +110,7 @@ TEST(LiveWriter, aFullDiskDelaysAndLosesNothing) {
   EXPECT_EQ(reader.graph().nodes("live"), 2001);
 }
 
-TEST(LiveWriter, takesFromManyThreads) {
+TEST(LiveWriter, TakesFromManyThreads) {
   const Folder folder;
   {
     LiveWriter writer(Store(folder.file("s.db"), Access::Write), {10000, std::chrono::milliseconds(1)});

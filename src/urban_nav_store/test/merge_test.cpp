@@ -34,7 +34,7 @@ class Merge : public ::testing::Test {
   const std::string out = folder.file("out.db");
 };
 
-TEST_F(Merge, joinsOtherSessionsInAnyOrder) {
+TEST_F(Merge, JoinsOtherSessionsInAnyOrder) {
   const std::string a = make("a.db", [](Store& store) { fill(store, 1, 20); });
   const std::string b = make("b.db", [](Store& store) { fill(store, 2, 20); });
   const std::string both = make("both.db", [](Store& store) { fill(store, 2, 20), fill(store, 1, 20); });
@@ -49,7 +49,7 @@ TEST_F(Merge, joinsOtherSessionsInAnyOrder) {
   EXPECT_GT(again.identical, 50);
 }
 
-TEST_F(Merge, keepsNoStateThatTwoRunsDisagreeOn) {
+TEST_F(Merge, KeepsNoStateThatTwoRunsDisagreeOn) {
   const std::string long_state = Drawn(3).bytes(2'500'000);
   const auto with = [&](const std::string& name, const std::string& state) {
     return make(name, [&](Store& store) {
@@ -74,7 +74,7 @@ TEST_F(Merge, keepsNoStateThatTwoRunsDisagreeOn) {
   EXPECT_EQ(store.states().get(store.sessions().all().front().id, "bag"), "short");
 }
 
-TEST_F(Merge, joinsThePartsOfOneSession) {
+TEST_F(Merge, JoinsThePartsOfOneSession) {
   Drawn drawn(1);
   Session session = drawn.session();
   session.complete = true;
@@ -97,7 +97,7 @@ TEST_F(Merge, joinsThePartsOfOneSession) {
   EXPECT_EQ(store.scans().lasers(session.id), std::vector<std::string>{"laser_left"});
 }
 
-TEST_F(Merge, namesWhatContradicts) {
+TEST_F(Merge, NamesWhatContradicts) {
   const std::string a = make("a.db", [](Store& store) { fill(store, 1, 20); });
   SessionId id;
   const std::string b = make("b.db", [&](Store& store) {
@@ -120,7 +120,7 @@ TEST_F(Merge, namesWhatContradicts) {
   EXPECT_EQ(folder.files(), 3U);
 }
 
-TEST_F(Merge, takesTheLaterRevisionOfTheGraph) {
+TEST_F(Merge, TakesTheLaterRevisionOfTheGraph) {
   const auto with = [](std::int64_t revision, std::uint32_t seed) {
     return [=](Store& store) {
       Drawn drawn(seed);
@@ -138,7 +138,7 @@ TEST_F(Merge, takesTheLaterRevisionOfTheGraph) {
   EXPECT_TRUE(dumpStore(out) == dumpStore(b)) << "what was there stays";
 }
 
-TEST_F(Merge, refusesWhatIsNoStore) {
+TEST_F(Merge, RefusesWhatIsNoStore) {
   const std::string a = make("a.db", [](Store& store) { fill(store, 1, 5); });
   writeFile(folder.file("text"), "words");
   expectError([&] { merge({a, folder.file("text")}, out); }, folder.file("text"), "is no session store");
@@ -152,7 +152,7 @@ TEST_F(Merge, refusesWhatIsNoStore) {
   EXPECT_EQ(folder.files(), 3U);
 }
 
-TEST_F(Merge, doesNotTakeAStoreFromItsWriter) {
+TEST_F(Merge, DoesNotTakeAStoreFromItsWriter) {
   const std::string a = make("a.db", [](Store& store) { fill(store, 1, 5); });
   Store writer(out, Access::Write);
   expectError([&] { merge({a}, out); }, out, "is being written by another program");

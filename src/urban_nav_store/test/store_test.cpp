@@ -18,7 +18,7 @@ using testing::Folder;
 using testing::readFile;
 using testing::writeFile;
 
-TEST(Store, holdsWhatWasCommittedAndNothingElse) {
+TEST(Store, HoldsWhatWasCommittedAndNothingElse) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   std::string before;
@@ -36,7 +36,7 @@ TEST(Store, holdsWhatWasCommittedAndNothingElse) {
   EXPECT_EQ(store.sessions().all().size(), 1U);
 }
 
-TEST(Store, theSameCallsGiveTheSameContentWheneverItIsCommitted) {
+TEST(Store, TheSameCallsGiveTheSameContentWheneverItIsCommitted) {
   const Folder folder;
   std::string once, often;
   {
@@ -69,7 +69,7 @@ TEST(Store, theSameCallsGiveTheSameContentWheneverItIsCommitted) {
   EXPECT_TRUE(dump(again) == once);
 }
 
-TEST(Store, readingChangesNoByte) {
+TEST(Store, ReadingChangesNoByte) {
   const Folder folder;
   const std::string path = folder.file("a #?%20 name.db");
   {
@@ -87,7 +87,7 @@ TEST(Store, readingChangesNoByte) {
   EXPECT_EQ(readFile(path), bytes);
 }
 
-TEST(Store, aReaderSeesWhatALiveWriterHasCommitted) {
+TEST(Store, AReaderSeesWhatALiveWriterHasCommitted) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   Store writer(path, Access::Write);
@@ -101,7 +101,7 @@ TEST(Store, aReaderSeesWhatALiveWriterHasCommitted) {
   EXPECT_TRUE(dump(reader) == dump(writer));
 }
 
-TEST(Store, hasOneWriter) {
+TEST(Store, HasOneWriter) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   {
@@ -112,7 +112,7 @@ TEST(Store, hasOneWriter) {
   EXPECT_NO_THROW(Store(path, Access::Write));
 }
 
-TEST(Store, saysThatItIsClosed) {
+TEST(Store, SaysThatItIsClosed) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   Store store(path, Access::Write);
@@ -128,7 +128,7 @@ TEST(Store, saysThatItIsClosed) {
   EXPECT_TRUE(again.sessions().all().empty()) << "it was closed before the commit";
 }
 
-TEST(Store, leavesOtherFilesAlone) {
+TEST(Store, LeavesOtherFilesAlone) {
   const Folder folder;
   const std::string text = folder.file("text.db"), other = folder.file("other.db"), newer = folder.file("newer.db");
   writeFile(text, "#ROSBAG V2.0\n" + std::string(500, 'x'));
@@ -158,7 +158,7 @@ TEST(Store, leavesOtherFilesAlone) {
   EXPECT_EQ(folder.files(), 3U);
 }
 
-TEST(Store, saysWhereItCannotBe) {
+TEST(Store, SaysWhereItCannotBe) {
   const Folder folder;
   const std::string nowhere = folder.file("no/such/folder/s.db"), absent = folder.file("absent.db");
   expectError([&] { Store(nowhere, Access::Write); }, nowhere, "cannot be written");
@@ -168,7 +168,7 @@ TEST(Store, saysWhereItCannotBe) {
   EXPECT_EQ(folder.files(), 0U);
 }
 
-TEST(Store, isRemovedWithAllThatBelongsToIt) {
+TEST(Store, IsRemovedWithAllThatBelongsToIt) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   {
@@ -184,7 +184,7 @@ TEST(Store, isRemovedWithAllThatBelongsToIt) {
   EXPECT_TRUE(store.sessions().all().empty());
 }
 
-TEST(Store, givesRoomBack) {
+TEST(Store, GivesRoomBack) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   std::string kept;
@@ -202,7 +202,7 @@ TEST(Store, givesRoomBack) {
   EXPECT_TRUE(dump(store) == kept);
 }
 
-TEST(Store, aLinkStaysALink) {
+TEST(Store, ALinkStaysALink) {
   const Folder folder;
   std::filesystem::create_symlink("real.db", folder.file("link.db"));
   {

@@ -25,7 +25,7 @@ class RowsOfATable : public ::testing::Test {
   Store store{path, Access::Write};
 };
 
-TEST_F(RowsOfATable, rowsComeBackInTheOrderOfTheirKeys) {
+TEST_F(RowsOfATable, RowsComeBackInTheOrderOfTheirKeys) {
   TableStore<KeyframeRow> keyframes(store);
   for (const std::int64_t stamp : {7, 5, -2})
     keyframes.put({"s", "left", {stamp, "image" + std::to_string(stamp), ""}});
@@ -47,7 +47,7 @@ TEST_F(RowsOfATable, rowsComeBackInTheOrderOfTheirKeys) {
   EXPECT_TRUE(keyframes.get({"s", "left", {7, "", ""}}));
 }
 
-TEST_F(RowsOfATable, posesMatricesAndWordsComeBackBitByBit) {
+TEST_F(RowsOfATable, PosesMatricesAndWordsComeBackBitByBit) {
   Drawn drawn(1);
   const Node node = drawn.node(3);
   TableStore<NodeRow>(store).put({"s", node});
@@ -61,7 +61,7 @@ TEST_F(RowsOfATable, posesMatricesAndWordsComeBackBitByBit) {
   EXPECT_EQ(found->node.status, node.status);
 }
 
-TEST_F(RowsOfATable, invalidRowsAreRefusedAndNothingIsWritten) {
+TEST_F(RowsOfATable, InvalidRowsAreRefusedAndNothingIsWritten) {
   TableStore<NodeRow> nodes(store);
   NodeRow row{"s", Drawn(1).node(3)};
   row.node.drift_covariance(5, 5) = std::numeric_limits<double>::infinity();
@@ -70,7 +70,7 @@ TEST_F(RowsOfATable, invalidRowsAreRefusedAndNothingIsWritten) {
   EXPECT_FALSE(nodes.get(row));
 }
 
-TEST_F(RowsOfATable, aStoreOpenedForReadingIsNotWritten) {
+TEST_F(RowsOfATable, AStoreOpenedForReadingIsNotWritten) {
   store.close();
   Store reader(path, Access::Read);
   TableStore<KeyframeRow> keyframes(reader);

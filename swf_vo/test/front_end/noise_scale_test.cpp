@@ -32,7 +32,7 @@ struct Seen {
   }
 };
 
-TEST(NoiseScale, findsWhatAllAreOffBy) {
+TEST(NoiseScale, FindsWhatAllAreOffBy) {
   const Seen seen(100, [](int) { return 2.0; });
   EXPECT_NEAR(seen.scale.typical(), 4.0, 0.6);
   double mean = 0.0;
@@ -40,7 +40,7 @@ TEST(NoiseScale, findsWhatAllAreOffBy) {
   EXPECT_NEAR(mean, 4.0, 0.2);
 }
 
-TEST(NoiseScale, tellsThemApart) {
+TEST(NoiseScale, TellsThemApart) {
   const Seen seen(60, [](int i) { return i % 3 == 0 ? 4.0 : 1.2; });
   EXPECT_LT(seen.scale.typical(), 4.0) << "most are good";
   for (int i = 0; i < landmarks; ++i) {
@@ -50,13 +50,13 @@ TEST(NoiseScale, tellsThemApart) {
   }
 }
 
-TEST(NoiseScale, believesNoMoreThanWasClaimed) {
+TEST(NoiseScale, BelievesNoMoreThanWasClaimed) {
   const Seen seen(100, [](int) { return 0.5; });
   EXPECT_EQ(seen.scale.typical(), 1.0);
   for (const auto& own : seen.own) EXPECT_EQ(seen.scale.of(own), 1.0);
 }
 
-TEST(NoiseScale, isNotMovedByOneThatIsFarOff) {
+TEST(NoiseScale, IsNotMovedByOneThatIsFarOff) {
   Seen seen(60, [](int) { return 1.0; });
   const double before = seen.scale.typical();
   for (int frame = 0; frame < 5; ++frame) {
@@ -68,7 +68,7 @@ TEST(NoiseScale, isNotMovedByOneThatIsFarOff) {
   EXPECT_LT(seen.scale.of(seen.own[0]), 20.0);
 }
 
-TEST(NoiseScale, goesByTheOthersAtFirst) {
+TEST(NoiseScale, GoesByTheOthersAtFirst) {
   const Seen seen(100, [](int) { return 2.0; });
   EXPECT_EQ(seen.scale.of({}), seen.scale.typical());
 }

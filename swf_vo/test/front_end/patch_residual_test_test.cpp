@@ -8,7 +8,7 @@
 namespace swf_vo {
 namespace {
 
-TEST(PatchResidualTest, letsNoiseThroughAndStopsWhatIsTwoSurfaces) {
+TEST(PatchResidualTest, LetsNoiseThroughAndStopsWhatIsTwoSurfaces) {
   for (const double level : {1.0, 6.0}) {
     PatchResidualTest misfit;
     std::mt19937 random(1);
@@ -20,7 +20,7 @@ TEST(PatchResidualTest, letsNoiseThroughAndStopsWhatIsTwoSurfaces) {
   }
 }
 
-TEST(PatchResidualTest, learnsThatTheLightHasChanged) {
+TEST(PatchResidualTest, LearnsThatTheLightHasChanged) {
   PatchResidualTest misfit;
   for (int i = 0; i < 500; ++i) misfit.isTypical(1.0 + 0.001 * (i % 50));
   EXPECT_FALSE(misfit.isTypical(4.0));
@@ -28,7 +28,7 @@ TEST(PatchResidualTest, learnsThatTheLightHasChanged) {
   EXPECT_TRUE(misfit.isTypical(4.0));
 }
 
-TEST(PatchResidualTest, saysNothingBeforeItKnows) {
+TEST(PatchResidualTest, SaysNothingBeforeItKnows) {
   PatchResidualTest misfit;
   EXPECT_TRUE(misfit.isTypical(1.0));
   EXPECT_TRUE(misfit.isTypical(100.0));

@@ -46,7 +46,7 @@ RigConstants learnRig(const RigTruth& rig, int frames, std::uint32_t seed = 1) {
   return rows.evaluate();
 }
 
-TEST(RigRows, knowsItsPriorsBeforeAnythingIsSeen) {
+TEST(RigRows, KnowsItsPriorsBeforeAnythingIsSeen) {
   RigRows rows(rig_priors, rig_camera);
   EXPECT_EQ(rows.evaluate().roll_rad, 0.0);
   rows.learn();
@@ -54,7 +54,7 @@ TEST(RigRows, knowsItsPriorsBeforeAnythingIsSeen) {
   EXPECT_NEAR(rows.evaluate().delay_sigma_s, rig_priors.delay_s, 1e-9);
 }
 
-TEST(RigRows, findsRollAndDelayBesideAnOffset) {
+TEST(RigRows, FindsRollAndDelayBesideAnOffset) {
   const RigConstants found = learnRig({-0.7, 8e-4, -3e-4}, 300);
   EXPECT_NEAR(found.roll_rad, 8e-4, 3e-5);
   EXPECT_NEAR(found.delay_s, -3e-4, 3e-5);
@@ -62,19 +62,19 @@ TEST(RigRows, findsRollAndDelayBesideAnOffset) {
   EXPECT_LT(found.delay_sigma_s, 5e-5);
 }
 
-TEST(RigRows, findsWhatIsFarOutsideThePriors) {
+TEST(RigRows, FindsWhatIsFarOutsideThePriors) {
   const RigConstants found = learnRig({0.2, 1e-2, 2.8e-3}, 300);
   EXPECT_NEAR(found.roll_rad, 1e-2, 2e-4);
   EXPECT_NEAR(found.delay_s, 2.8e-3, 1e-4);
 }
 
-TEST(RigRows, outliersDoNotCarryItAway) {
+TEST(RigRows, OutliersDoNotCarryItAway) {
   const RigConstants found = learnRig({0.0, 5e-4, 1e-4, 0.1}, 300);
   EXPECT_NEAR(found.roll_rad, 5e-4, 6e-5);
   EXPECT_NEAR(found.delay_s, 1e-4, 6e-5);
 }
 
-TEST(RigRows, standingStillSaysNothingOfTheDelay) {
+TEST(RigRows, StandingStillSaysNothingOfTheDelay) {
   RigTruth rig{0.1, 5e-4, 3e-3};
   rig.moving = false;
   const RigConstants found = learnRig(rig, 300);
@@ -98,12 +98,12 @@ double varianceRatio(double place_px) {
   return squares / stated;
 }
 
-TEST(RigRows, sigmaHoldsForMatchesThatErrAlone) {
+TEST(RigRows, SigmaHoldsForMatchesThatErrAlone) {
   EXPECT_GT(varianceRatio(0.0), 0.4);
   EXPECT_LT(varianceRatio(0.0), 1.5);
 }
 
-TEST(RigRows, sigmaHoldsWherePlacesOfTheImageErr) {
+TEST(RigRows, SigmaHoldsWherePlacesOfTheImageErr) {
   EXPECT_GT(varianceRatio(0.15), 0.4);
   EXPECT_LT(varianceRatio(0.15), 2.0);
 }

@@ -23,7 +23,7 @@ std::vector<Match> landmarksAt(const std::vector<double>& depths) {
 
 SearchRadius makeRadius() { return {usual, {300.0, 300.0, 191.5, 143.5, 384, 288}, 100}; }
 
-TEST(SearchRadius, widensToTheUncertaintyOfThePrediction) {
+TEST(SearchRadius, WidensToTheUncertaintyOfThePrediction) {
   SearchRadius radius = makeRadius();
   radius.setUsual();
   radius.setLimit(0.01, Pose(), landmarksAt({2.0, 2.0, 2.0}));
@@ -34,7 +34,7 @@ TEST(SearchRadius, widensToTheUncertaintyOfThePrediction) {
   EXPECT_FALSE(radius.widen());
 }
 
-TEST(SearchRadius, isNeverWiderThanWhereNothingIsKnown) {
+TEST(SearchRadius, IsNeverWiderThanWhereNothingIsKnown) {
   SearchRadius radius = makeRadius();
   radius.setUsual();
   radius.setLimit(100.0, Pose(), landmarksAt({0.1}));
@@ -44,14 +44,14 @@ TEST(SearchRadius, isNeverWiderThanWhereNothingIsKnown) {
   EXPECT_LE(radius.px(), radius.anywhere());
 }
 
-TEST(SearchRadius, landmarksBehindTheCameraDoNotCount) {
+TEST(SearchRadius, LandmarksBehindTheCameraDoNotCount) {
   SearchRadius radius = makeRadius();
   radius.setUsual();
   radius.setLimit(0.15, Pose(), landmarksAt({-2.0, -0.1}));
   EXPECT_FALSE(radius.widen());
 }
 
-TEST(SearchRadius, followsTheErrorsOfTheLastFrame) {
+TEST(SearchRadius, FollowsTheErrorsOfTheLastFrame) {
   SearchRadius radius = makeRadius();
   radius.setLimit(0.0, Pose(), landmarksAt({2.0}));
   std::vector<double> errors(100, 3.0);

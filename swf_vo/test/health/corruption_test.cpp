@@ -70,7 +70,7 @@ cv::Mat stripes(int along_u, int along_v) {
   return image;
 }
 
-TEST(LooksCorrupted, sparesPicturesWhateverTheirTexture) {
+TEST(LooksCorrupted, SparesPicturesWhateverTheirTexture) {
   EXPECT_FALSE(looksCorrupted(toView(room())));
   for (const double sigma : {6.0, 20.0, 40.0}) EXPECT_FALSE(looksCorrupted(toView(withNoise(room(), sigma)))) << sigma;
   cv::Mat blurred;
@@ -85,25 +85,25 @@ TEST(LooksCorrupted, sparesPicturesWhateverTheirTexture) {
   EXPECT_FALSE(looksCorrupted(toView(cv::Mat::zeros(1, 20, CV_8U))));
 }
 
-TEST(LooksCorrupted, findsAnyShareOfRubbish) {
+TEST(LooksCorrupted, FindsAnyShareOfRubbish) {
   for (const double share : {0.05, 0.1, 0.3, 0.6, 0.9, 1.0})
     for (unsigned seed = 1; seed <= 5; ++seed)
       EXPECT_TRUE(looksCorrupted(toView(spoilt(room(), share, seed)))) << share << ", " << seed;
 }
 
-TEST(LooksCorrupted, findsHalfAnImageOfRubbish) {
+TEST(LooksCorrupted, FindsHalfAnImageOfRubbish) {
   cv::Mat image = room();
   fillWithRubbish(image.rowRange(image.rows / 2, image.rows), 3);
   EXPECT_TRUE(looksCorrupted(toView(image)));
 }
 
-TEST(LooksCorrupted, forgivesOneRow) {
+TEST(LooksCorrupted, ForgivesOneRow) {
   cv::Mat image = room();
   fillWithRubbish(image.row(100), 3);
   EXPECT_FALSE(looksCorrupted(toView(image)));
 }
 
-TEST(LooksCorrupted, findsRowsThatRectificationHasBent) {
+TEST(LooksCorrupted, FindsRowsThatRectificationHasBent) {
   // Barrel distortion as of a wide lens: the rows at the top sag by 14 px.
   cv::Mat map_u(288, 384, CV_32F), map_v(288, 384, CV_32F), bent;
   for (int v = 0; v < 288; ++v)
@@ -122,7 +122,7 @@ TEST(LooksCorrupted, findsRowsThatRectificationHasBent) {
 }
 
 // Small images have few places, and no lens has spread what was left out of larger ones.
-TEST(LooksCorrupted, sparesSmallImages) {
+TEST(LooksCorrupted, SparesSmallImages) {
   for (const int width : {70, 96, 128, 192})
     for (const int interpolation : {cv::INTER_NEAREST, cv::INTER_LINEAR, cv::INTER_AREA})
       for (const auto& frame : inTheRoom("loop", 1.0, 70).frames) {
@@ -132,13 +132,13 @@ TEST(LooksCorrupted, sparesSmallImages) {
       }
 }
 
-TEST(LooksCorrupted, isNoMatterOfTheImagesPlaceInMemory) {
+TEST(LooksCorrupted, IsNoMatterOfTheImagesPlaceInMemory) {
   const cv::Mat whole = spoilt(room(), 0.3);
   EXPECT_TRUE(looksCorrupted(toView(whole(cv::Rect(7, 5, 101, 77)))));
   EXPECT_FALSE(looksCorrupted(toView(room()(cv::Rect(7, 5, 101, 77)))));
 }
 
-TEST(LooksCorrupted, neverSaysSoOfRealImages) {
+TEST(LooksCorrupted, NeverSaysSoOfRealImages) {
   for (const char* name : {"stereo/kitti06_000_050", "stereo/kitti_raw_0926_0005"}) {
     const std::string folder = dataFolder(name);
     if (folder.empty()) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with " << name;
@@ -152,7 +152,7 @@ TEST(LooksCorrupted, neverSaysSoOfRealImages) {
   }
 }
 
-TEST(CorruptRowRepair, leavesWhatIsGoodWhereItIs) {
+TEST(CorruptRowRepair, LeavesWhatIsGoodWhereItIs) {
   const cv::Mat left = room(), right = room(), corrupted = spoilt(right, 0.3);
   CorruptRowRepair row_repair(left.cols, left.rows);
   const auto whole = row_repair.repair({5, toView(left), toView(right)});
@@ -169,7 +169,7 @@ TEST(CorruptRowRepair, leavesWhatIsGoodWhereItIs) {
   EXPECT_FALSE(other.repair({8, ImageView(), toView(corrupted)}).corrupted);
 }
 
-TEST(CorruptRowRepair, bridgesRubbishAndNothingElse) {
+TEST(CorruptRowRepair, BridgesRubbishAndNothingElse) {
   const cv::Mat good = room();
   CorruptRowRepair row_repair(good.cols, good.rows);
   for (const double share : {0.1, 0.3, 0.6}) {
@@ -189,7 +189,7 @@ TEST(CorruptRowRepair, bridgesRubbishAndNothingElse) {
 
 // A strip that is saturated has no texture at all, nor have rows that are missing: corrupted is found in the first, and
 // what is good stays beside the second.
-TEST(CorruptRowRepair, tellsAWhiteSkyFromMissingRows) {
+TEST(CorruptRowRepair, TellsAWhiteSkyFromMissingRows) {
   cv::Mat white = room();
   white.rowRange(0, 100).setTo(255);
   CorruptRowRepair row_repair(white.cols, white.rows);
@@ -205,7 +205,7 @@ TEST(CorruptRowRepair, tellsAWhiteSkyFromMissingRows) {
   EXPECT_EQ(meanDifference(repaired(holes).row(100), full.row(100)), 0.0);
 }
 
-TEST(CorruptRowRepair, survivesNothingButRubbishAndAllocatesNothing) {
+TEST(CorruptRowRepair, SurvivesNothingButRubbishAndAllocatesNothing) {
   cv::Mat corrupted(288, 384, CV_8U);
   fillWithRubbish(corrupted, 1);
   CorruptRowRepair row_repair(384, 288);

@@ -21,13 +21,13 @@ Evidence good() {
   return evidence;
 }
 
-TEST(HealthMonitor, isOkWithEnoughMatches) {
+TEST(HealthMonitor, IsOkWithEnoughMatches) {
   HealthMonitor monitor{Parameters()};
   EXPECT_EQ(monitor.judge(good()).health, Health::Ok);
   EXPECT_TRUE(monitor.judge(good()).sentence.empty());
 }
 
-TEST(HealthMonitor, isLostWithoutMatchesThenRecoveredForOneFrame) {
+TEST(HealthMonitor, IsLostWithoutMatchesThenRecoveredForOneFrame) {
   HealthMonitor monitor{Parameters()};
   monitor.judge(good());
   Evidence dark;
@@ -44,7 +44,7 @@ TEST(HealthMonitor, isLostWithoutMatchesThenRecoveredForOneFrame) {
   EXPECT_EQ(monitor.judge(good()).health, Health::Ok);
 }
 
-TEST(HealthMonitor, degradesWithFewMatchesAndSaysWhy) {
+TEST(HealthMonitor, DegradesWithFewMatchesAndSaysWhy) {
   const Parameters parameters;
   HealthMonitor monitor{parameters};
   Evidence few = good();
@@ -58,7 +58,7 @@ TEST(HealthMonitor, degradesWithFewMatchesAndSaysWhy) {
   EXPECT_EQ(monitor.judge(few).health, Health::Lost);
 }
 
-TEST(HealthMonitor, namesRowsAndCalibrationInsteadOfTooFewFeatures) {
+TEST(HealthMonitor, NamesRowsAndCalibrationInsteadOfTooFewFeatures) {
   const Parameters parameters;
   HealthMonitor monitor{parameters};
   Evidence few = good();
@@ -85,7 +85,7 @@ TEST(HealthMonitor, namesRowsAndCalibrationInsteadOfTooFewFeatures) {
   EXPECT_NE(monitor.judge(enough).health, Health::Degraded);
 }
 
-TEST(HealthMonitor, namesRubbishWhereTheRestIsGood) {
+TEST(HealthMonitor, NamesRubbishWhereTheRestIsGood) {
   HealthMonitor monitor{Parameters()};
   Evidence evidence = good();
   evidence.corrupted = true;
@@ -102,7 +102,7 @@ TEST(HealthMonitor, namesRubbishWhereTheRestIsGood) {
   EXPECT_EQ(monitor.judge(evidence).reason, static_cast<int>(Reason::Corrupted));
 }
 
-TEST(HealthMonitor, theFirstFrameIsJudgedByItsFeatures) {
+TEST(HealthMonitor, TheFirstFrameIsJudgedByItsFeatures) {
   HealthMonitor monitor{Parameters()};
   Evidence first;
   first.first = true;
@@ -113,7 +113,7 @@ TEST(HealthMonitor, theFirstFrameIsJudgedByItsFeatures) {
   EXPECT_EQ(blind.judge(first).health, Health::Lost);
 }
 
-TEST(Reasons, haveNamesOfTheirOwnAndSentences) {
+TEST(Reasons, HaveNamesOfTheirOwnAndSentences) {
   std::set<std::string> names;
   for (int i = 0; i <= static_cast<int>(Reason::Calibration); ++i) {
     names.insert(toString(static_cast<Reason>(i)));

@@ -49,7 +49,7 @@ struct CheckScene {
   }
 };
 
-TEST(ImageCheck, passesUsualPairs) {
+TEST(ImageCheck, PassesUsualPairs) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) {
     const ImageVerdict verdict = check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true);
@@ -60,7 +60,7 @@ TEST(ImageCheck, passesUsualPairs) {
 }
 
 // Suddenly white by half: of no use, until it has lasted so long that it is how the scene looks.
-TEST(ImageCheck, waitsForTheLightToComeBack) {
+TEST(ImageCheck, WaitsForTheLightToComeBack) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
   unsigned frame = 5;
@@ -77,7 +77,7 @@ TEST(ImageCheck, waitsForTheLightToComeBack) {
   EXPECT_TRUE(taken);
 }
 
-TEST(ImageCheck, namesAMissingImageAndImagesOfOtherSize) {
+TEST(ImageCheck, NamesAMissingImageAndImagesOfOtherSize) {
   const CheckScene scene(1, 12.0);
   ImageCheck check;
   StereoPair pair = scene.pair();
@@ -89,7 +89,7 @@ TEST(ImageCheck, namesAMissingImageAndImagesOfOtherSize) {
   EXPECT_FALSE(check.look(pair, false).usable);
 }
 
-TEST(ImageCheck, namesBlackAndWashedOutImages) {
+TEST(ImageCheck, NamesBlackAndWashedOutImages) {
   ImageCheck check;
   check.look(CheckScene(1, 12.0).pair(), false);
   EXPECT_EQ(check.look(CheckScene(2, 12.0, 0.0).pair(), false).reason, Reason::Dark);
@@ -97,7 +97,7 @@ TEST(ImageCheck, namesBlackAndWashedOutImages) {
   EXPECT_EQ(check.look(CheckScene(4, 12.0).pair(), false).reason, Reason::None);
 }
 
-TEST(ImageCheck, namesAFrozenCameraEvenIfOnlyOneIs) {
+TEST(ImageCheck, NamesAFrozenCameraEvenIfOnlyOneIs) {
   ImageCheck check;
   const CheckScene first(1, 12.0), second(2, 12.0);
   check.look(first.pair(), false);
@@ -109,7 +109,7 @@ TEST(ImageCheck, namesAFrozenCameraEvenIfOnlyOneIs) {
       << "the same scene with fresh noise is not frozen";
 }
 
-TEST(ImageCheck, namesAJumpOfExposureOnceAndThenGetsUsedToIt) {
+TEST(ImageCheck, NamesAJumpOfExposureOnceAndThenGetsUsedToIt) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) check.look(CheckScene(i, 12.0).pair(), false);
   EXPECT_EQ(check.look(CheckScene(10, 12.0, 2.2).pair(), false).reason, Reason::ExposureJump);
@@ -134,7 +134,7 @@ CheckScene stepped(unsigned seed, int times) {
   return scene;
 }
 
-TEST(ImageCheck, namesBlurAndGetsUsedToIt) {
+TEST(ImageCheck, NamesBlurAndGetsUsedToIt) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) EXPECT_EQ(check.look(stepped(i, 0).pair(), false).reason, Reason::None) << i;
   const ImageVerdict verdict = check.look(stepped(5, 2).pair(), false);
@@ -156,7 +156,7 @@ TEST(ImageCheck, DoesNotTakeOneSoftImageForBlur) {
   EXPECT_EQ(check.look(one_soft.pair(), false).reason, Reason::None);
 }
 
-TEST(ImageCheck, findsExchangedImagesAtTheStartAndLater) {
+TEST(ImageCheck, FindsExchangedImagesAtTheStartAndLater) {
   ImageCheck fresh;
   EXPECT_TRUE(fresh.look(CheckScene(1, 14.0).exchanged(), false).exchange);
   ImageCheck running;

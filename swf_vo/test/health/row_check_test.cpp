@@ -33,14 +33,14 @@ GreyImage displaced(const GreyImage& image, double roll_rad, double lower_px) {
   return result;
 }
 
-TEST(RowCheck, rectifiedRowsAgree) {
+TEST(RowCheck, RectifiedRowsAgree) {
   const StereoFrame frame = roomPair();
   const auto disagree = RowCheck().measure(frame.pair());
   ASSERT_TRUE(disagree.has_value());
   EXPECT_LE(*disagree, 1.0);
 }
 
-TEST(RowCheck, saysHowFarAnImageIsShifted) {
+TEST(RowCheck, SaysHowFarAnImageIsShifted) {
   for (const double lower : {-17.0, -6.0, 3.0, 12.0}) {
     StereoFrame frame = roomPair();
     frame.right = displaced(frame.right, 0.0, lower);
@@ -52,7 +52,7 @@ TEST(RowCheck, saysHowFarAnImageIsShifted) {
 }
 
 // A quarter of the width is as far from the axis as the median point of an image.
-TEST(RowCheck, seesARoll) {
+TEST(RowCheck, SeesARoll) {
   constexpr double roll = 0.05;
   StereoFrame frame = roomPair();
   frame.right = displaced(frame.right, roll, 0.0);
@@ -61,13 +61,13 @@ TEST(RowCheck, seesARoll) {
   EXPECT_NEAR(*disagree, roll * 0.25 * frame.left.width, 0.5 * roll * 0.25 * frame.left.width);
 }
 
-TEST(RowCheck, saysNothingOfImagesThatAreNoPair) {
+TEST(RowCheck, SaysNothingOfImagesThatAreNoPair) {
   StereoFrame frame = roomPair();
   std::fill(frame.right.pixels.begin(), frame.right.pixels.end(), std::uint8_t{100});
   EXPECT_FALSE(RowCheck().measure(frame.pair()).has_value());
 }
 
-TEST(RowCheck, measuresAPairInTwenty) {
+TEST(RowCheck, MeasuresAPairInTwenty) {
   const StereoFrame straight = roomPair();
   StereoFrame lower = straight;
   lower.right = displaced(lower.right, 0.0, 12.0);
@@ -79,7 +79,7 @@ TEST(RowCheck, measuresAPairInTwenty) {
   EXPECT_NEAR(rows.measureSometimes(straight.pair()).value_or(0.0), 12.0, 1.0);
 }
 
-TEST(SwfVo, namesImagesThatAreNotRectified) {
+TEST(SwfVo, NamesImagesThatAreNotRectified) {
   const Recording& room = inTheRoom("loop", 1.0, 10);
   SwfVo filter(Parameters(), stereoCamera(), urban_nav_core::Pose());
   for (std::size_t i = 0; i < 5; ++i) {

@@ -69,7 +69,7 @@ class SwfVoNodelet : public ::testing::Test {
 Graph* SwfVoNodelet::graph_ = nullptr;
 RenderedSequence* SwfVoNodelet::sequence_ = nullptr;
 
-TEST_F(SwfVoNodelet, agreesWithTheCoreToTheLastBit) {
+TEST_F(SwfVoNodelet, AgreesWithTheCoreToTheLastBit) {
   constexpr int count = 24;
   ASSERT_TRUE(play(0, count));
   ASSERT_TRUE(graph().call("reset"));  // what is in the window leaves
@@ -105,7 +105,7 @@ TEST_F(SwfVoNodelet, agreesWithTheCoreToTheLastBit) {
       << "it did move";
 }
 
-TEST_F(SwfVoNodelet, aPartnerThatDoesNotComeIsNamedWithItsDelay) {
+TEST_F(SwfVoNodelet, APartnerThatDoesNotComeIsNamedWithItsDelay) {
   ASSERT_TRUE(play(0, 6));
   const auto named = [&] {
     for (const auto& array : graph().diagnostics)
@@ -129,7 +129,7 @@ TEST_F(SwfVoNodelet, aPartnerThatDoesNotComeIsNamedWithItsDelay) {
   EXPECT_NE(graph().frames[7].status, urban_nav_msgs::VoFrame::OK);
 }
 
-TEST_F(SwfVoNodelet, timeGoingBackBeginsANewSession) {
+TEST_F(SwfVoNodelet, TimeGoingBackBeginsANewSession) {
   ASSERT_TRUE(play(40, 5));
   EXPECT_EQ(graph().frames.back().frame, 4U);
   ASSERT_TRUE(play(0, 5));
@@ -140,7 +140,7 @@ TEST_F(SwfVoNodelet, timeGoingBackBeginsANewSession) {
   EXPECT_TRUE(Graph::until([&] { return graph().relative.size() == 4U; })) << "the session before was flushed";
 }
 
-TEST_F(SwfVoNodelet, anotherCalibrationBeginsANewSession) {
+TEST_F(SwfVoNodelet, AnotherCalibrationBeginsANewSession) {
   ASSERT_TRUE(play(0, 4));
   StereoCamera other = camera();
   other.baseline = 0.2;
@@ -149,7 +149,7 @@ TEST_F(SwfVoNodelet, anotherCalibrationBeginsANewSession) {
   EXPECT_TRUE(showUntilASessionBegins(40, camera()));
 }
 
-TEST_F(SwfVoNodelet, pauseDropsInputsAndResumeGoesOn) {
+TEST_F(SwfVoNodelet, PauseDropsInputsAndResumeGoesOn) {
   ASSERT_TRUE(play(0, 6));
   ASSERT_TRUE(graph().call("pause"));
   for (int i = 6; i < 9; ++i) graph().publish(sequence().frame(i), camera());
@@ -161,7 +161,7 @@ TEST_F(SwfVoNodelet, pauseDropsInputsAndResumeGoesOn) {
   EXPECT_EQ(graph().frames.back().frame, 8U) << "the session went on";
 }
 
-TEST_F(SwfVoNodelet, showsLandmarksAndTracks) {
+TEST_F(SwfVoNodelet, ShowsLandmarksAndTracks) {
   ASSERT_TRUE(play(0, 6));
   ASSERT_TRUE(Graph::until([&] { return graph().landmarks.size() == 6 && !graph().tracks.empty(); }));
   EXPECT_GT(graph().landmarks.back().width, 15U);
@@ -171,7 +171,7 @@ TEST_F(SwfVoNodelet, showsLandmarksAndTracks) {
   EXPECT_EQ(graph().tracks.back().height, 240U);
 }
 
-TEST_F(SwfVoNodelet, theStatusWaitsForLateSubscribers) {
+TEST_F(SwfVoNodelet, TheStatusWaitsForLateSubscribers) {
   ASSERT_TRUE(play(0, 3));
   const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("swf_vo/status", ros::Duration(5.0));
   ASSERT_TRUE(status);

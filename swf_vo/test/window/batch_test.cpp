@@ -10,7 +10,7 @@ namespace {
 
 using urban_nav_core::isApprox;
 
-TEST(Window, longerThanTheRunEqualsTheBatch) {
+TEST(Window, LongerThanTheRunEqualsTheBatch) {
   urban_nav_core::testing::TrackOptions motion;
   motion.seed = 3;
   motion.frames = 15;

@@ -26,7 +26,7 @@ double largestDifference(const Matrix6d& P, const Matrix6d& Q) {
   return (scale.asDiagonal() * (P - Q) * scale.asDiagonal()).cwiseAbs().maxCoeff();
 }
 
-TEST(Datum, heldAnewChangesNothing) {
+TEST(Datum, HeldAnewChangesNothing) {
   // Noise so small that the world is linear: all that is left is algebra.
   const auto tracks = turning(130, 1e-3);
   WindowOptions often, never;
@@ -51,7 +51,7 @@ TEST(Datum, heldAnewChangesNothing) {
   }
 }
 
-TEST(Datum, givesProperCovariancesHeldAtEachStep) {
+TEST(Datum, GivesProperCovariancesHeldAtEachStep) {
   const auto tracks = turning(60, 0.5);
   WindowOptions options;
   options.datum_ratio = 1.0;
@@ -105,7 +105,7 @@ double meanNees(std::size_t length, urban_nav_core::testing::TrackMotion kind) {
   return sum / ways;
 }
 
-TEST(Datum, driftAddsUpOverAnyNumberOfSteps) {
+TEST(Datum, DriftAddsUpOverAnyNumberOfSteps) {
   using urban_nav_core::testing::TrackMotion;
   for (const TrackMotion kind : {TrackMotion::Mixed, TrackMotion::Standing}) {
     EXPECT_NEAR(meanNees(1, kind), 6.0, 0.7);
@@ -114,7 +114,7 @@ TEST(Datum, driftAddsUpOverAnyNumberOfSteps) {
   }
 }
 
-TEST(Datum, theRigsScaleIsOneErrorOfTheWholePath) {
+TEST(Datum, TheRigsScaleIsOneErrorOfTheWholePath) {
   const auto tracks = turning(60, 0.5);
   WindowOptions exact, off;
   off.rig_scale = 0.02;

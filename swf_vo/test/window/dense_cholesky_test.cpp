@@ -19,7 +19,7 @@ DenseMatrix example(int n) {
 
 double at(const DenseMatrix& A, int i, int j) { return i >= j ? A(i, j) : A(j, i); }
 
-TEST(DenseCholesky, factorsAndSolvesAtEverySize) {
+TEST(DenseCholesky, FactorsAndSolvesAtEverySize) {
   for (const int n : {1, 5, 8, 47, 48, 49, 96, 131}) {
     const DenseMatrix A = example(n);
     DenseMatrix L = A;
@@ -36,7 +36,7 @@ TEST(DenseCholesky, factorsAndSolvesAtEverySize) {
   }
 }
 
-TEST(DenseCholesky, givesTheSameBitsWithEveryInstructionSet) {
+TEST(DenseCholesky, GivesTheSameBitsWithEveryInstructionSet) {
   const int n = 131;
   const auto sets = kernels::instructionSets();
   std::vector<DenseMatrix> factors;
@@ -48,7 +48,7 @@ TEST(DenseCholesky, givesTheSameBitsWithEveryInstructionSet) {
   }
 }
 
-TEST(DenseCholesky, holdsWhatIsNotDetermined) {
+TEST(DenseCholesky, HoldsWhatIsNotDetermined) {
   // Two coordinates that only their difference is known of: the later one is held, the earlier one answers.
   DenseMatrix A;
   A.reset(3);
@@ -67,7 +67,7 @@ TEST(DenseCholesky, holdsWhatIsNotDetermined) {
   EXPECT_DOUBLE_EQ(x[2], 0.0);
 }
 
-TEST(StripProduct, subtractsAProduct) {
+TEST(StripProduct, SubtractsAProduct) {
   const int n = 21, columns = 7, stride = 24;
   std::vector<double> B(static_cast<std::size_t>(stride * columns));
   for (std::size_t i = 0; i < B.size(); ++i) B[i] = std::sin(0.37 * static_cast<double>(i));

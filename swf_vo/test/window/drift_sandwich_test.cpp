@@ -99,33 +99,33 @@ DriftSandwich::Ratio learnt(int count, int landmarks, const Errors& errors) {
   return generations(count, landmarks, errors).sandwich.ratio();
 }
 
-TEST(DriftSandwich, isOneWhereTheModelIsRight) {
+TEST(DriftSandwich, IsOneWhereTheModelIsRight) {
   const DriftSandwich::Ratio ratio = learnt(60, 60, {});
   EXPECT_NEAR(ratio.translation, 1.0, 0.25);
   EXPECT_NEAR(ratio.rotation, 1.0, 0.25);
 }
 
-TEST(DriftSandwich, correctsForLeverage) {
+TEST(DriftSandwich, CorrectsForLeverage) {
   // Three unknowns from six landmarks each: residuals have half of the variance.
   const DriftSandwich::Ratio ratio = learnt(300, 12, {});
   EXPECT_NEAR(ratio.translation, 1.0, 0.3);
   EXPECT_NEAR(ratio.rotation, 1.0, 0.3);
 }
 
-TEST(DriftSandwich, tellsTranslationFromRotation) {
+TEST(DriftSandwich, TellsTranslationFromRotation) {
   const DriftSandwich::Ratio ratio = learnt(60, 60, {2.0, 0.7});
   EXPECT_NEAR(ratio.translation, 4.0, 1.0);
   EXPECT_NEAR(ratio.rotation, 0.49, 0.15);
 }
 
-TEST(DriftSandwich, seesWhatASurfaceShares) {
+TEST(DriftSandwich, SeesWhatASurfaceShares) {
   const Generations shared = generations(400, 60, {1.0, 1.0, 6.0});
   const double truth = shared.squared / shared.stated;
   EXPECT_GT(truth, 4.0);
   EXPECT_NEAR(std::log(shared.sandwich.ratio().translation / truth), 0.0, std::log(2.0));
 }
 
-TEST(DriftSandwich, fewLandmarksLeaveTheModelAsItIs) {
+TEST(DriftSandwich, FewLandmarksLeaveTheModelAsItIs) {
   EXPECT_EQ(DriftSandwich().ratio().translation, 1.0);
   EXPECT_EQ(DriftSandwich().ratio().rotation, 1.0);
   const DriftSandwich few = generations(1, 6, {3.0, 3.0}).sandwich, many = generations(100, 60, {3.0, 3.0}).sandwich;
@@ -134,7 +134,7 @@ TEST(DriftSandwich, fewLandmarksLeaveTheModelAsItIs) {
   EXPECT_NEAR(many.ratio().rotation, 9.0, 2.5);
 }
 
-TEST(DriftSandwich, forgetsAsTheViewChanges) {
+TEST(DriftSandwich, ForgetsAsTheViewChanges) {
   const DriftSandwich before = generations(60, 60, {3.0, 3.0}).sandwich;
   DriftSandwich standing = before;
   standing.advance(0.0);
@@ -218,14 +218,14 @@ Ratios againstTruth(double px_a_frame, TrackMotion motion, bool robust) {
   return ratios;
 }
 
-TEST(DriftSandwich, findsTheDriftOfLandmarksThatDrift) {
+TEST(DriftSandwich, FindsTheDriftOfLandmarksThatDrift) {
   for (const TrackMotion motion : {TrackMotion::Turning, TrackMotion::Straight}) {
     EXPECT_GT(againstTruth(0.03, motion, false).rotation(), 2.5);
     EXPECT_NEAR(std::log(againstTruth(0.03, motion, true).rotation()), 0.0, std::log(2.0));
   }
 }
 
-TEST(DriftSandwich, leavesTheDriftOfLandmarksThatKeepStill) {
+TEST(DriftSandwich, LeavesTheDriftOfLandmarksThatKeepStill) {
   for (const TrackMotion motion : {TrackMotion::Turning, TrackMotion::Straight}) {
     const Ratios ratios = againstTruth(0.0, motion, true);
     EXPECT_NEAR(std::log(ratios.translation()), 0.0, std::log(2.0));
@@ -234,7 +234,7 @@ TEST(DriftSandwich, leavesTheDriftOfLandmarksThatKeepStill) {
 }
 
 // Two filters with every other landmark each have errors of their own, so what lies between them needs no truth.
-TEST(DriftSandwich, agreesWithTheJackknifeOfOddAndEvenLandmarks) {
+TEST(DriftSandwich, AgreesWithTheJackknifeOfOddAndEvenLandmarks) {
   const auto between = [](bool robust) {
     Ratios ratios;
     for (std::uint64_t seed = 50; seed < 58; ++seed) {
@@ -254,7 +254,7 @@ TEST(DriftSandwich, agreesWithTheJackknifeOfOddAndEvenLandmarks) {
   EXPECT_NEAR(std::log(robust.translation()), 0.0, std::log(2.5));
 }
 
-TEST(DriftSandwich, changesNoPose) {
+TEST(DriftSandwich, ChangesNoPose) {
   const Tracks tracks = drifting(0.02, TrackMotion::Turning, 3, 120);
   const OdometryChain model = odometry(tracks, false), robust = odometry(tracks, true);
   for (std::int64_t i = 1; i < 100; ++i) {

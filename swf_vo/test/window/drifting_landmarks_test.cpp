@@ -47,7 +47,7 @@ std::map<LandmarkId, int> driftingLandmarks(const urban_nav_core::testing::Track
 }
 
 // Three landmarks slide by less per frame than a measurement's standard deviation.
-TEST(DriftingLandmarks, findsWhatSlidesSlowly) {
+TEST(DriftingLandmarks, FindsWhatSlidesSlowly) {
   const auto tracks = simulateTracks(sixtyFeatures(3));
   const auto sliding = [](LandmarkId landmark) { return landmark < 30 && landmark % 10 == 0; };
   const auto found = driftingLandmarks(tracks, [&](LandmarkId landmark, std::size_t i) {
@@ -64,7 +64,7 @@ TEST(DriftingLandmarks, findsWhatSlidesSlowly) {
   }
 }
 
-TEST(DriftingLandmarks, leavesWhatKeepsStillAlone) {
+TEST(DriftingLandmarks, LeavesWhatKeepsStillAlone) {
   std::size_t called = 0, landmarks = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto tracks = simulateTracks(sixtyFeatures(seed));
@@ -74,7 +74,7 @@ TEST(DriftingLandmarks, leavesWhatKeepsStillAlone) {
   EXPECT_LT(called, landmarks / 50);
 }
 
-TEST(DriftingLandmarks, judgesNothingWithoutKnowingHowWellItWasAligned) {
+TEST(DriftingLandmarks, JudgesNothingWithoutKnowingHowWellItWasAligned) {
   const auto tracks = simulateTracks(sixtyFeatures(5));
   TrackRunner run(tracks, WindowOptions());
   while (!run.done()) {

@@ -12,7 +12,7 @@ using urban_nav_core::Matrix6d;
 
 class WindowOne : public ::testing::TestWithParam<bool> {};
 
-TEST_P(WindowOne, equalsTheExtendedKalmanFilter) {
+TEST_P(WindowOne, EqualsTheExtendedKalmanFilter) {
   auto motion = mixedMotion(50, 0.5, 7);
   motion.features = 15;
   motion.track_length = 6.0;

@@ -32,7 +32,7 @@ Vector3d computeTheta(const Anchor& anchor, const Eigen::Vector4d& point) {
   return Vector3d(p.x() / p.z(), p.y() / p.z(), point.w() / p.z());
 }
 
-TEST(Gauge, movesAPoseAsTheWorldMoves) {
+TEST(Gauge, MovesAPoseAsTheWorldMoves) {
   const Matrix6d G = gauge::ofPose(T_odom_camera, origin);
   constexpr double h = 1e-6;
   for (int c = 0; c < 6; ++c) {
@@ -42,7 +42,7 @@ TEST(Gauge, movesAPoseAsTheWorldMoves) {
   }
 }
 
-TEST(Gauge, movesALandmarkAsTheWorldMoves) {
+TEST(Gauge, MovesALandmarkAsTheWorldMoves) {
   const Anchor anchor = someAnchor();
   constexpr double h = 1e-6;
   for (const double rho : {0.3, 1e-3, 0.0, -0.01}) {
@@ -61,7 +61,7 @@ TEST(Gauge, movesALandmarkAsTheWorldMoves) {
   }
 }
 
-TEST(Gauge, isSeenByNoTerm) {
+TEST(Gauge, IsSeenByNoTerm) {
   const Anchor anchor = someAnchor();
   const Vector3d theta(0.2, -0.3, 0.15);
   const SensorModel sensor(urban_nav_core::testing::simulateTracks({}).camera);
@@ -75,7 +75,7 @@ TEST(Gauge, isSeenByNoTerm) {
   EXPECT_LT((step.last * gauge::ofPose(T_odom_camera, origin) + step.next * gauge::ofPose(near, origin)).norm(), 1e-12);
 }
 
-TEST(Gauge, isTransportedBetweenOrigins) {
+TEST(Gauge, IsTransportedBetweenOrigins) {
   const Vector3d other(-3.0, 1.0, 2.0);
   EXPECT_LT(
       (gauge::ofPose(T_odom_camera, other) * gauge::transport(origin, other) - gauge::ofPose(T_odom_camera, origin))

@@ -107,7 +107,7 @@ urban_nav_core::testing::TrackOptions shortTracks(int frames) {
   return motion;
 }
 
-TEST(Information, isTheSchurComplementOfTheBatch) {
+TEST(Information, IsTheSchurComplementOfTheBatch) {
   const auto tracks = urban_nav_core::testing::simulateTracks(shortTracks(30));
   WindowOptions options;
   options.size = 5;
@@ -182,13 +182,13 @@ Eigen::VectorXd relativeEigenvalues(bool linearise_first) {
   return *values / values->tail<1>()[0];
 }
 
-TEST(Information, staysEmptyInTheSixDirectionsOfTheGauge) {
+TEST(Information, StaysEmptyInTheSixDirectionsOfTheGauge) {
   const Eigen::VectorXd values = relativeEigenvalues(true);
   EXPECT_LT(values.head<6>().cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_GT(values[6], 1e-9) << "and no more than six";
 }
 
-TEST(Information, ofTheTextbookFillsThem) { EXPECT_GT(relativeEigenvalues(false)[3], 1e-9); }
+TEST(Information, OfTheTextbookFillsThem) { EXPECT_GT(relativeEigenvalues(false)[3], 1e-9); }
 
 }  // namespace
 }  // namespace swf_vo

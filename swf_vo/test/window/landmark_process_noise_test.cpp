@@ -39,7 +39,7 @@ Prior somePrior(bool offset) {
   return prior;
 }
 
-TEST(LandmarkProcessNoise, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothingToTheMean) {
+TEST(LandmarkProcessNoise, AddsItsCovarianceToThatOfTheBlocksThatMovedAndNothingToTheMean) {
   Prior prior = somePrior(true);
   const int n = prior.size();
   const Eigen::MatrixXd before = full(prior);
@@ -75,7 +75,7 @@ TEST(LandmarkProcessNoise, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothing
   EXPECT_GT((full(prior) - before).norm(), 1e-3) << "something has happened";
 }
 
-TEST(LandmarkProcessNoise, keepsWhatTheDepartedPoseOwes) {
+TEST(LandmarkProcessNoise, KeepsWhatTheDepartedPoseOwes) {
   // d_left = gain d + offset_gain o, with d before the step; afterwards said of d + w, it has the same covariance with
   // it.
   Prior prior = somePrior(false);

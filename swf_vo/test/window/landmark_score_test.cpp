@@ -77,7 +77,7 @@ std::vector<Vector3d> somePoints() {
   return points;
 }
 
-TEST(LandmarkScore, landmarksTogetherFindTheDrift) {
+TEST(LandmarkScore, LandmarksTogetherFindTheDrift) {
   Vector6d drift;
   drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;
   Matrix6d information = Matrix6d::Zero();
@@ -94,7 +94,7 @@ TEST(LandmarkScore, landmarksTogetherFindTheDrift) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
 }
 
-TEST(LandmarkScore, landmarksTogetherFindDriftAndOffset) {
+TEST(LandmarkScore, LandmarksTogetherFindDriftAndOffset) {
   Vector6d drift;
   drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;
   constexpr double offset_px = 0.02;
@@ -116,7 +116,7 @@ TEST(LandmarkScore, landmarksTogetherFindDriftAndOffset) {
   EXPECT_NEAR(found[6], -offset_px, 0.05 * offset_px) << "a larger offset moves what the right image shows to the left";
 }
 
-TEST(LandmarkScore, isSaidAboutTheCamera) {
+TEST(LandmarkScore, IsSaidAboutTheCamera) {
   Vector6d drift;
   drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;
   const DriftScore first = SeenLandmark({0.5, 0.2, 4.0}, 10, drift).score().evaluate(Pose());
@@ -132,14 +132,14 @@ TEST(LandmarkScore, isSaidAboutTheCamera) {
   EXPECT_LT((other.information - T.transpose() * first.information * T).norm(), 1e-9 * first.information.norm());
 }
 
-TEST(LandmarkScore, whereTheClockStartsDoesNotMatter) {
+TEST(LandmarkScore, WhereTheClockStartsDoesNotMatter) {
   const SeenLandmark seen({0.5, 0.2, 4.0}, 10, Vector6d::Constant(0.002), 0.3);
   const DriftScore a = seen.score(0.0).evaluate(Pose()), b = seen.score(7.0).evaluate(Pose());
   EXPECT_LT((a.score - b.score).norm(), 1e-6 * a.score.norm());
   EXPECT_LT((a.information - b.information).norm(), 1e-6 * a.information.norm());
 }
 
-TEST(LandmarkScore, whereTheLandmarkIsTakenToBeDoesNotMatter) {
+TEST(LandmarkScore, WhereTheLandmarkIsTakenToBeDoesNotMatter) {
   SeenLandmark seen({0.5, 0.2, 4.0}, 10, Vector6d::Constant(0.002), 0.3);
   const DriftScore at_truth = seen.score().evaluate(Pose());
   seen.landmark.estimate += Vector3d(1e-4, -1e-4, 1e-5);
@@ -147,7 +147,7 @@ TEST(LandmarkScore, whereTheLandmarkIsTakenToBeDoesNotMatter) {
   EXPECT_LT((at_truth.score - beside.score).norm(), 1e-2 * at_truth.score.norm());
 }
 
-TEST(LandmarkScore, hasTheVarianceOfItsInformation) {
+TEST(LandmarkScore, HasTheVarianceOfItsInformation) {
   Matrix6d squares = Matrix6d::Zero(), information = Matrix6d::Zero();
   constexpr int runs = 2000;
   for (unsigned seed = 0; seed < runs; ++seed) {
@@ -159,7 +159,7 @@ TEST(LandmarkScore, hasTheVarianceOfItsInformation) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares(i, i) / information(i, i), 1.0, 5.0 * std::sqrt(2.0 / runs)) << i;
 }
 
-TEST(LandmarkScore, ageingLosesInformationAndIsAdditive) {
+TEST(LandmarkScore, AgeingLosesInformationAndIsAdditive) {
   const SeenLandmark seen({0.5, 0.2, 4.0}, 10, Vector6d::Constant(0.002), 0.3);
   Eigen::Matrix2d Q;
   Q << 3e-6, 1e-6, 1e-6, 2e-6;
@@ -175,7 +175,7 @@ TEST(LandmarkScore, ageingLosesInformationAndIsAdditive) {
   EXPECT_LT((a.information - fresh).norm(), 1e-9 * fresh.norm());
 }
 
-TEST(LandmarkScore, agedBetweenMeasurementsItKnowsLess) {
+TEST(LandmarkScore, AgedBetweenMeasurementsItKnowsLess) {
   const SeenLandmark seen({0.5, 0.2, 4.0}, 10, Vector6d::Zero(), 0.3);
   const Cost cost(SensorModel(camera()), 0.0, true);
   LandmarkScore aged;

@@ -59,11 +59,11 @@ OffsetSandwich learnOffset(int landmarks, const OffsetErrors& errors) {
   return sandwich;
 }
 
-TEST(OffsetSandwich, isAsTakenBeforeLandmarksHaveDied) {
+TEST(OffsetSandwich, IsAsTakenBeforeLandmarksHaveDied) {
   EXPECT_EQ(OffsetSandwich().ratio(caution_alone), caution_alone);
 }
 
-TEST(OffsetSandwich, goesToOneWhereTheModelIsRight) {
+TEST(OffsetSandwich, GoesToOneWhereTheModelIsRight) {
   const OffsetSandwich sandwich = learnOffset(4000, {});
   // Forty places, whose landmarks count together: the weight of what is taken is 4 to 40.
   EXPECT_LT(sandwich.ratio(caution_alone), 4.0);
@@ -71,17 +71,17 @@ TEST(OffsetSandwich, goesToOneWhereTheModelIsRight) {
   EXPECT_GT(learnOffset(30, {}).ratio(caution_alone), sandwich.ratio(caution_alone));
 }
 
-TEST(OffsetSandwich, followsTheVarianceOfErrors) {
+TEST(OffsetSandwich, FollowsTheVarianceOfErrors) {
   const double one = learnOffset(4000, {}).ratio(1.0), three = learnOffset(4000, {3.0}).ratio(1.0);
   EXPECT_NEAR(std::log(three / one) / std::log(9.0), 1.0, 0.15);
 }
 
-TEST(OffsetSandwich, seesWhatAPlaceShares) {
+TEST(OffsetSandwich, SeesWhatAPlaceShares) {
   const double alone = learnOffset(4000, {}).ratio(1.0), shared = learnOffset(4000, {1.0, 2.0}).ratio(1.0);
   EXPECT_GT(shared, 3.0 * alone);
 }
 
-TEST(OffsetSandwich, isBlindToTheDriftOfTheCamera) {
+TEST(OffsetSandwich, IsBlindToTheDriftOfTheCamera) {
   const double still = learnOffset(4000, {}).ratio(1.0), drifting = learnOffset(4000, {1.0, 0.0, true}).ratio(1.0);
   EXPECT_NEAR(std::log(drifting / still), 0.0, std::log(1.5));
 }
@@ -115,7 +115,7 @@ StatedOffsets statedOffsets(bool robust) {
 }
 
 // Where all that the model leaves out is nothing, the cautious estimate is known far better than its caution has it.
-TEST(OffsetSandwich, statesHowWellAWindowKnowsTheOffset) {
+TEST(OffsetSandwich, StatesHowWellAWindowKnowsTheOffset) {
   const StatedOffsets model = statedOffsets(false), robust = statedOffsets(true);
   EXPECT_EQ(model.squared, robust.squared);
   EXPECT_LT(model.squared / model.stated, 0.5);

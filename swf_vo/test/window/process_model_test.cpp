@@ -22,11 +22,11 @@ Pose nextAt(double translation, double angle) {
   return boxPlus(last * u, off);
 }
 
-TEST(ProcessModel, predictionHasNoResidual) {
+TEST(ProcessModel, PredictionHasNoResidual) {
   EXPECT_LT(process_model::residual(last, process_model::predict(last, {u, Matrix6d::Zero()}), u).e.norm(), 1e-14);
 }
 
-TEST(ProcessModel, jacobiansHoldAtLargeResiduals) {
+TEST(ProcessModel, JacobiansHoldAtLargeResiduals) {
   for (const auto& [translation, angle] : {std::pair{0.0, 0.0}, {0.01, 0.01}, {0.5, 0.7}}) {
     const Pose next = nextAt(translation, angle);
     const auto at = process_model::residual(last, next, u);
@@ -39,7 +39,7 @@ TEST(ProcessModel, jacobiansHoldAtLargeResiduals) {
   }
 }
 
-TEST(ProcessModel, movingBothPosesTogetherChangesNothing) {
+TEST(ProcessModel, MovingBothPosesTogetherChangesNothing) {
   const Pose next = nextAt(0.5, 0.7);
   const auto at = process_model::residual(last, next, u);
   const auto moves = [](const Pose& T) {

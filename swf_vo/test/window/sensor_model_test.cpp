@@ -37,7 +37,7 @@ const Vector6d offsets[] = {Vector6d::Zero(), poseTangent(0.02, -0.01, 0.03, 0.0
                             poseTangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
 const Vector3d thetas[] = {{0.1, -0.2, 0.3}, {-0.3, 0.1, 0.01}, {0.2, 0.2, 0.0}, {0.0, 0.1, -0.02}, {0.1, 0.0, 0.5}};
 
-TEST(SensorModel, jacobiansAreThoseOfThePrediction) {
+TEST(SensorModel, JacobiansAreThoseOfThePrediction) {
   const ModelScene scene;
   for (const Vector6d& offset : offsets)
     for (const Vector3d& theta : thetas) {
@@ -60,7 +60,7 @@ TEST(SensorModel, jacobiansAreThoseOfThePrediction) {
     }
 }
 
-TEST(SensorModel, agreesWithTheCameraAndWithItsOwnInverse) {
+TEST(SensorModel, AgreesWithTheCameraAndWithItsOwnInverse) {
   const ModelScene scene;
   const Vector3d z(300.0, 120.0, 290.0);
   const Vector3d theta = scene.model.invert(z);
@@ -74,7 +74,7 @@ TEST(SensorModel, agreesWithTheCameraAndWithItsOwnInverse) {
   EXPECT_LT((again - *expected).norm(), 1e-10);
 }
 
-TEST(SensorModel, movingEverythingTogetherChangesNothing) {
+TEST(SensorModel, MovingEverythingTogetherChangesNothing) {
   const ModelScene scene;
   const Vector3d theta(0.1, -0.2, 0.3);
   const Pose pose = boxPlus(scene.T_odom_anchor, offsets[2]);
@@ -96,7 +96,7 @@ TEST(SensorModel, movingEverythingTogetherChangesNothing) {
   EXPECT_LT((at.pose() * pose_moves + at.landmark * by_point * point_moves).norm(), 1e-6 * at.pose().norm());
 }
 
-TEST(SensorModel, refusesWhatIsBehind) {
+TEST(SensorModel, RefusesWhatIsBehind) {
   const ModelScene scene;
   Vector3d z;
   SensorModel::Linearised at;

@@ -79,11 +79,11 @@ void expectSame(const System& system, bool datum) {
     }
 }
 
-TEST(Solver, bothWaysGiveTheSame) { expectSame(systemAfter(30, 8, 20), false); }
-TEST(Solver, bothWaysGiveTheSameWithoutAPriorMap) { expectSame(systemAfter(9, 12, 20), false); }
-TEST(Solver, bothWaysGiveTheSameWithADatum) { expectSame(systemAfter(30, 8, 20, false), true); }
+TEST(Solver, BothWaysGiveTheSame) { expectSame(systemAfter(30, 8, 20), false); }
+TEST(Solver, BothWaysGiveTheSameWithoutAPriorMap) { expectSame(systemAfter(9, 12, 20), false); }
+TEST(Solver, BothWaysGiveTheSameWithADatum) { expectSame(systemAfter(30, 8, 20, false), true); }
 
-TEST(Solver, choosesTheCheaperWay) {
+TEST(Solver, ChoosesTheCheaperWay) {
   const System many_landmarks = systemAfter(30, 8, 40);
   Solver solver;
   solver.factor(many_landmarks.state, many_landmarks.prior, many_landmarks.equations, false);

@@ -55,7 +55,7 @@ void expectSame(const Window& a, const Window& b, double tolerance) {
   EXPECT_LT((P - Q).cwiseAbs().maxCoeff(), tolerance * P.cwiseAbs().maxCoeff());
 }
 
-TEST(Undo, withdrawnMeasurementLeavesNoTrace) {
+TEST(Undo, WithdrawnMeasurementLeavesNoTrace) {
   const auto tracks = someTracks();
   const LandmarkId landmark = victim(tracks);
   ASSERT_GE(landmark, 0);
@@ -76,7 +76,7 @@ TEST(Undo, withdrawnMeasurementLeavesNoTrace) {
       << "it made no difference";
 }
 
-TEST(Undo, lateMeasurementCountsAsIfInTime) {
+TEST(Undo, LateMeasurementCountsAsIfInTime) {
   const auto tracks = someTracks();
   const LandmarkId landmark = victim(tracks);
   Observation late;
@@ -96,7 +96,7 @@ TEST(Undo, lateMeasurementCountsAsIfInTime) {
   expectSame(had.window, always.window, 1e-9);
 }
 
-TEST(Undo, aLandmarkTakenBackInTheMiddleOfAStepIsGone) {
+TEST(Undo, ALandmarkTakenBackInTheMiddleOfAStepIsGone) {
   const auto tracks = someTracks();
   const LandmarkId landmark = victim(tracks);
   TrackRunner had(tracks, sixPoses()), never(tracks, sixPoses());
@@ -179,7 +179,7 @@ urban_nav_core::testing::Tracks manyTracks() {
 
 bool everything(const Observation&) { return true; }
 
-TEST(Undo, strayLeavesNoTraceInTheWindow) {
+TEST(Undo, StrayLeavesNoTraceInTheWindow) {
   const auto tracks = manyTracks();
   const LandmarkId stray = victim(tracks);
   Sliding had(tracks, stray), never(tracks, stray);
@@ -190,7 +190,7 @@ TEST(Undo, strayLeavesNoTraceInTheWindow) {
 }
 
 // The steps that are taken again go over the one after which the stray was given up.
-TEST(Undo, withdrawnAndLateMeasurementsCountRightAroundAStray) {
+TEST(Undo, WithdrawnAndLateMeasurementsCountRightAroundAStray) {
   const auto tracks = manyTracks();
   const LandmarkId stray = victim(tracks);
   Sliding always(tracks, stray);
@@ -223,7 +223,7 @@ TEST(Undo, withdrawnAndLateMeasurementsCountRightAroundAStray) {
       << "it made no difference";
 }
 
-TEST(Undo, refusesWhatLeftTheWindow) {
+TEST(Undo, RefusesWhatLeftTheWindow) {
   const auto tracks = someTracks();
   TrackRunner run(tracks, sixPoses());
   for (std::size_t i = 0; i < 12; ++i) run.step();

@@ -26,7 +26,7 @@ double poseNees(const Pose& truth, const urban_nav_core::PoseWithCovariance& est
   return e.dot(estimate.covariance.ldlt().solve(e));
 }
 
-TEST(Window, withoutNoiseWithoutError) {
+TEST(Window, WithoutNoiseWithoutError) {
   auto tracks = simulateTracks(makeTracks(60, 0.0));
   tracks.sigma_px = 0.3;  // what is claimed of the measurements
   for (const int size : {1, 5, 20}) {
@@ -43,7 +43,7 @@ TEST(Window, withoutNoiseWithoutError) {
   }
 }
 
-TEST(Window, backSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
+TEST(Window, BackSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
   const auto tracks = simulateTracks(makeTracks(30, 1e-4));
   WindowOptions small, all;
   small.size = 4;
@@ -70,7 +70,7 @@ TEST(Window, backSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
   EXPECT_GT(settled_off, 1e-7) << "what settled could not know what came after";
 }
 
-TEST(Window, settledPosesAreTheProductOfTheirSteps) {
+TEST(Window, SettledPosesAreTheProductOfTheirSteps) {
   const auto tracks = simulateTracks(makeTracks(40, 0.5));
   TrackRunner run(tracks, WindowOptions());
   while (!run.done()) run.step();
@@ -84,7 +84,7 @@ TEST(Window, settledPosesAreTheProductOfTheirSteps) {
   }
 }
 
-TEST(Window, isConsistent) {
+TEST(Window, IsConsistent) {
   // Eight runs in place of the bench's fifty: a wide band (99.99 % of the mean of eight chi-squares of six).
   double now = 0.0, relative = 0.0;
   int steps = 0;
@@ -104,7 +104,7 @@ TEST(Window, isConsistent) {
 }
 
 // The calibration is believed where it is right, and given up where the images insist on something else.
-TEST(Window, learnsWhatTheCalibrationGotWrong) {
+TEST(Window, LearnsWhatTheCalibrationGotWrong) {
   for (const double offset : {0.0, 0.1, 0.8}) {
     urban_nav_core::testing::TrackOptions motion = makeTracks(120, 0.1);
     motion.features = 60;
@@ -120,7 +120,7 @@ TEST(Window, learnsWhatTheCalibrationGotWrong) {
   }
 }
 
-TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
+TEST(Window, GoesOnByPredictionWhereNothingIsSeen) {
   const auto tracks = simulateTracks(makeTracks(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
   for (int i = 0; i < 20; ++i) run.step();
@@ -138,7 +138,7 @@ TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
 }
 
 // Where the estimate of a pose begins says nothing of where the pose is.
-TEST(Window, takesAStartForNoEvidence) {
+TEST(Window, TakesAStartForNoEvidence) {
   const auto tracks = simulateTracks(makeTracks(40, 0.5));
   const Pose start = expSe3((Vector6d() << 0.4, -0.1, 0.6, 0.02, 0.1, -0.03).finished());
   for (const bool seen : {false, true}) {
@@ -162,7 +162,7 @@ TEST(Window, takesAStartForNoEvidence) {
   }
 }
 
-TEST(Window, withNeitherInputNorMeasurementStaysWithAProperCovariance) {
+TEST(Window, WithNeitherInputNorMeasurementStaysWithAProperCovariance) {
   const auto tracks = simulateTracks(makeTracks(3, 0.5));
   Window window(WindowOptions(), tracks.camera);
   window.start(0, Pose(), Matrix6d::Zero());
@@ -176,7 +176,7 @@ TEST(Window, withNeitherInputNorMeasurementStaysWithAProperCovariance) {
   }
 }
 
-TEST(Window, survivesNonsense) {
+TEST(Window, SurvivesNonsense) {
   const auto tracks = simulateTracks(makeTracks(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
   std::uint64_t dice = 12345;
@@ -203,7 +203,7 @@ TEST(Window, survivesNonsense) {
 
 // As where two recordings of different places are read as one: landmarks are seen here and there in turns, and next to
 // nothing says how far the camera went.
-TEST(Window, staysNearWhereMeasurementsContradictEachOther) {
+TEST(Window, StaysNearWhereMeasurementsContradictEachOther) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     urban_nav_core::testing::TrackOptions motion = makeTracks(80, 0.1, seed), other = makeTracks(80, 0.1, seed + 100);
     motion.features = other.features = 60;
@@ -230,7 +230,7 @@ TEST(Window, staysNearWhereMeasurementsContradictEachOther) {
   }
 }
 
-TEST(Window, startsALandmarkOnlyFromAFullMeasurement) {
+TEST(Window, StartsALandmarkOnlyFromAFullMeasurement) {
   const auto tracks = simulateTracks(makeTracks(3, 0.5));
   Window window(WindowOptions(), tracks.camera);
   window.start(0, Pose(), diagonalInformation(1e-3, 1e-3));
@@ -253,7 +253,7 @@ TEST(Window, startsALandmarkOnlyFromAFullMeasurement) {
   EXPECT_LT((*z - observation.z).norm(), 1e-9);
 }
 
-TEST(Window, knownLandmarksHoldThePose) {
+TEST(Window, KnownLandmarksHoldThePose) {
   auto motion = makeTracks(60, 0.5);
   motion.missed = 0.0;
   const auto tracks = simulateTracks(motion);
@@ -274,7 +274,7 @@ TEST(Window, knownLandmarksHoldThePose) {
   EXPECT_NEAR(sum / 60.0, 6.0, 2.0);
 }
 
-TEST(Window, allocatesNothingInASteadyState) {
+TEST(Window, AllocatesNothingInASteadyState) {
   if (!urban_nav_core::testing::countsAllocations()) GTEST_SKIP() << "the allocator of this build cannot be counted";
   const auto tracks = simulateTracks(makeTracks(260, 0.5));
   TrackRunner run(tracks, WindowOptions());

@@ -33,7 +33,7 @@ Command probe(std::function<int(const Arguments&)> run) {
   return command;
 }
 
-TEST(CommandLine, givesWhatWasGiven) {
+TEST(CommandLine, GivesWhatWasGiven) {
   bool ran = false;
   const Command command = probe([&](const Arguments& arguments) {
     ran = true;
@@ -51,7 +51,7 @@ TEST(CommandLine, givesWhatWasGiven) {
   EXPECT_TRUE(ran);
 }
 
-TEST(CommandLine, tellsItsVersion) {
+TEST(CommandLine, TellsItsVersion) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(call({}, {"--version"}), 0);
   const std::string text = ::testing::internal::GetCapturedStdout();
@@ -60,7 +60,7 @@ TEST(CommandLine, tellsItsVersion) {
   EXPECT_EQ(text.back(), '\n');
 }
 
-TEST(CommandLine, runsTheActionOfACommandThatHasActions) {
+TEST(CommandLine, RunsTheActionOfACommandThatHasActions) {
   std::string ran;
   Command group;
   group.name = "group";
@@ -81,7 +81,7 @@ TEST(CommandLine, runsTheActionOfACommandThatHasActions) {
   EXPECT_EQ(call({group}, {"group", "first", "x"}), 2) << "--out is missing";
 }
 
-TEST(CommandLine, tellsMistakesOfTheUserFromFaultsOfTheData) {
+TEST(CommandLine, TellsMistakesOfTheUserFromFaultsOfTheData) {
   const Command fine = probe([](const Arguments&) { return 0; });
   EXPECT_EQ(call({fine}, {}), 2);
   EXPECT_EQ(call({fine}, {"--help"}), 0);
@@ -101,7 +101,7 @@ TEST(CommandLine, tellsMistakesOfTheUserFromFaultsOfTheData) {
             1);
 }
 
-TEST(CommandLine, knowsTheParametersOfItsStages) {
+TEST(CommandLine, KnowsTheParametersOfItsStages) {
   EXPECT_EQ(call({mapCommand()}, {"map", "--help", "--set", "swf_vo.window=25"}), 0);
   EXPECT_EQ(call({mapCommand()}, {"map", "--help", "--set", "swf_vo.window=0"}), 2);
   EXPECT_EQ(call({mapCommand()}, {"map", "--help", "--set", "swf_vo.widow=3"}), 2);
@@ -109,7 +109,7 @@ TEST(CommandLine, knowsTheParametersOfItsStages) {
   EXPECT_EQ(call({mapCommand()}, {"map", "/nowhere", "--out", "/tmp/x", "--stages", "vo"}), 2);
 }
 
-TEST(CommandLine, everyCommandTakesTheCommonOptions) {
+TEST(CommandLine, EveryCommandTakesTheCommonOptions) {
   const std::vector<Command> commands = {mapCommand(), convertCommand(), evaluateCommand(), infoCommand(),
                                          simulateCommand()};
   for (const Command& command : commands) {
@@ -122,7 +122,7 @@ TEST(CommandLine, everyCommandTakesTheCommonOptions) {
   EXPECT_EQ(call(commands, {"info", "/tmp", "--set", "swf_vo.window=0"}), 2);
 }
 
-TEST(CommandLine, keepsPositionalsApart) {
+TEST(CommandLine, KeepsPositionalsApart) {
   Command command;
   command.name = "turn";
   command.options = {{"FORMAT", "", "", true, false, {"a", "b"}}, {"SRC", "", "", true, false, {}}};
@@ -136,7 +136,7 @@ TEST(CommandLine, keepsPositionalsApart) {
   EXPECT_EQ(call({command}, {"turn", "a", "folder", "more"}), 2);
 }
 
-TEST(Json, keepsOrderAndHidesWhatIsNotFinite) {
+TEST(Json, KeepsOrderAndHidesWhatIsNotFinite) {
   Json json = Json::object();
   json["z"] = 1;
   json["a"] = std::numeric_limits<double>::quiet_NaN();
@@ -146,7 +146,7 @@ TEST(Json, keepsOrderAndHidesWhatIsNotFinite) {
   EXPECT_EQ(json.print(), "{\n  \"z\": 0.1,\n  \"a\": null,\n  \"list\": [\n    \"x\\\"y\"\n  ]\n}\n");
 }
 
-TEST(PrintDuration, readsLikeAClock) {
+TEST(PrintDuration, ReadsLikeAClock) {
   EXPECT_EQ(printDuration(7.4), "0:07");
   EXPECT_EQ(printDuration(754), "12:34");
   EXPECT_EQ(printDuration(3723), "1:02:03");

@@ -44,7 +44,7 @@ class ParameterSetTest : public ::testing::Test {
   ParameterSet set;
 };
 
-TEST_F(ParameterSetTest, holdsEachTableOnceAndStartsWithDefaults) {
+TEST_F(ParameterSetTest, HoldsEachTableOnceAndStartsWithDefaults) {
   EXPECT_EQ(set.settings().size(), 3U);
   EXPECT_EQ(set.settings("walls").size(), 2U);
   EXPECT_TRUE(set.settings("floor").empty());
@@ -52,7 +52,7 @@ TEST_F(ParameterSetTest, holdsEachTableOnceAndStartsWithDefaults) {
   EXPECT_EQ(set.get(roof()).shape, "flat");
 }
 
-TEST_F(ParameterSetTest, assignsInOrderAndRemembersOrigins) {
+TEST_F(ParameterSetTest, AssignsInOrderAndRemembersOrigins) {
   set.load({urban_nav_core::parseSetting("walls.height=3"), urban_nav_core::parseSetting("roof.shape=steep")});
   set.set("walls.height=4.5");
   EXPECT_EQ(set.get(walls()).height, 4.5);
@@ -65,7 +65,7 @@ TEST_F(ParameterSetTest, assignsInOrderAndRemembersOrigins) {
   EXPECT_EQ(set.get(walls()).height, 2.5) << "load() starts from the defaults";
 }
 
-TEST_F(ParameterSetTest, refusesUnknownStagesRowsAndValues) {
+TEST_F(ParameterSetTest, RefusesUnknownStagesRowsAndValues) {
   for (const char* bad : {"floor.height=1", "walls.colour=1", "walls.number=0", "roof.shape=round"})
     EXPECT_THROW(set.set(bad), UserError) << bad;
   EXPECT_EQ(set.get(walls()).number, 4);

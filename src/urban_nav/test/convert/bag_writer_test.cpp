@@ -18,7 +18,7 @@ using urban_nav_core::UserError;
 
 constexpr urban_nav_core::StampNs kSecond = 1'000'000'000;
 
-TEST(BagWriter, aBagThatIsNotCommittedLeavesNothing) {
+TEST(BagWriter, ABagThatIsNotCommittedLeavesNothing) {
   const TemporaryFolder folder;
   {
     BagWriter bag(folder.file("a.bag"));
@@ -28,7 +28,7 @@ TEST(BagWriter, aBagThatIsNotCommittedLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(folder.file("")));
 }
 
-TEST(BagWriter, aFullDiskIsAnErrorAndNoBag) {
+TEST(BagWriter, AFullDiskIsAnErrorAndNoBag) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const TemporaryFolder folder;
   for (const int messages : {1, 20000}) {

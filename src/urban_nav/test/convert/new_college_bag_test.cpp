@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using testing::TemporaryFolder;
 using testing::writeFile;
 
-TEST(NewCollegeFiles, findsPartsByTheirNames) {
+TEST(NewCollegeFiles, FindsPartsByTheirNames) {
   const TemporaryFolder folder;
   writeFile(folder.file("a/MOOSLog.alog"), "");
   writeFile(folder.file("a/Images/ladybug_1225719872.892-0.jpg"), "");
@@ -43,7 +43,7 @@ TEST(NewCollegeFiles, findsPartsByTheirNames) {
   EXPECT_THROW(findNewCollege(folder.file("empty")), urban_nav_core::UserError);
 }
 
-TEST(NewCollegeBag, holdsTheRealCut) {
+TEST(NewCollegeBag, HoldsTheRealCut) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   if (data == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA is not set: the log of New College is not here";
   const TemporaryFolder folder;
@@ -75,7 +75,7 @@ TEST(NewCollegeBag, holdsTheRealCut) {
   EXPECT_GT(roll_span, 0.001) << "the tilt is there";
 }
 
-TEST(NewCollegeBag, leavesNothingWhereTheLogIsDamaged) {
+TEST(NewCollegeBag, LeavesNothingWhereTheLogIsDamaged) {
   const TemporaryFolder folder;
   writeFile(folder.file("in/cut.alog"),
             "%% LOGSTART               1225719811.65\n61.850 LMS_LASER_2D_LEFT LMS1 "
@@ -90,7 +90,7 @@ TEST(NewCollegeBag, leavesNothingWhereTheLogIsDamaged) {
   EXPECT_FALSE(fs::exists(folder.file("cut.bag")));
 }
 
-TEST(NewCollegeBag, makesNoBagOfAnEmptyLog) {
+TEST(NewCollegeBag, MakesNoBagOfAnEmptyLog) {
   const TemporaryFolder folder;
   writeFile(folder.file("cut.alog"), "%% LOGSTART               1225719811.65\n");
   Console console;

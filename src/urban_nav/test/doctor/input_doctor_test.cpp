@@ -96,13 +96,13 @@ class FolderDoctor : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> FolderDoctor::shared_;
 
-TEST_F(FolderDoctor, findsNothingInASoundSession) {
+TEST_F(FolderDoctor, FindsNothingInASoundSession) {
   const JudgedInput verdict = judge(path_);
   EXPECT_TRUE(verdict.usable);
   EXPECT_TRUE(verdict.kinds.empty()) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesExchangedCameras) {
+TEST_F(FolderDoctor, NamesExchangedCameras) {
   fs::rename(path_ + "/image_0", path_ + "/other");
   fs::rename(path_ + "/image_1", path_ + "/image_0");
   fs::rename(path_ + "/other", path_ + "/image_1");
@@ -111,7 +111,7 @@ TEST_F(FolderDoctor, namesExchangedCameras) {
   EXPECT_NE(verdict.text.find("exchanged"), std::string::npos) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesImagesOfAnotherScene) {
+TEST_F(FolderDoctor, NamesImagesOfAnotherScene) {
   changeImages("image_1", [](const cv::Mat& image) {
     cv::Mat turned;
     cv::rotate(image, turned, cv::ROTATE_180);
@@ -120,7 +120,7 @@ TEST_F(FolderDoctor, namesImagesOfAnotherScene) {
   EXPECT_EQ(judge(path_).kinds.count("pairs"), 1U) << judge(path_).text;
 }
 
-TEST_F(FolderDoctor, namesMissingAndDamagedImages) {
+TEST_F(FolderDoctor, NamesMissingAndDamagedImages) {
   fs::remove(path_ + "/image_1/000005.png");
   writeFile(path_ + "/image_0/000009.png", "no image");
   const JudgedInput verdict = judge(path_);
@@ -128,26 +128,26 @@ TEST_F(FolderDoctor, namesMissingAndDamagedImages) {
   EXPECT_GE(verdict.kinds.count("pairs"), 2U) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesRowsThatDiffer) {
+TEST_F(FolderDoctor, NamesRowsThatDiffer) {
   changeImages("image_1", [](const cv::Mat& image) { return warp(image, 0.0, 1.0, 2.0); });
   EXPECT_EQ(judge(path_).kinds.count("rectification"), 1U) << judge(path_).text;
 }
 
-TEST_F(FolderDoctor, namesACameraThatIsRotated) {
+TEST_F(FolderDoctor, NamesACameraThatIsRotated) {
   changeImages("image_1", [](const cv::Mat& image) { return warp(image, 1.5, 1.0, 0.0); });
   const JudgedInput verdict = judge(path_);
   EXPECT_EQ(verdict.kinds.count("rectification"), 1U) << verdict.text;
   EXPECT_NE(verdict.text.find("optical axis"), std::string::npos) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesFocalLengthsThatDiffer) {
+TEST_F(FolderDoctor, NamesFocalLengthsThatDiffer) {
   changeImages("image_1", [](const cv::Mat& image) { return warp(image, 0.0, 1.04, 0.0); });
   const JudgedInput verdict = judge(path_);
   EXPECT_EQ(verdict.kinds.count("rectification"), 1U) << verdict.text;
   EXPECT_NE(verdict.text.find("focal lengths"), std::string::npos) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesBlackSaturatedAndUnequalImages) {
+TEST_F(FolderDoctor, NamesBlackSaturatedAndUnequalImages) {
   changeImages("image_0", [](const cv::Mat& image) { return cv::Mat(image / 32); });
   const JudgedInput dark = judge(path_);
   EXPECT_GE(dark.kinds.count("depth"), 1U) << dark.text;
@@ -156,42 +156,42 @@ TEST_F(FolderDoctor, namesBlackSaturatedAndUnequalImages) {
   EXPECT_GE(bright.kinds.count("depth"), 1U) << bright.text;
 }
 
-TEST_F(FolderDoctor, namesABaselineInMillimetres) {
+TEST_F(FolderDoctor, NamesABaselineInMillimetres) {
   replaceCalibration([](double&, double&, double&, double& shift) { shift *= 1000.0; });
   const JudgedInput verdict = judge(path_);
   EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
   EXPECT_NE(verdict.text.find("millimetres"), std::string::npos) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesACalibrationOfLargerImages) {
+TEST_F(FolderDoctor, NamesACalibrationOfLargerImages) {
   replaceCalibration([](double& f, double& cx, double& cy, double& shift) { f *= 2, cx *= 2, cy *= 2, shift *= 2; });
   const JudgedInput verdict = judge(path_);
   EXPECT_GE(verdict.kinds.count("calibration"), 1U) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesAnImpossibleFieldOfView) {
+TEST_F(FolderDoctor, NamesAnImpossibleFieldOfView) {
   replaceCalibration([](double& f, double&, double&, double& shift) { f *= 20, shift *= 20; });
   EXPECT_EQ(judge(path_).kinds.count("calibration"), 1U) << judge(path_).text;
 }
 
-TEST_F(FolderDoctor, namesMissingCalibration) {
+TEST_F(FolderDoctor, NamesMissingCalibration) {
   fs::remove(path_ + "/calib.txt");
   const JudgedInput verdict = judge(path_);
   EXPECT_FALSE(verdict.usable);
   EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
 }
 
-TEST_F(FolderDoctor, namesStampsThatStandStill) {
+TEST_F(FolderDoctor, NamesStampsThatStandStill) {
   writeTimes([](int i) { return 0.05 * (i == 12 ? 11 : i); });
   EXPECT_GE(judge(path_).kinds.count("stamps"), 1U) << judge(path_).text;
 }
 
-TEST_F(FolderDoctor, namesStampsOfArrival) {
+TEST_F(FolderDoctor, NamesStampsOfArrival) {
   writeTimes([](int i) { return 0.05 * i + (i % 3 == 0 ? 0.03 : 0.0); });
   EXPECT_EQ(judge(path_).kinds.count("stamps"), 1U) << judge(path_).text;
 }
 
-TEST_F(FolderDoctor, namesGapsAndLowRates) {
+TEST_F(FolderDoctor, NamesGapsAndLowRates) {
   writeTimes([](int i) { return 0.05 * i + (i > 10 ? 3.0 : 0.0); });
   EXPECT_EQ(judge(path_).kinds.count("rates"), 1U) << judge(path_).text;
   writeTimes([](int i) { return 1.0 * i; });
@@ -247,7 +247,7 @@ JudgedInput judgeBag(const std::function<void(BagRecipe&)>& change) {
   return judge(folder.file("a.bag"));
 }
 
-TEST(BagDoctor, namesTransformsThatAreMissing) {
+TEST(BagDoctor, NamesTransformsThatAreMissing) {
   const JudgedInput verdict = judgeBag([](BagRecipe&) {});
   EXPECT_TRUE(verdict.usable);
   EXPECT_EQ(verdict.kinds, (std::multiset<std::string>{"tf", "tf"})) << verdict.text;  // camera and laser
@@ -255,29 +255,29 @@ TEST(BagDoctor, namesTransformsThatAreMissing) {
   EXPECT_NE(verdict.text.find("base_link laser"), std::string::npos) << verdict.text;
 }
 
-TEST(BagDoctor, namesImagesWithoutStamps) {
+TEST(BagDoctor, NamesImagesWithoutStamps) {
   EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.stamped = false; }).kinds.count("stamps"), 1U);
 }
 
-TEST(BagDoctor, namesAClockThatWasSet) {
+TEST(BagDoctor, NamesAClockThatWasSet) {
   const JudgedInput verdict =
       judgeBag([](BagRecipe& recipe) { recipe.time = [](int i) { return 1.5e9 + 0.05 * i - (i > 20 ? 50.0 : 0.0); }; });
   EXPECT_GE(verdict.kinds.count("stamps"), 1U) << verdict.text;
 }
 
-TEST(BagDoctor, namesTheDelayOfOneCamera) {
+TEST(BagDoctor, NamesTheDelayOfOneCamera) {
   const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.right_late = 0.012; });
   EXPECT_FALSE(verdict.usable);
   EXPECT_NE(verdict.text.find("input.right_delay=12"), std::string::npos) << verdict.text;
 }
 
-TEST(BagDoctor, namesACameraThatIsMissing) {
+TEST(BagDoctor, NamesACameraThatIsMissing) {
   const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.right_exists = false; });
   EXPECT_FALSE(verdict.usable);
   EXPECT_EQ(verdict.kinds.count("pairs"), 1U) << verdict.text;
 }
 
-TEST(BagDoctor, namesTheCalibrationOfBothCameras) {
+TEST(BagDoctor, NamesTheCalibrationOfBothCameras) {
   const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.calibrated = false; });
   EXPECT_FALSE(verdict.usable);
   EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
@@ -285,7 +285,7 @@ TEST(BagDoctor, namesTheCalibrationOfBothCameras) {
   EXPECT_NE(verdict.text.find("--topic left_info:=NAME --topic right_info:=NAME"), std::string::npos) << verdict.text;
 }
 
-TEST(BagDoctor, survivesAnyDamage) {
+TEST(BagDoctor, SurvivesAnyDamage) {
   const TemporaryFolder folder;
   BagRecipe recipe;
   recipe.frames = 4;
@@ -303,7 +303,7 @@ TEST(BagDoctor, survivesAnyDamage) {
   EXPECT_GT(result.accepted, 1);
 }
 
-TEST(BagDoctor, namesABagThatWasCutOff) {
+TEST(BagDoctor, NamesABagThatWasCutOff) {
   const TemporaryFolder folder;
   writeDoctorBag(folder.file("whole.bag"), BagRecipe());
   const std::string bytes = readFile(folder.file("whole.bag"));
@@ -317,7 +317,7 @@ TEST(BagDoctor, namesABagThatWasCutOff) {
   EXPECT_NE(unreadable.front().findings.front().remedy.find("reindex"), std::string::npos);
 }
 
-TEST(BagDoctor, namesSlowDevicesAndGapsOfDevices) {
+TEST(BagDoctor, NamesSlowDevicesAndGapsOfDevices) {
   EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.imu_rate = 20.0; }).kinds.count("rates"), 1U);
   EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.laser_gap = true; }).kinds.count("rates"), 1U);
 }

@@ -36,7 +36,7 @@ Trajectory curve(std::int64_t shift_ns, double scale) {
   return trajectory;
 }
 
-TEST(Evaluation, findsNoErrorWhereThereIsNone) {
+TEST(Evaluation, FindsNoErrorWhereThereIsNone) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   const TrajectoryFile file = readTrajectory(folder.file("a.tum"));
@@ -48,7 +48,7 @@ TEST(Evaluation, findsNoErrorWhereThereIsNone) {
   EXPECT_FALSE(evaluation.nees);
 }
 
-TEST(Evaluation, turnsAnEstimateOfOpticalAxes) {
+TEST(Evaluation, TurnsAnEstimateOfOpticalAxes) {
   const TemporaryFolder folder;
   Trajectory optical;
   std::vector<Pose> camera;
@@ -78,7 +78,7 @@ TEST(Evaluation, turnsAnEstimateOfOpticalAxes) {
   EXPECT_EQ(evaluate(body, body, {}, {}).axes, Axes::Same);
 }
 
-TEST(Evaluation, neesAllowsForTheTruthsOwnError) {
+TEST(Evaluation, NeesAllowsForTheTruthsOwnError) {
   const TemporaryFolder folder;
   const Trajectory truth = curve(0, 1.0);
   std::vector<urban_nav_core::CovarianceRow> rows;
@@ -107,7 +107,7 @@ TEST(Evaluation, neesAllowsForTheTruthsOwnError) {
   EXPECT_NEAR(sum / kDraws, 6.0, 0.7);  // four standard deviations of such a mean
 }
 
-TEST(Evaluation, readsEurocsGroundTruth) {
+TEST(Evaluation, ReadsEurocsGroundTruth) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("data.csv"))
       << "#timestamp,p_RS_R_x [m],y,z,q_RS_w [],x,y,z,v_x\n"
@@ -120,7 +120,7 @@ TEST(Evaluation, readsEurocsGroundTruth) {
   EXPECT_NE(file.notes[0].find("1 poses left out"), std::string::npos);
 }
 
-TEST(Evaluation, seesAScale) {
+TEST(Evaluation, SeesAScale) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(0, 1.02));
@@ -132,7 +132,7 @@ TEST(Evaluation, seesAScale) {
   EXPECT_GT(evaluation.se3.rmse, 1e-3);
 }
 
-TEST(Evaluation, ofTheEndIsOfTheLastPoseAloneSeenFromTheFirst) {
+TEST(Evaluation, OfTheEndIsOfTheLastPoseAloneSeenFromTheFirst) {
   const TemporaryFolder folder;
   const Trajectory truth = curve(0, 1.0);
   // Another world frame, and each pose but the first off by 0.3 m and 2 deg; only the last one's covariance may count.
@@ -160,7 +160,7 @@ TEST(Evaluation, ofTheEndIsOfTheLastPoseAloneSeenFromTheFirst) {
   EXPECT_NE(json.print().find("\"end\""), std::string::npos);
 }
 
-TEST(Evaluation, namesTheOffsetAndAppliesItIfAsked) {
+TEST(Evaluation, NamesTheOffsetAndAppliesItIfAsked) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(1'000'000'000'000, 1.0));
@@ -176,7 +176,7 @@ TEST(Evaluation, namesTheOffsetAndAppliesItIfAsked) {
   EXPECT_NEAR(1e-9 * static_cast<double>(evaluation.offset->offset), -1000.0, 0.2);
 }
 
-TEST(Evaluation, readsKittiLinesWithoutStamps) {
+TEST(Evaluation, ReadsKittiLinesWithoutStamps) {
   const TemporaryFolder folder;
   std::vector<Pose> poses;
   for (int i = 0; i < 20; ++i) poses.push_back(onCurve(i));
@@ -192,7 +192,7 @@ TEST(Evaluation, readsKittiLinesWithoutStamps) {
   EXPECT_THROW(parseSpans({"10"}), urban_nav_core::UserError);
 }
 
-TEST(Evaluation, weighsErrorsByTheCovariance) {
+TEST(Evaluation, WeighsErrorsByTheCovariance) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(0, 1.01));

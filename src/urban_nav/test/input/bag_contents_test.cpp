@@ -19,7 +19,7 @@ tf2_msgs::TFMessage linkMessage(const std::string& parent, const std::string& ch
   return message;
 }
 
-TEST(BagContents, linksOfTfThatDoNotChangeComplementTheStaticOnes) {
+TEST(BagContents, LinksOfTfThatDoNotChangeComplementTheStaticOnes) {
   const TemporaryFolder folder;
   {
     rosbag::Bag bag(folder.file("a.bag"), rosbag::bagmode::Write);

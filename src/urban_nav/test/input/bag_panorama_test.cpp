@@ -55,7 +55,7 @@ PanoramaStamps readPanoramas(const std::vector<std::string>& bags, const BagEnd*
   return read;
 }
 
-TEST(BagPanorama, resumesAfterEachBagWithTheSamePanoramas) {
+TEST(BagPanorama, ResumesAfterEachBagWithTheSamePanoramas) {
   const TemporaryFolder folder;
   testing::KittiStyle style;
   style.frames = 12;

@@ -15,7 +15,7 @@ const char* const kInfo = "sensor_msgs/CameraInfo";
 
 std::string name(const BagTopics& topics, Role role) { return topics.find(role) ? topics.find(role)->name : "none"; }
 
-TEST(BagTopics, takesTheSuitesOwnNames) {
+TEST(BagTopics, TakesTheSuitesOwnNames) {
   const BagTopics topics = chooseTopics({{"/stereo/left/image_raw", kImage},
                                          {"/stereo/right/image_raw", kImage},
                                          {"/stereo/left/image_rect", kImage},
@@ -40,7 +40,7 @@ TEST(BagTopics, takesTheSuitesOwnNames) {
   EXPECT_EQ(topics.notes.size(), 9U);
 }
 
-TEST(BagTopics, guessesOtherPeoplesNames) {
+TEST(BagTopics, GuessesOtherPeoplesNames) {
   for (const auto& [left, right, type] :
        {std::tuple("/cam0/image_raw", "/cam1/image_raw", kImage),
         std::tuple("/camera/infra1/image_rect_raw", "/camera/infra2/image_rect_raw", kImage),
@@ -53,7 +53,7 @@ TEST(BagTopics, guessesOtherPeoplesNames) {
   }
 }
 
-TEST(BagTopics, takesTheOnlyTwoImagesWhateverTheirNames) {
+TEST(BagTopics, TakesTheOnlyTwoImagesWhateverTheirNames) {
   const Topics two = {{"/cam_1/image_raw", kImage}, {"/cam_2/image_raw", kImage}, {"/cam_2/camera_info", kInfo}};
   EXPECT_EQ(name(chooseTopics(two, {}), Role::Left), "/cam_1/image_raw");
   EXPECT_EQ(name(chooseTopics(two, {}), Role::Right), "/cam_2/image_raw");
@@ -67,7 +67,7 @@ TEST(BagTopics, takesTheOnlyTwoImagesWhateverTheirNames) {
     EXPECT_EQ(name(chooseTopics(none, {}), Role::Left), "none");
 }
 
-TEST(BagTopics, findsCameraInfoAboveCompressedImages) {
+TEST(BagTopics, FindsCameraInfoAboveCompressedImages) {
   const BagTopics topics = chooseTopics({{"/a/left/image_raw/compressed", kCompressed},
                                          {"/a/right/image_raw/compressed", kCompressed},
                                          {"/a/left/camera_info", kInfo},
@@ -76,7 +76,7 @@ TEST(BagTopics, findsCameraInfoAboveCompressedImages) {
   EXPECT_EQ(name(topics, Role::LeftInfo), "/a/left/camera_info");
 }
 
-TEST(BagTopics, takesTheOnlyTwoCameraInfosWhereverTheyStand) {
+TEST(BagTopics, TakesTheOnlyTwoCameraInfosWhereverTheyStand) {
   const Topics images = {{"/left/image_raw", kImage}, {"/right/image_raw", kImage}};
   const auto with = [&](std::vector<std::string> infos) {
     Topics all = images;
@@ -90,7 +90,7 @@ TEST(BagTopics, takesTheOnlyTwoCameraInfosWhereverTheyStand) {
   EXPECT_EQ(with({"/a/info", "/b/info", "/c/info"}), "none none");
 }
 
-TEST(BagTopics, findsAPanoramicHeadAndTakesItForNoStereoPair) {
+TEST(BagTopics, FindsAPanoramicHeadAndTakesItForNoStereoPair) {
   std::map<std::string, std::string> available;
   for (const char* number : {"0", "1", "2", "3", "4"}) {
     available["/ladybug/camera" + std::string(number) + "/image_raw/compressed"] = kCompressed;
@@ -111,12 +111,12 @@ TEST(BagTopics, findsAPanoramicHeadAndTakesItForNoStereoPair) {
   EXPECT_EQ(name(single, Role::Panorama0), "/gopro");
 }
 
-TEST(BagTopics, takesNoPanoramicHeadFromASingleCamera) {
+TEST(BagTopics, TakesNoPanoramicHeadFromASingleCamera) {
   const BagTopics topics = chooseTopics({{"/panorama/camera0/image_raw", kImage}}, {});
   EXPECT_TRUE(topics.panorama().empty());
 }
 
-TEST(BagTopics, doesAsItIsAsked) {
+TEST(BagTopics, DoesAsItIsAsked) {
   const Topics available = {{"/stereo/left/image_raw", kImage},
                             {"/stereo/right/image_raw", kImage},
                             {"/stereo/left/image_rect", kImage},

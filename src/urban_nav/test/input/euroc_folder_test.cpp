@@ -42,7 +42,7 @@ void makeEuroc(const std::string& path) {
   }
 }
 
-TEST(EurocFolder, isRectifiedOnTheWay) {
+TEST(EurocFolder, IsRectifiedOnTheWay) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   const auto source = openEurocFolder(folder.file("in"), {});
@@ -57,7 +57,7 @@ TEST(EurocFolder, isRectifiedOnTheWay) {
   EXPECT_EQ(input->assembled.pair.right.at(32, 24), 90);
 }
 
-TEST(EurocFolder, namesWhatIsNotUsed) {
+TEST(EurocFolder, NamesWhatIsNotUsed) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   std::filesystem::create_directories(folder.file("in") + "/mav0/leica0");
@@ -65,7 +65,7 @@ TEST(EurocFolder, namesWhatIsNotUsed) {
   EXPECT_EQ(source->info().notes.back(), "not used: leica0/");
 }
 
-TEST(EurocFolder, namesAnImageThatIsNotThere) {
+TEST(EurocFolder, NamesAnImageThatIsNotThere) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   std::filesystem::remove(folder.file("in/mav0/cam1/data/1403715273312143104.png"));
@@ -78,7 +78,7 @@ TEST(EurocFolder, namesAnImageThatIsNotThere) {
   EXPECT_FALSE(source->next());
 }
 
-TEST(EurocFolder, givesSpecificForce) {
+TEST(EurocFolder, GivesSpecificForce) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   EXPECT_TRUE(openEurocFolder(folder.file("in"), {})->forces().empty());
@@ -97,7 +97,7 @@ TEST(EurocFolder, givesSpecificForce) {
   EXPECT_NE(notes.find("imu0/data.csv:2"), std::string::npos) << notes;
 }
 
-TEST(EurocFolder, listsAPairWithOneImage) {
+TEST(EurocFolder, ListsAPairWithOneImage) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   writeFile(folder.file("in/mav0/cam1/data.csv"),
@@ -108,7 +108,7 @@ TEST(EurocFolder, listsAPairWithOneImage) {
   EXPECT_FALSE(pairs[1].right.empty());
 }
 
-TEST(EurocFolder, putsTheTruthOntoBaseLink) {
+TEST(EurocFolder, PutsTheTruthOntoBaseLink) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   writeFile(
@@ -124,7 +124,7 @@ TEST(EurocFolder, putsTheTruthOntoBaseLink) {
       << "x is ahead";
 }
 
-TEST(EurocFolder, namesFileAndLineOfWhatIsWrong) {
+TEST(EurocFolder, NamesFileAndLineOfWhatIsWrong) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   const auto failure = [&] {

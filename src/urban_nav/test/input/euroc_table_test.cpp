@@ -17,7 +17,7 @@ EurocTable read(const std::string& text) {
   return readEurocTable(folder.file("data.csv"), 2, "stamp in ns, file name");
 }
 
-TEST(EurocTable, needsNoHeader) {
+TEST(EurocTable, NeedsNoHeader) {
   for (const char* const header : {"", "#timestamp [ns],filename\n", "timestamp,filename\r\n", "# a comment\n\n"}) {
     const EurocTable table = read(std::string(header) + "10,a.png\n20,b.png\r\n");
     ASSERT_EQ(table.rows.size(), 2U) << header;
@@ -27,7 +27,7 @@ TEST(EurocTable, needsNoHeader) {
   }
 }
 
-TEST(EurocTable, isSortedAndCounted) {
+TEST(EurocTable, IsSortedAndCounted) {
   const EurocTable table = read("#t,f\n30,c\n10,a\n20,b\n10,again\n");
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(table.rows[0].cells[1], "a");
@@ -36,7 +36,7 @@ TEST(EurocTable, isSortedAndCounted) {
   EXPECT_EQ(table.repeated, 1U);
 }
 
-TEST(EurocTable, namesWhatIsWrong) {
+TEST(EurocTable, NamesWhatIsWrong) {
   EXPECT_THROW(read("10,a\nx,b\n"), urban_nav_core::UserError);
   EXPECT_THROW(read("10\n"), urban_nav_core::UserError);
   EXPECT_THROW(read("t,f\nt,f\n"), urban_nav_core::UserError);

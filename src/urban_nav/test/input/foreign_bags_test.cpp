@@ -95,7 +95,7 @@ Reading readBag(const std::string& path, const SourceOptions& options = {}, cons
   return reading;
 }
 
-TEST(ForeignBags, writtenTopicAfterTopicComeInTheOrderOfStamps) {
+TEST(ForeignBags, WrittenTopicAfterTopicComeInTheOrderOfStamps) {
   const TemporaryFolder folder;
   Recipe recipe;
   recipe.receipt = [](int topic, int i, double) { return 1.6e9 + 0.001 * (kPairs * topic + i); };
@@ -107,7 +107,7 @@ TEST(ForeignBags, writtenTopicAfterTopicComeInTheOrderOfStamps) {
   EXPECT_NE(reading.notes.find("sorted by stamp"), std::string::npos) << reading.notes;
 }
 
-TEST(ForeignBags, overASlowLinkLoseNothing) {
+TEST(ForeignBags, OverASlowLinkLoseNothing) {
   const TemporaryFolder folder;
   Recipe recipe;
   recipe.receipt = [](int topic, int i, double stamp) { return stamp + (topic == 1 ? 1.0 + 0.2 * (i % 3) : 0.01); };
@@ -115,7 +115,7 @@ TEST(ForeignBags, overASlowLinkLoseNothing) {
   EXPECT_EQ(readBag(folder.file("a.bag")).whole, kPairs);
 }
 
-TEST(ForeignBags, withoutStampsHaveTheTimesOfReceipt) {
+TEST(ForeignBags, WithoutStampsHaveTheTimesOfReceipt) {
   const TemporaryFolder folder;
   Recipe recipe;
   recipe.stamped = false;
@@ -127,7 +127,7 @@ TEST(ForeignBags, withoutStampsHaveTheTimesOfReceipt) {
   EXPECT_NE(reading.notes.find("received"), std::string::npos) << reading.notes;
 }
 
-TEST(ForeignBags, aConstantDelayOfOneCameraIsNamedAndCanBeTakenAway) {
+TEST(ForeignBags, AConstantDelayOfOneCameraIsNamedAndCanBeTakenAway) {
   const TemporaryFolder folder;
   Recipe recipe;
   recipe.right_late = 0.008;
@@ -141,7 +141,7 @@ TEST(ForeignBags, aConstantDelayOfOneCameraIsNamedAndCanBeTakenAway) {
   EXPECT_EQ(readBag(folder.file("a.bag"), options).whole, kPairs);
 }
 
-TEST(ForeignBags, pairsAreOfOneHead) {
+TEST(ForeignBags, PairsAreOfOneHead) {
   const TemporaryFolder folder;
   Recipe recipe;
   recipe.left = "/body/left/cam/left";
@@ -164,7 +164,7 @@ TEST(ForeignBags, pairsAreOfOneHead) {
   EXPECT_NE(reading.notes.find("right: /body/left/cam/right/image_raw"), std::string::npos) << reading.notes;
 }
 
-TEST(ForeignBags, deepImagesHaveOneScaleForBothCameras) {
+TEST(ForeignBags, DeepImagesHaveOneScaleForBothCameras) {
   const TemporaryFolder folder;
   writeBag(folder.file("a.bag"), {});  // 900: ten bits, 1100: eleven
   const Reading reading = readBag(folder.file("a.bag"));
@@ -172,7 +172,7 @@ TEST(ForeignBags, deepImagesHaveOneScaleForBothCameras) {
   EXPECT_EQ(reading.right_grey, 1100 >> 4);
 }
 
-TEST(ForeignBags, ofTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
+TEST(ForeignBags, OfTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
   const TemporaryFolder folder;
   for (const int day : {0, 1}) {
     Recipe recipe;
@@ -182,7 +182,7 @@ TEST(ForeignBags, ofTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
   EXPECT_EQ(findSessions({folder.file("day0.bag"), folder.file("day1.bag")}).size(), 2U);
 }
 
-TEST(ForeignBags, simultaneousImagesOfTheSameTopicsAreTwoSessions) {
+TEST(ForeignBags, SimultaneousImagesOfTheSameTopicsAreTwoSessions) {
   const TemporaryFolder folder;
   const double whole = kPeriod * kPairs;
   for (const char* robot : {"a", "b"})
@@ -199,7 +199,7 @@ TEST(ForeignBags, simultaneousImagesOfTheSameTopicsAreTwoSessions) {
       << sessions[1].note;
 }
 
-TEST(ForeignBags, simultaneousBagsOfOtherTopicsAreOneSession) {
+TEST(ForeignBags, SimultaneousBagsOfOtherTopicsAreOneSession) {
   const TemporaryFolder folder;
   writeBag(folder.file("stereo.bag"), {});
   {
@@ -213,7 +213,7 @@ TEST(ForeignBags, simultaneousBagsOfOtherTopicsAreOneSession) {
   EXPECT_TRUE(sessions[0].note.empty());
 }
 
-TEST(PairDelay, isFoundWhereItIsConstant) {
+TEST(PairDelay, IsFoundWhereItIsConstant) {
   std::vector<StampNs> left, right, varying;
   for (StampNs i = 0; i < 20; ++i) {
     left.push_back(i * 50'000'000);
@@ -233,7 +233,7 @@ void writeBagWithStep(const std::string& path, double back) {
   writeBag(path, recipe, kBegin + kPeriod * kPairs - back, rosbag::bagmode::Append);
 }
 
-TEST(ForeignBags, aClockThatIsSetBackBeginsASession) {
+TEST(ForeignBags, AClockThatIsSetBackBeginsASession) {
   const TemporaryFolder folder;
   for (const double back : {1.5, 3600.0}) {
     const std::string path = folder.file("step.bag");
@@ -252,7 +252,7 @@ TEST(ForeignBags, aClockThatIsSetBackBeginsASession) {
   }
 }
 
-TEST(ForeignBags, aStepBetweenTheBagsOfARecordingBeginsASession) {
+TEST(ForeignBags, AStepBetweenTheBagsOfARecordingBeginsASession) {
   const TemporaryFolder folder;
   writeBagWithStep(folder.file("a.bag"), 20.0);
   Recipe recipe;  // the recording goes on in another bag
@@ -268,7 +268,7 @@ TEST(ForeignBags, aStepBetweenTheBagsOfARecordingBeginsASession) {
   EXPECT_EQ(pairs, 2 * kPairs);
 }
 
-TEST(ForeignBags, topicsThatAreNotUsedAreNamedAndCounted) {
+TEST(ForeignBags, TopicsThatAreNotUsedAreNamedAndCounted) {
   const TemporaryFolder folder;
   writeBag(folder.file("a.bag"), {});
   EXPECT_EQ(readBag(folder.file("a.bag")).notes.find("not used"), std::string::npos);
@@ -281,7 +281,7 @@ TEST(ForeignBags, topicsThatAreNotUsedAreNamedAndCounted) {
   EXPECT_NE(notes.find("not used: /depth (sensor_msgs/CameraInfo, 3 messages)\n"), std::string::npos) << notes;
 }
 
-TEST(ForeignBags, aSlowLinkIsNoClockStep) {
+TEST(ForeignBags, ASlowLinkIsNoClockStep) {
   const TemporaryFolder folder;
   Recipe recipe;
   recipe.receipt = [](int, int i, double stamp) { return stamp + 0.01 + (i > kPairs / 2 ? 5.0 : 0.0); };

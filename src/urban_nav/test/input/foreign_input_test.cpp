@@ -28,7 +28,7 @@ std::string refusal(const std::string& path) {
   return "";
 }
 
-TEST(ForeignInput, bagsOfRos2NameTheCommandThatConvertsThem) {
+TEST(ForeignInput, BagsOfRos2NameTheCommandThatConvertsThem) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.file("drive"));
   writeBytes(folder.file("drive/drive_0.db3"), std::string("SQLite format 3\0", 16) + "more");
@@ -41,7 +41,7 @@ TEST(ForeignInput, bagsOfRos2NameTheCommandThatConvertsThem) {
   }
 }
 
-TEST(ForeignInput, storesCompressedBagsAndFoldersOfBagsAreNamed) {
+TEST(ForeignInput, StoresCompressedBagsAndFoldersOfBagsAreNamed) {
   const TemporaryFolder folder;
   writeBytes(folder.file("session.db"), std::string("SQLite format 3\0", 16));
   EXPECT_NE(refusal(folder.file("session.db")).find("--store"), std::string::npos);
@@ -52,7 +52,7 @@ TEST(ForeignInput, storesCompressedBagsAndFoldersOfBagsAreNamed) {
   EXPECT_NE(refusal(folder.file("bags")).find("one.bag"), std::string::npos);
 }
 
-TEST(ForeignInput, anEmptyOrUnknownFileIsNotMisnamed) {
+TEST(ForeignInput, AnEmptyOrUnknownFileIsNotMisnamed) {
   const TemporaryFolder folder;
   writeBytes(folder.file("empty"), "");
   writeBytes(folder.file("text"), "hello");

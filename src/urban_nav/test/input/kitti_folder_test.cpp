@@ -33,7 +33,7 @@ std::string catchMessage(const std::function<void()>& call) {
   return "";
 }
 
-TEST(KittiFolder, readsEachLayout) {
+TEST(KittiFolder, ReadsEachLayout) {
   for (const auto& [left, right, digits] : {std::tuple("image_0", "image_1", 6), std::tuple("image_00", "image_01", 10),
                                             std::tuple("image_00/data", "image_01/data", 10)}) {
     const TemporaryFolder folder;
@@ -58,7 +58,7 @@ TEST(KittiFolder, readsEachLayout) {
   }
 }
 
-TEST(KittiFolder, namesWhatIsNotUsed) {
+TEST(KittiFolder, NamesWhatIsNotUsed) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 2;
@@ -80,7 +80,7 @@ TEST(KittiFolder, namesWhatIsNotUsed) {
   EXPECT_EQ(unused(), "not used: a10, a11, a12, a13, a14, a15, a16, a17 and 14 more");
 }
 
-TEST(KittiFolder, readsADriveOfKitti360) {
+TEST(KittiFolder, ReadsADriveOfKitti360) {
   const TemporaryFolder folder;
   const std::string drive = folder.file("data_2d_raw") + "/2013_05_28_drive_0000_sync";
   KittiStyle style;
@@ -103,7 +103,7 @@ TEST(KittiFolder, readsADriveOfKitti360) {
   }
 }
 
-TEST(KittiFolder, takesStampsFromRawTimestampsAndRates) {
+TEST(KittiFolder, TakesStampsFromRawTimestampsAndRates) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.left = "image_00/data";
@@ -120,7 +120,7 @@ TEST(KittiFolder, takesStampsFromRawTimestampsAndRates) {
   EXPECT_EQ(openKittiFolder(folder.file("in"), {})->info().first, 1317042145964389445);
 }
 
-TEST(KittiFolder, namesAnImageThatIsTruncatedMissingOrOfAnotherSize) {
+TEST(KittiFolder, NamesAnImageThatIsTruncatedMissingOrOfAnotherSize) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 4;
@@ -139,7 +139,7 @@ TEST(KittiFolder, namesAnImageThatIsTruncatedMissingOrOfAnotherSize) {
   EXPECT_TRUE(inputs[3].faults.empty());
 }
 
-TEST(KittiFolder, namesFileAndLineOfWhatIsWrong) {
+TEST(KittiFolder, NamesFileAndLineOfWhatIsWrong) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 3;
@@ -162,7 +162,7 @@ TEST(KittiFolder, namesFileAndLineOfWhatIsWrong) {
   EXPECT_NE(catchMessage(open).find("calib.txt"), std::string::npos);
 }
 
-TEST(KittiFolder, takesTheCalibrationOfTheUser) {
+TEST(KittiFolder, TakesTheCalibrationOfTheUser) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 2;
@@ -179,7 +179,7 @@ TEST(KittiFolder, takesTheCalibrationOfTheUser) {
       << "what the user says stands above what the folder has";
 }
 
-TEST(KittiFolder, hasNoOtherMeasurementOfTheMotionAndNoTopics) {
+TEST(KittiFolder, HasNoOtherMeasurementOfTheMotionAndNoTopics) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 2;
@@ -206,7 +206,7 @@ std::string cameraYaml(double shift, double distortion, int width = 240) {
          std::to_string(shift) + ", 0, 200, 90, 0, 0, 0, 1, 0]}\n";
 }
 
-TEST(KittiFolder, rectifiesByTheCalibrationOfTheUser) {
+TEST(KittiFolder, RectifiesByTheCalibrationOfTheUser) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 1;
@@ -233,14 +233,14 @@ TEST(KittiFolder, rectifiesByTheCalibrationOfTheUser) {
   EXPECT_NE(catchMessage([&] { openKittiFolder(folder.file("in"), options); }).find("320x180"), std::string::npos);
 }
 
-TEST(KittiLayout, parsesDates) {
+TEST(KittiLayout, ParsesDates) {
   EXPECT_EQ(parseDateTime("1970-01-01 00:00:01.5"), 1'500'000'000);
   EXPECT_EQ(parseDateTime("2000-02-29T12:00:00.000000001"), 951825600000000001);
   EXPECT_FALSE(parseDateTime("2011-13-26 13:02:25.9"));
   EXPECT_FALSE(parseDateTime("yesterday"));
 }
 
-TEST(InputKind, tellsWhatItKnows) {
+TEST(InputKind, TellsWhatItKnows) {
   const TemporaryFolder folder;
   writeFile(folder.file("text.bag"), "no bag");
   std::filesystem::create_directories(folder.file("empty"));

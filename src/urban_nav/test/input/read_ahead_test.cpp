@@ -27,7 +27,7 @@ class Counting : public Source {
   bool fails_;
 };
 
-TEST(ReadAhead, keepsOrderAndEnds) {
+TEST(ReadAhead, KeepsOrderAndEnds) {
   const auto source = readAhead(std::make_unique<Counting>(100, false), 3);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(source->next()->assembled.pair.stamp, i);
   EXPECT_FALSE(source->next());
@@ -35,13 +35,13 @@ TEST(ReadAhead, keepsOrderAndEnds) {
   EXPECT_EQ(source->closingFaults(), std::vector<std::string>{"last words"});
 }
 
-TEST(ReadAhead, handsOnWhatWasReadBeforeAnErrorAndThenTheError) {
+TEST(ReadAhead, HandsOnWhatWasReadBeforeAnErrorAndThenTheError) {
   const auto source = readAhead(std::make_unique<Counting>(5, true), 2);
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(source->next());
   EXPECT_THROW(source->next(), std::runtime_error);
 }
 
-TEST(ReadAhead, stopsWithoutReaders) { readAhead(std::make_unique<Counting>(1000000, false), 2)->next(); }
+TEST(ReadAhead, StopsWithoutReaders) { readAhead(std::make_unique<Counting>(1000000, false), 2)->next(); }
 
 }  // namespace
 }  // namespace urban_nav

@@ -66,7 +66,7 @@ class StoreCommands : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> StoreCommands::shared_;
 
-TEST_F(StoreCommands, infoSaysWhatIsInAStore) {
+TEST_F(StoreCommands, InfoSaysWhatIsInAStore) {
   const StoreInfo info = lookIntoStore(file("both/session.db"));
   ASSERT_EQ(info.sessions.size(), 2U);
   EXPECT_EQ(info.joined.size(), 2U) << "nothing joins them";
@@ -90,7 +90,7 @@ TEST_F(StoreCommands, infoSaysWhatIsInAStore) {
   EXPECT_NE(readFile(file("info.json")).find("\"kind\": \"session store\""), std::string::npos);
 }
 
-TEST_F(StoreCommands, exportsTheBytesThatMapWrote) {
+TEST_F(StoreCommands, ExportsTheBytesThatMapWrote) {
   ASSERT_EQ(call({"export", file("a/session.db"), "--tum", file("x.tum"), "--kitti", file("x.kitti"), "--g2o",
                   file("x.g2o"), "--json", file("x.json")}),
             0);
@@ -104,7 +104,7 @@ TEST_F(StoreCommands, exportsTheBytesThatMapWrote) {
   EXPECT_FALSE(readFile(file("z_2.tum")).empty()) << "a map of its own";
 }
 
-TEST_F(StoreCommands, mapGoesOnFromAStore) {
+TEST_F(StoreCommands, MapGoesOnFromAStore) {
   const std::string first = dumpStore(file("a/session.db"));
   ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
   const auto sessionsIn = [](const std::string& path) { return lookIntoStore(path).sessions.size(); };
@@ -124,7 +124,7 @@ TEST_F(StoreCommands, mapGoesOnFromAStore) {
   EXPECT_EQ(sessionsIn(file("on/session.db")), 1U) << "without --store a folder's store is this run's";
 }
 
-TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
+TEST_F(StoreCommands, MapRelaxesTheSessionsOfAStoreWithNewOnes) {
   // Closures between frames, from the truth of rooms that both folders show.
   const auto truth = [&](const std::string& name) { return urban_nav_core::readKitti(file(name + "/poses.txt")); };
   const std::string header =
@@ -182,7 +182,7 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
   EXPECT_EQ(urban_nav_core::readTum(file("alone/trajectory.tum")).size(), 16U);
 }
 
-TEST_F(StoreCommands, exportRefusesByName) {
+TEST_F(StoreCommands, ExportRefusesByName) {
   const std::string store = file("a/session.db");
   EXPECT_EQ(call({"export", store}), 2);
   EXPECT_EQ(call({"export", store, "--las", file("x.las")}), 1) << "no lasers";
@@ -197,7 +197,7 @@ TEST_F(StoreCommands, exportRefusesByName) {
   EXPECT_EQ(call({"info", file("damaged.db")}), 1);
 }
 
-TEST_F(StoreCommands, mergeGivesTheStoreOfOneRun) {
+TEST_F(StoreCommands, MergeGivesTheStoreOfOneRun) {
   ASSERT_EQ(
       call({"merge", file("a/session.db"), file("b/session.db"), "-o", file("merged.db"), "--json", file("m.json")}),
       0);
@@ -207,7 +207,7 @@ TEST_F(StoreCommands, mergeGivesTheStoreOfOneRun) {
   EXPECT_EQ(call({"merge", file("a/session.db"), file("in16/times.txt"), "-o", file("m2.db")}), 2);
 }
 
-TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
+TEST_F(StoreCommands, RelaxedSessionsOfOneMapAreExportedTogether) {
   Store store(file("joined.db"), Access::Write);
   const Pose T_map_odom(urban_nav_core::Quaterniond::Identity(), {5.0, 0.0, 0.0});
   const auto at = [](double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); };
@@ -259,7 +259,7 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
   EXPECT_NE(toText(info).find("joined by closures"), std::string::npos);
 }
 
-TEST_F(StoreCommands, placesAreExportedWithPosesThumbnailsAndModel) {
+TEST_F(StoreCommands, PlacesAreExportedWithPosesThumbnailsAndModel) {
   Store store(file("places.db"), Access::Write);
   store.sessions().put({"one", "monday", "", "", 0, true});
   for (int i = 0; i < 2; ++i) {

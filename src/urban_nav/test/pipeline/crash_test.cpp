@@ -58,7 +58,7 @@ class Killed : public ::testing::Test {
   double used = 0.0;  // by the last run, s
 };
 
-TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
+TEST_F(Killed, EndsWithTheBytesOfAnUnbrokenRun) {
   makeInputs({60, 25, 50});
   const std::string whole = folder.file("whole"), cut = folder.file("cut");
   ASSERT_EQ(run(words(whole)), 0) << log();
@@ -101,7 +101,7 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
   EXPECT_GT(resumed, 0) << "else the test says nothing";
 }
 
-TEST_F(Killed, beginsAnewWhereTheResultWouldBeAnother) {
+TEST_F(Killed, BeginsAnewWhereTheResultWouldBeAnother) {
   makeInputs({8, 10, 9});
   const std::string out = folder.file("out");
   // As if it was killed when all was done but the report: the last thing that is written, into a folder that cannot be

@@ -57,7 +57,7 @@ class Map : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> Map::shared_;
 
-TEST_F(Map, writesAPosePerFrameNearTheTruth) {
+TEST_F(Map, WritesAPosePerFrameNearTheTruth) {
   const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(out() + "/trajectory.tum");
   const std::vector<urban_nav_core::Pose> estimate = urban_nav_core::readKitti(out() + "/trajectory.kitti"),
                                           truth = urban_nav_core::readKitti(in() + "/poses.txt");
@@ -71,7 +71,7 @@ TEST_F(Map, writesAPosePerFrameNearTheTruth) {
     EXPECT_FALSE(readFile(out() + "/" + name).empty()) << name;
 }
 
-TEST_F(Map, saysWhatTheContractAsksFor) {
+TEST_F(Map, SaysWhatTheContractAsksFor) {
   const std::string summary = readFile(out() + "/summary.json");
   for (const char* key :
        {"wall_s",        "cpu_s",     "peak_rss_bytes", "realtime_factor", "distance_m",        "frames",
@@ -86,7 +86,7 @@ TEST_F(Map, saysWhatTheContractAsksFor) {
     EXPECT_EQ(report.find(word), std::string::npos) << word;
 }
 
-TEST_F(Map, runsTheGraphWithoutGivenClosures) {
+TEST_F(Map, RunsTheGraphWithoutGivenClosures) {
   const TemporaryFolder folder;
   const auto all = [](MapOptions& request) { request.stages.clear(); };
   map({in()}, folder.file("out"), 1, all);
@@ -106,7 +106,7 @@ TEST_F(Map, runsTheGraphWithoutGivenClosures) {
   EXPECT_EQ(urban_nav_core::readTum(folder.file("short/trajectory.tum")).size(), 1U);
 }
 
-TEST_F(Map, theReportOfARecordingThatGoesOnRefreshesItself) {
+TEST_F(Map, TheReportOfARecordingThatGoesOnRefreshesItself) {
   const TemporaryFolder folder;
   const auto refreshes = [&](double so_far) {
     map({in()}, folder.file("out"), 1, [&](MapOptions& request) { request.so_far = so_far; });
@@ -120,13 +120,13 @@ TEST_F(Map, theReportOfARecordingThatGoesOnRefreshesItself) {
   EXPECT_FALSE(refreshes(1.0));
 }
 
-TEST_F(Map, givesEqualBytesWithTwoThreads) {
+TEST_F(Map, GivesEqualBytesWithTwoThreads) {
   const TemporaryFolder folder;
   map({in()}, folder.file("two"), 2);
   expectSame(out(), folder.file("two"));
 }
 
-TEST_F(Map, keepsTheTruthFromTheEstimate) {
+TEST_F(Map, KeepsTheTruthFromTheEstimate) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   fs::remove(folder.file("in/poses.txt"));
@@ -140,7 +140,7 @@ TEST_F(Map, keepsTheTruthFromTheEstimate) {
   }
 }
 
-TEST_F(Map, goesOnOverADamagedImageAndNamesIt) {
+TEST_F(Map, GoesOnOverADamagedImageAndNamesIt) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   writeFile(folder.file("in/image_0/000008.png"), readFile(in() + "/image_0/000008.png").substr(0, 500));
@@ -149,7 +149,7 @@ TEST_F(Map, goesOnOverADamagedImageAndNamesIt) {
   EXPECT_NE(readFile(folder.file("out/summary.json")).find("000008.png"), std::string::npos);
 }
 
-TEST_F(Map, saysThatTheCamerasAreExchanged) {
+TEST_F(Map, SaysThatTheCamerasAreExchanged) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   fs::rename(folder.file("in/image_0"), folder.file("in/left"));
@@ -164,7 +164,7 @@ TEST_F(Map, saysThatTheCamerasAreExchanged) {
   EXPECT_EQ(summary.find("\"none\":"), std::string::npos);
 }
 
-TEST_F(Map, refusesWhatCannotBeMapped) {
+TEST_F(Map, RefusesWhatCannotBeMapped) {
   const TemporaryFolder folder;
   const auto with_stage = [](const char* stage) { return [stage](MapOptions& request) { request.stages = {stage}; }; };
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("vision")), UserError);
@@ -178,7 +178,7 @@ TEST_F(Map, refusesWhatCannotBeMapped) {
   EXPECT_THROW(map({folder.file("in")}, folder.file("out")), DataError);
 }
 
-TEST_F(Map, warnsOfImagesWhoseRowsDiffer) {
+TEST_F(Map, WarnsOfImagesWhoseRowsDiffer) {
   const TemporaryFolder folder;
   testing::KittiStyle style;
   style.frames = 40;
@@ -195,7 +195,7 @@ TEST_F(Map, warnsOfImagesWhoseRowsDiffer) {
   EXPECT_NE(readFile(folder.file("lower/summary.json")).find("px lower in right images"), std::string::npos);
 }
 
-TEST_F(Map, theMapOfAnotherRecordingIsReplacedOnRequestAlone) {
+TEST_F(Map, TheMapOfAnotherRecordingIsReplacedOnRequestAlone) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("other"), fs::copy_options::recursive);
   for (const char* image : {"image_0/000015.png", "image_1/000015.png"}) fs::remove(folder.file("other") + "/" + image);
@@ -210,7 +210,7 @@ TEST_F(Map, theMapOfAnotherRecordingIsReplacedOnRequestAlone) {
   EXPECT_NE(readFile(out_folder + "/trajectory.tum"), before);
 }
 
-TEST_F(Map, saysWhyNoFrameWasOfUse) {
+TEST_F(Map, SaysWhyNoFrameWasOfUse) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   for (const char* camera : {"image_0", "image_1"})
@@ -224,7 +224,7 @@ TEST_F(Map, saysWhyNoFrameWasOfUse) {
   }
 }
 
-TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
+TEST_F(Map, ReadsItsOwnBagsLikeTheFolder) {
   const TemporaryFolder folder;
   Console console;
   const Converted converted = convertStereoFolder(in(), folder.file("in.bag"), {}, console);
@@ -253,7 +253,7 @@ TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
       << "PNG in colour holds the same grey";
 }
 
-TEST_F(Map, joinsTheBagsOfASplitRecordingAndKeepsSessionsApart) {
+TEST_F(Map, JoinsTheBagsOfASplitRecordingAndKeepsSessionsApart) {
   const TemporaryFolder folder;
   Console console;
   convertStereoFolder(in(), folder.file("a.bag"), {}, console);
@@ -267,7 +267,7 @@ TEST_F(Map, joinsTheBagsOfASplitRecordingAndKeepsSessionsApart) {
   EXPECT_FALSE(fs::exists(folder.file("out/trajectory_2.tum"))) << "of the run before";
 }
 
-TEST_F(Map, leavesNoHalfBag) {
+TEST_F(Map, LeavesNoHalfBag) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   writeFile(folder.file("in/image_1/000005.png"), "damaged");

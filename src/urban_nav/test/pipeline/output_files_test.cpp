@@ -69,7 +69,7 @@ class OutputFilesTest : public ::testing::Test {
   std::vector<std::unique_ptr<Stage>> stages;
 };
 
-TEST_F(OutputFilesTest, writesEachSessionAndRemovesWhatIsOfEarlierRuns) {
+TEST_F(OutputFilesTest, WritesEachSessionAndRemovesWhatIsOfEarlierRuns) {
   StageResult points;
   points.files = {{"points.ply", [] { return std::string("first"); }}, {"points_2.ply", [] { return "second"; }}};
   write(1, points);
@@ -82,7 +82,7 @@ TEST_F(OutputFilesTest, writesEachSessionAndRemovesWhatIsOfEarlierRuns) {
   for (const char* name : {"trajectory_old.tum", "notes.txt"}) EXPECT_TRUE(has(name)) << "not of map: " << name;
 }
 
-TEST_F(OutputFilesTest, aMapHasItsSessionsInOneFile) {
+TEST_F(OutputFilesTest, AMapHasItsSessionsInOneFile) {
   context.trajectories[1].map = 0;
   write(2);
   EXPECT_FALSE(has("trajectory_2.tum"));
@@ -91,7 +91,7 @@ TEST_F(OutputFilesTest, aMapHasItsSessionsInOneFile) {
   EXPECT_EQ(readFile(out.file("closures.csv")), printClosures({}));
 }
 
-TEST_F(OutputFilesTest, previousSessionsStayAsTheyAre) {
+TEST_F(OutputFilesTest, PreviousSessionsStayAsTheyAre) {
   out.write("trajectory.tum", "previous");
   out.write("points.ply", "previous");
   context.previous.runs.push_back(drive(4));
@@ -104,7 +104,7 @@ TEST_F(OutputFilesTest, previousSessionsStayAsTheyAre) {
   EXPECT_FALSE(has("points_3.ply"));
 }
 
-TEST_F(OutputFilesTest, localizedPosesReplaceThoseOfTheTrajectoryAlone) {
+TEST_F(OutputFilesTest, LocalizedPosesReplaceThoseOfTheTrajectoryAlone) {
   urban_nav_core::Trajectory localized;
   localized.append(7, urban_nav_core::Pose());
   context.trajectories[0].localized = localized;

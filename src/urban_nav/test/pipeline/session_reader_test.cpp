@@ -81,7 +81,7 @@ class SessionReaderTest : public ::testing::Test {
   std::size_t rows = 0;
 };
 
-TEST_F(SessionReaderTest, allStagesObserveTheOnePassAndAreRestoredAfterAnInterruption) {
+TEST_F(SessionReaderTest, AllStagesObserveTheOnePassAndAreRestoredAfterAnInterruption) {
   read();
   EXPECT_EQ(counting.frames, kFramesRead);
   EXPECT_EQ(rows, static_cast<std::size_t>(kFramesRead));
@@ -93,7 +93,7 @@ TEST_F(SessionReaderTest, allStagesObserveTheOnePassAndAreRestoredAfterAnInterru
   EXPECT_EQ(rows, static_cast<std::size_t>(kFramesRead));
 }
 
-TEST_F(SessionReaderTest, aSessionIsReadAgainWithOtherParameters) {
+TEST_F(SessionReaderTest, ASessionIsReadAgainWithOtherParameters) {
   read();
   options.parameters.set("swf_vo.window=7");
   read();

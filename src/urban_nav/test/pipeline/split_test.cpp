@@ -92,7 +92,7 @@ class Split : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> Split::shared_;
 
-TEST_F(Split, isOneRecording) {
+TEST_F(Split, IsOneRecording) {
   map({all()}, folder.file("all"));
   for (const std::string& name : kSameWhenSplit)
     EXPECT_TRUE(readFile(whole() + "/" + name) == readFile(folder.file("all/" + name))) << name;
@@ -101,7 +101,7 @@ TEST_F(Split, isOneRecording) {
   EXPECT_TRUE(forcesIn(whole() + "/session.db") == forcesIn(folder.file("all/session.db")));
 }
 
-TEST_F(Split, goesOnBagByBagInOneFolder) {
+TEST_F(Split, GoesOnBagByBagInOneFolder) {
   const std::string out = folder.file("out");
   map({part(0)}, out);
   EXPECT_LT(urban_nav_core::readTum(out + "/trajectory.tum").size(), static_cast<std::size_t>(kFrames) / 2);
@@ -113,7 +113,7 @@ TEST_F(Split, goesOnBagByBagInOneFolder) {
   expectWhole(out);  // there is nothing after the end, and nothing to make again from
 }
 
-TEST_F(Split, goesOnInAnotherFolder) {
+TEST_F(Split, GoesOnInAnotherFolder) {
   map({part(0)}, folder.file("first"));
   map({part(1), part(2)}, folder.file("rest"), folder.file("first"));
   expectWhole(folder.file("rest"));
@@ -126,7 +126,7 @@ TEST_F(Split, goesOnInAnotherFolder) {
   expectWhole(folder.file("all"));
 }
 
-TEST_F(Split, goesOnWithWheels) {
+TEST_F(Split, GoesOnWithWheels) {
   const auto with_wheels = [](MapOptions& request) {
     request.parameters.set("input.motion_input=wheels");
     request.source.motion_input = "wheels";
@@ -148,7 +148,7 @@ std::vector<Row> placeRows(const std::string& store) {
   return rows;
 }
 
-TEST_F(Split, keepsTheWordsOfKeyframesBesidePanoramas) {
+TEST_F(Split, KeepsTheWordsOfKeyframesBesidePanoramas) {
   const auto with_places = [](MapOptions& request) { request.stages = {"vo", "places"}; };
   map({all()}, folder.file("once"), {}, with_places);
   for (int i = 0; i < 3; ++i) map({part(i)}, folder.file("out"), i > 0 ? folder.file("out") : "", with_places);
@@ -174,7 +174,7 @@ TEST_F(Split, keepsTheWordsOfKeyframesBesidePanoramas) {
 }
 
 // What ties moments of the first bag together still does when the others have come.
-TEST_F(Split, keepsTheClosuresOfTheBagsBefore) {
+TEST_F(Split, KeepsTheClosuresOfTheBagsBefore) {
   const urban_nav_core::Trajectory way = urban_nav_core::readTum(whole() + "/trajectory.tum");
   ClosureRow row;
   row.session_a = row.session_b = "part_0";
@@ -199,7 +199,7 @@ TEST_F(Split, keepsTheClosuresOfTheBagsBefore) {
   EXPECT_FALSE(readFile(folder.file("out/trajectory.tum")) == readFile(whole() + "/trajectory.tum"));
 }
 
-TEST_F(Split, isAnotherSessionWhereItCannotGoOn) {
+TEST_F(Split, IsAnotherSessionWhereItCannotGoOn) {
   const std::string out = folder.file("out");
   map({part(0)}, out);
   const std::string first = readFile(out + "/trajectory.tum");
@@ -234,7 +234,7 @@ std::vector<std::string> makePictures(const std::string& path) {
   return pictures;
 }
 
-TEST_F(Split, resumesAfterItsLastBagAfterAKill) {
+TEST_F(Split, ResumesAfterItsLastBagAfterAKill) {
   std::vector<std::string> words = {"map", "--stages", "vo", "--threads", "1", "--out", folder.file("cut")};
   for (const std::string& input : parts()) words.push_back(input);
   int kills = 0;

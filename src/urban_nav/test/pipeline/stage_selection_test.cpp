@@ -34,7 +34,7 @@ class StageSelectionTest : public ::testing::Test {
 };
 using Names = std::vector<std::string>;
 
-TEST_F(StageSelectionTest, namesAndKeysAreUniqueAndOdometryComesFirst) {
+TEST_F(StageSelectionTest, NamesAndKeysAreUniqueAndOdometryComesFirst) {
   std::set<std::string> names, keys;
   for (const std::unique_ptr<Stage>& stage : stages) {
     EXPECT_TRUE(names.insert(stage->describe().name).second) << stage->describe().name;
@@ -44,7 +44,7 @@ TEST_F(StageSelectionTest, namesAndKeysAreUniqueAndOdometryComesFirst) {
   for (const std::string& planned : plannedStageNames()) EXPECT_EQ(names.count(planned), 0U) << planned;
 }
 
-TEST_F(StageSelectionTest, selectsAllWithoutAWord) {
+TEST_F(StageSelectionTest, SelectsAllWithoutAWord) {
   EXPECT_EQ(select(), (Names{"vo", "keyframes", "places", "stereo", "loops", "graph", "lasers", "labels"}));
   EXPECT_EQ(printed.find("left out: "), std::string::npos) << printed;
   EXPECT_NE(printed.find("closures: those that places proposes"), std::string::npos) << printed;
@@ -53,7 +53,7 @@ TEST_F(StageSelectionTest, selectsAllWithoutAWord) {
   EXPECT_NE(printed.find("closures: none"), std::string::npos) << printed;
 }
 
-TEST_F(StageSelectionTest, selectsWhatIsRequestedAndWhatThatNeeds) {
+TEST_F(StageSelectionTest, SelectsWhatIsRequestedAndWhatThatNeeds) {
   options.stages = {"vo"};
   options.closures = "closures.csv";
   EXPECT_EQ(select(), Names{"vo"});
@@ -65,7 +65,7 @@ TEST_F(StageSelectionTest, selectsWhatIsRequestedAndWhatThatNeeds) {
   EXPECT_EQ(select(), (Names{"vo", "keyframes", "loops"}));
 }
 
-TEST_F(StageSelectionTest, calibratesBeforeClosuresAreMeasured) {
+TEST_F(StageSelectionTest, CalibratesBeforeClosuresAreMeasured) {
   options.calibrate = true;
   EXPECT_EQ(select(),
             (Names{"vo", "keyframes", "places", "stereo", "calibration", "loops", "graph", "lasers", "labels"}));
@@ -74,7 +74,7 @@ TEST_F(StageSelectionTest, calibratesBeforeClosuresAreMeasured) {
   ::testing::internal::GetCapturedStderr();
 }
 
-TEST_F(StageSelectionTest, localizationTakesThePlaceOfMapping) {
+TEST_F(StageSelectionTest, LocalizationTakesThePlaceOfMapping) {
   const testing::TemporaryFolder folder;
   options.localise = folder.file("map.db");
   EXPECT_THROW(select(), urban_nav_core::Error) << "there is no such store";
@@ -86,7 +86,7 @@ TEST_F(StageSelectionTest, localizationTakesThePlaceOfMapping) {
   ::testing::internal::GetCapturedStderr();
 }
 
-TEST_F(StageSelectionTest, refusesUnknownAndPlannedWords) {
+TEST_F(StageSelectionTest, RefusesUnknownAndPlannedWords) {
   for (const char* word : {"vision", "keyframes"}) {
     options.stages = {word};
     EXPECT_THROW(select(), UserError) << word;

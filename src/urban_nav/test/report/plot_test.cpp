@@ -30,14 +30,14 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-TEST(Plot, drawsNothingOutOfNothing) {
+TEST(Plot, DrawsNothingOutOfNothing) {
   EXPECT_EQ(renderSvg({}), "");
   Plot plot;
   plot.series.push_back(line({{kNan, 1.0}, {0.0, kNan}}));
   EXPECT_EQ(renderSvg(plot), "");
 }
 
-TEST(Plot, breaksALineAtWhatIsNotFinite) {
+TEST(Plot, BreaksALineAtWhatIsNotFinite) {
   Plot plot;
   plot.series.push_back(line({{0, 0}, {1, 1}, {2, kNan}, {3, 1}, {4, 0}}));
   const std::string svg = renderSvg(plot, false);
@@ -48,7 +48,7 @@ TEST(Plot, breaksALineAtWhatIsNotFinite) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(Plot, keepsExtremesOfALongLine) {
+TEST(Plot, KeepsExtremesOfALongLine) {
   std::vector<PlotPoint> points;
   for (int i = 0; i < 100000; ++i) points.push_back({0.001 * i, i == 77777 ? 50.0 : std::sin(0.01 * i)});
   Plot plot;
@@ -66,14 +66,14 @@ TEST(Plot, keepsExtremesOfALongLine) {
   EXPECT_GT(lowest - highest, 100.0) << "the spike is lost";
 }
 
-TEST(Plot, survivesASinglePoint) {
+TEST(Plot, SurvivesASinglePoint) {
   Plot plot;
   plot.equal_axes = true;
   plot.series.push_back(line({{5.0, 5.0}}));
   EXPECT_EQ(renderSvg(plot).find("nan"), std::string::npos);
 }
 
-TEST(Plot, becomesAPicture) {
+TEST(Plot, BecomesAPicture) {
   Plot plot;
   plot.series.push_back(line({{0, 0}, {1, kNan}, {2, 3}, {4, 1}}));
   const std::vector<unsigned char> png = rasterPng({{"one", plot}, {"nothing", {}}});
@@ -81,14 +81,14 @@ TEST(Plot, becomesAPicture) {
   EXPECT_EQ(std::string(png.begin() + 1, png.begin() + 4), "PNG");
 }
 
-TEST(Plot, escapesNames) {
+TEST(Plot, EscapesNames) {
   Plot plot;
   plot.series.push_back(line({{0, 0}, {1, 1}}));
   EXPECT_EQ(renderSvg(plot).find("<b>"), std::string::npos);
   EXPECT_NE(standaloneSvg({{"x & y", plot}}).find("x &amp; y"), std::string::npos);
 }
 
-TEST(NiceTicks, areRoundAndInside) {
+TEST(NiceTicks, AreRoundAndInside) {
   EXPECT_EQ(niceTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
   for (const double tick : niceTicks(-0.37, 1.2e6, 7)) {
     EXPECT_GE(tick, -0.37);
@@ -98,7 +98,7 @@ TEST(NiceTicks, areRoundAndInside) {
   EXPECT_TRUE(niceTicks(kNan, 1.0, 5).empty());
 }
 
-TEST(ForPerson, writesWhatPeopleWrite) {
+TEST(ForPerson, WritesWhatPeopleWrite) {
   EXPECT_EQ(forPerson(0.0), "0");
   EXPECT_EQ(forPerson(59.8612, 4), "59.86");
   EXPECT_EQ(forPerson(1234567.0, 3), "1234567");
@@ -107,7 +107,7 @@ TEST(ForPerson, writesWhatPeopleWrite) {
   EXPECT_EQ(forPerson(kNan), "–");
 }
 
-TEST(Page, isOneFileThatRefreshesOnlyWhileItRuns) {
+TEST(Page, IsOneFileThatRefreshesOnlyWhileItRuns) {
   Page page;
   page.title = "<script>alert(1)</script>";
   page.running = true;
@@ -118,7 +118,7 @@ TEST(Page, isOneFileThatRefreshesOnlyWhileItRuns) {
   EXPECT_EQ(renderPage(page).find("http-equiv=\"refresh\""), std::string::npos);
 }
 
-TEST(Base64, agreesWithTheStandard) {  // RFC 4648, section 10
+TEST(Base64, AgreesWithTheStandard) {  // RFC 4648, section 10
   const auto of = [](const std::string& text) { return base64({text.begin(), text.end()}); };
   EXPECT_EQ(of(""), "");
   EXPECT_EQ(of("f"), "Zg==");

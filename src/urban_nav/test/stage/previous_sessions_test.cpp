@@ -52,7 +52,7 @@ class PreviousSessionsTest : public ::testing::Test {
   Store store{folder.file("s.db"), Access::Write};
 };
 
-TEST_F(PreviousSessionsTest, bringsChainsBackToTheLastBit) {
+TEST_F(PreviousSessionsTest, BringsChainsBackToTheLastBit) {
   put("m", "monday.bag", 100, 3);
   tie("m", 100, "m", 101, EdgeKind::Odometry, 1.0 / 3.0);  // what was measured, not the difference of rounded poses
   store.inputs().append("m", {kVoStream, 104, false});
@@ -78,7 +78,7 @@ TEST_F(PreviousSessionsTest, bringsChainsBackToTheLastBit) {
   EXPECT_FALSE(holdsClosures(store));
 }
 
-TEST_F(PreviousSessionsTest, bringsClosuresBetweenTheSessionsThatStay) {
+TEST_F(PreviousSessionsTest, BringsClosuresBetweenTheSessionsThatStay) {
   put("m", "monday.bag", 100, 3);
   put("t", "monday", 200, 3);
   put("w", "", 300, 3);

@@ -14,7 +14,7 @@ std::vector<double> numbers(int n, double pace) {
   return made;
 }
 
-TEST(DenseKernels, agreeWithThePlainSums) {
+TEST(DenseKernels, AgreeWithThePlainSums) {
   for (const InstructionSet& set : instructionSets())
     for (int n = 0; n < 70; ++n) {
       const std::vector<double> a = numbers(n, 0.7), b = numbers(n, 1.3), c = numbers(n, 2.1), before = numbers(n, 0.4);
@@ -36,7 +36,7 @@ TEST(DenseKernels, agreeWithThePlainSums) {
     }
 }
 
-TEST(DenseKernels, sixProductsAreThoseOfOneByOne) {
+TEST(DenseKernels, SixProductsAreThoseOfOneByOne) {
   const auto sets = instructionSets();
   for (int n = 0; n < 40; ++n) {
     const int stride = n + 3;
@@ -53,7 +53,7 @@ TEST(DenseKernels, sixProductsAreThoseOfOneByOne) {
   }
 }
 
-TEST(DenseKernels, eightRightHandSidesAreThoseOfOneByOne) {
+TEST(DenseKernels, EightRightHandSidesAreThoseOfOneByOne) {
   const auto sets = instructionSets();
   for (const int rows : {1, 3, 8, 13})
     for (const int columns : {0, 1, 6, 17})
@@ -78,7 +78,7 @@ TEST(DenseKernels, eightRightHandSidesAreThoseOfOneByOne) {
       }
 }
 
-TEST(DenseKernels, giveTheSameBitsWithEveryInstructionSet) {
+TEST(DenseKernels, GiveTheSameBitsWithEveryInstructionSet) {
   const auto sets = instructionSets();
   for (int n = 0; n < 70; ++n) {
     const std::vector<double> a = numbers(n, 0.7), b = numbers(n, 1.3), c = numbers(n, 2.1);

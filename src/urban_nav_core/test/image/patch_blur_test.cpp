@@ -26,7 +26,7 @@ std::vector<std::uint8_t> corner(double sigma) {
 ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), width, width, width}; }
 
 // A corner moves into its bright side as it is blurred, and a template that is blurred as well moves along.
-TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
+TEST(PatchBlur, TakesTheDisplacementOfACornerAway) {
   const std::vector<std::uint8_t> sharp = corner(0.6), soft = corner(std::sqrt(0.36 + 1.0));
   const auto source = cutSource(viewOfPixels(sharp), 32, 32);
   ASSERT_TRUE(source);
@@ -43,7 +43,7 @@ TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
   EXPECT_NEAR(predicted.norm(), (wrong.position - middle).norm(), 0.6 * predicted.norm());
 }
 
-TEST(PatchBlur, ofNothingChangesNothing) {
+TEST(PatchBlur, OfNothingChangesNothing) {
   const std::vector<std::uint8_t> sharp = corner(0.6);
   const auto source = cutSource(viewOfPixels(sharp), 32, 32);
   EXPECT_EQ(blurred(*source, Eigen::Vector2d::Zero()).pixels, source->pixels);

@@ -29,7 +29,7 @@ class Documents : public ::testing::Test {
   std::string package_;
 };
 
-TEST_F(Documents, getEachTableWhereItBelongs) {
+TEST_F(Documents, GetEachTableWhereItBelongs) {
   writeAtomically(package_ + "/README.md", empty_readme);
   writeAtomically(package_ + "/config/stage.yaml", "old");
   writeDocuments(package_, {{"stage", rows_}, {"", {rows_[0]}}});
@@ -41,7 +41,7 @@ TEST_F(Documents, getEachTableWhereItBelongs) {
   EXPECT_NE(readme.find("between\n<!-- parameters:  -->\n| parameter |"), std::string::npos) << readme;
 }
 
-TEST_F(Documents, areLeftAsTheyAreWhereOneIsMissing) {
+TEST_F(Documents, AreLeftAsTheyAreWhereOneIsMissing) {
   writeAtomically(package_ + "/README.md", "no marks\n");
   writeAtomically(package_ + "/config/stage.yaml", "old");
   EXPECT_THROW(writeDocuments(package_, {{"stage", rows_}}), UserError);

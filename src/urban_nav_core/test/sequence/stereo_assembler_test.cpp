@@ -22,7 +22,7 @@ MotionInput motion(StampNs from, StampNs to) {
   return input;
 }
 
-TEST(StereoAssembler, partnersLeaveTogetherWhicheverComesFirst) {
+TEST(StereoAssembler, PartnersLeaveTogetherWhicheverComesFirst) {
   StereoAssembler assembler;
   assembler.addLeft(image(100 * ms, 1));
   EXPECT_FALSE(assembler.take());
@@ -41,7 +41,7 @@ TEST(StereoAssembler, partnersLeaveTogetherWhicheverComesFirst) {
   EXPECT_EQ(assembler.leftsMissing() + assembler.rightsMissing(), 0);
 }
 
-TEST(StereoAssembler, anImageWithoutPartnerLeavesAloneOnceALaterOneShowsIt) {
+TEST(StereoAssembler, AnImageWithoutPartnerLeavesAloneOnceALaterOneShowsIt) {
   StereoAssembler assembler;
   assembler.addLeft(image(100 * ms, 1));
   assembler.addLeft(image(150 * ms, 3));
@@ -68,7 +68,7 @@ TEST(StereoAssembler, anImageWithoutPartnerLeavesAloneOnceALaterOneShowsIt) {
   EXPECT_FALSE(assembler.take());
 }
 
-TEST(StereoAssembler, toleranceIsTheLargestDifferenceThatPairs) {
+TEST(StereoAssembler, ToleranceIsTheLargestDifferenceThatPairs) {
   StereoAssembler assembler(10 * ms);
   assembler.addLeft(image(100 * ms, 1));
   assembler.addRight(image(110 * ms, 1));
@@ -80,7 +80,7 @@ TEST(StereoAssembler, toleranceIsTheLargestDifferenceThatPairs) {
   EXPECT_TRUE(lone->pair.right.empty());
 }
 
-TEST(StereoAssembler, aPairTakesTheMotionThatEndedBeforeIt) {
+TEST(StereoAssembler, APairTakesTheMotionThatEndedBeforeIt) {
   StereoAssembler assembler;
   for (StampNs t = 0; t < 200; t += 20) assembler.addMotion(motion(t * ms, (t + 20) * ms));
   assembler.addLeft(image(100 * ms, 1));
@@ -96,7 +96,7 @@ TEST(StereoAssembler, aPairTakesTheMotionThatEndedBeforeIt) {
   EXPECT_EQ(second->inputs.back().to, 140 * ms);
 }
 
-TEST(StereoAssembler, pixelsLiveAsLongAsThePair) {
+TEST(StereoAssembler, PixelsLiveAsLongAsThePair) {
   StereoAssembler assembler;
   std::weak_ptr<const void> alive;
   {

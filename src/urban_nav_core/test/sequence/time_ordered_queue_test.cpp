@@ -30,7 +30,7 @@ std::vector<Entry> threeStreams() {
   return inputs;
 }
 
-TEST(TimeOrderedQueue, whateverIsShuffledWithinTheLatenessLeavesInOrder) {
+TEST(TimeOrderedQueue, WhateverIsShuffledWithinTheLatenessLeavesInOrder) {
   const std::vector<Entry> inputs = threeStreams();
   std::mt19937 random(7);
   std::uniform_real_distribution<double> delay(0.0, 50.0);
@@ -51,7 +51,7 @@ TEST(TimeOrderedQueue, whateverIsShuffledWithinTheLatenessLeavesInOrder) {
   }
 }
 
-TEST(TimeOrderedQueue, theSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
+TEST(TimeOrderedQueue, TheSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
   TestQueue live(3, 100 * ms, DeliveryOrder::OrderedStreams), offline(3, 50 * ms);
   std::vector<Entry> live_out, offline_out;
   for (const Entry& input : threeStreams()) {
@@ -68,7 +68,7 @@ TEST(TimeOrderedQueue, theSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
   EXPECT_EQ(live_out, threeStreams());
 }
 
-TEST(TimeOrderedQueue, orderedStreamsLeaveAsSoonAsAllHaveComeThatFar) {
+TEST(TimeOrderedQueue, OrderedStreamsLeaveAsSoonAsAllHaveComeThatFar) {
   TestQueue queue(2, 100 * ms, DeliveryOrder::OrderedStreams);
   queue.put(0, 50 * ms, 0);
   EXPECT_TRUE(drain(queue).empty());
@@ -76,7 +76,7 @@ TEST(TimeOrderedQueue, orderedStreamsLeaveAsSoonAsAllHaveComeThatFar) {
   EXPECT_EQ(drain(queue), (std::vector<Entry>{{50 * ms, 0}, {50 * ms, 1}}));
 }
 
-TEST(TimeOrderedQueue, aSilentStreamIsWaitedForNoLongerThanTheLateness) {
+TEST(TimeOrderedQueue, ASilentStreamIsWaitedForNoLongerThanTheLateness) {
   TestQueue queue(2, 100 * ms, DeliveryOrder::OrderedStreams);
   queue.put(0, 0, 0);
   queue.put(0, 99 * ms, 0);
@@ -87,7 +87,7 @@ TEST(TimeOrderedQueue, aSilentStreamIsWaitedForNoLongerThanTheLateness) {
   EXPECT_EQ(*queue.reached(0), 100 * ms);
 }
 
-TEST(TimeOrderedQueue, lateAndDoubledInputsAreCountedAndDropped) {
+TEST(TimeOrderedQueue, LateAndDoubledInputsAreCountedAndDropped) {
   TestQueue queue(2, 10 * ms);
   queue.put(0, 100 * ms, 0);
   queue.put(0, 120 * ms, 0);
@@ -102,7 +102,7 @@ TEST(TimeOrderedQueue, lateAndDoubledInputsAreCountedAndDropped) {
   EXPECT_EQ(queue.counts(1).late, 1);
 }
 
-TEST(TimeOrderedQueue, oneStampFarAheadHoldsNothingUp) {
+TEST(TimeOrderedQueue, OneStampFarAheadHoldsNothingUp) {
   TestQueue queue(1, 10 * ms);
   queue.put(0, 100 * ms, 0);
   queue.put(0, 100'000'000 * ms, 0);

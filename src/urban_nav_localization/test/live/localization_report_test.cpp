@@ -6,7 +6,7 @@
 namespace urban_nav_localization {
 namespace {
 
-TEST(LocalizationReport, theMostSevereFaultComesFirst) {
+TEST(LocalizationReport, TheMostSevereFaultComesFirst) {
   StageState state;
   state.image_fault = "/stereo/left/image_raw has not come yet";
   EXPECT_EQ(makeReport(state).reason_name, "NoImages");
@@ -21,14 +21,14 @@ TEST(LocalizationReport, theMostSevereFaultComesFirst) {
   EXPECT_EQ(makeReport(state).status.sentence, "another camera");
 }
 
-TEST(LocalizationReport, aPauseIsNoFault) {
+TEST(LocalizationReport, APauseIsNoFault) {
   StageState state;
   state.paused = true;
   state.odometry_fault = "silent";
   EXPECT_EQ(makeReport(state).reason_name, "None");
 }
 
-TEST(LocalizationReport, aStateOtherThanLocalizedIsAWarningAndNoFault) {
+TEST(LocalizationReport, AStateOtherThanLocalizedIsAWarningAndNoFault) {
   StageState state;
   const urban_nav_live::StageReport lost = makeReport(state);
   EXPECT_EQ(lost.reason_name, "None");
@@ -38,7 +38,7 @@ TEST(LocalizationReport, aStateOtherThanLocalizedIsAWarningAndNoFault) {
   EXPECT_EQ(makeReport(state).summary.substr(0, 9), "LOCALIZED");
 }
 
-TEST(LocalizationReport, readingTheMapIsNamedWithItsProgress) {
+TEST(LocalizationReport, ReadingTheMapIsNamedWithItsProgress) {
   StageState state;
   state.localiser.map_keyframes = 7;
   state.localiser.map_keyframes_read = 3;
@@ -46,7 +46,7 @@ TEST(LocalizationReport, readingTheMapIsNamedWithItsProgress) {
   EXPECT_NE(makeReport(state).status.sentence.find("3 of 7"), std::string::npos);
 }
 
-TEST(LocalizationReport, faultsHaveNames) {
+TEST(LocalizationReport, FaultsHaveNames) {
   for (int i = 0; i <= 5; ++i) EXPECT_STRNE(toString(static_cast<StageFault>(i)), "");
 }
 

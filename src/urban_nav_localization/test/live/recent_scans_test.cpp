@@ -24,7 +24,7 @@ std::vector<StampNs> listStamps(const RecentScans& scans, StampNs first, StampNs
   return stamps;
 }
 
-TEST(RecentScans, givesAStretchWithBothEnds) {
+TEST(RecentScans, GivesAStretchWithBothEnds) {
   RecentScans scans;
   for (int i = 1; i <= 5; ++i) scans.add("left", scanAt(i * scan_second));
   EXPECT_TRUE(scans.lasers().empty()) << "no pose yet";
@@ -36,7 +36,7 @@ TEST(RecentScans, givesAStretchWithBothEnds) {
   EXPECT_TRUE(listStamps(scans, 6 * scan_second, 9 * scan_second).empty());
 }
 
-TEST(RecentScans, ignoresRepeatedAndLateScans) {
+TEST(RecentScans, IgnoresRepeatedAndLateScans) {
   RecentScans scans;
   scans.setLaser("left", urban_nav_core::Pose());
   for (const StampNs stamp : {10 * scan_second, 10 * scan_second, 10 * scan_second - scan_second / 2, 11 * scan_second})
@@ -44,7 +44,7 @@ TEST(RecentScans, ignoresRepeatedAndLateScans) {
   EXPECT_EQ(listStamps(scans, 0, 20 * scan_second), (std::vector<StampNs>{10 * scan_second, 11 * scan_second}));
 }
 
-TEST(RecentScans, dropsScansFromBeforeAJumpBack) {
+TEST(RecentScans, DropsScansFromBeforeAJumpBack) {
   RecentScans scans;
   scans.setLaser("left", urban_nav_core::Pose());
   scans.add("left", scanAt(100 * scan_second));
@@ -52,7 +52,7 @@ TEST(RecentScans, dropsScansFromBeforeAJumpBack) {
   EXPECT_EQ(listStamps(scans, 0, 200 * scan_second), (std::vector<StampNs>{5 * scan_second}));
 }
 
-TEST(RecentScans, keepsTheLastMinute) {
+TEST(RecentScans, KeepsTheLastMinute) {
   RecentScans scans;
   scans.setLaser("left", urban_nav_core::Pose());
   for (int i = 1; i <= 100; ++i) scans.add("left", scanAt(i * scan_second));

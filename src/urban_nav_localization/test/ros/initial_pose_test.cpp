@@ -34,7 +34,7 @@ std::vector<urban_nav_store::StoredTrajectory> hill() {
   return {session};
 }
 
-TEST(InitialPose, aDrawnOneIsPutAtTheHeightOfTheMap) {
+TEST(InitialPose, ADrawnOneIsPutAtTheHeightOfTheMap) {
   const auto initial_pose = toInitialPose(drawn(6.2, 1.0), "map", "initialpose", hill());
   EXPECT_NEAR(initial_pose.pose.t().z(), 0.6, 1e-12);
   EXPECT_EQ(initial_pose.pose.t().x(), 6.2);
@@ -44,7 +44,7 @@ TEST(InitialPose, aDrawnOneIsPutAtTheHeightOfTheMap) {
   EXPECT_EQ(toInitialPose(drawn(6.2, 1.0), "/map", "initialpose", {}).pose.t().z(), 0.0);
 }
 
-TEST(InitialPose, aWholeOneStaysAsItIs) {
+TEST(InitialPose, AWholeOneStaysAsItIs) {
   auto message = drawn(6.0, 0.0);
   message.pose.pose.position.z = 3.0;
   message.pose.covariance[14] = message.pose.covariance[21] = message.pose.covariance[28] = 0.04;
@@ -54,7 +54,7 @@ TEST(InitialPose, aWholeOneStaysAsItIs) {
   EXPECT_NEAR(initial_pose.covariance(3, 3), 0.04, 1e-3);
 }
 
-TEST(InitialPose, whatIsNoneIsNamed) {
+TEST(InitialPose, WhatIsNoneIsNamed) {
   const auto refused = [](const geometry_msgs::PoseWithCovarianceStamped& message, const std::string& words) {
     try {
       toInitialPose(message, "map", "initialpose", {});

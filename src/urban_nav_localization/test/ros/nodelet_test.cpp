@@ -160,7 +160,7 @@ class LocalizationNodelet : public ::testing::Test {
 };
 std::filesystem::path LocalizationNodelet::folder_;
 
-TEST_F(LocalizationNodelet, anotherDayIsKnownWhereItIs) {
+TEST_F(LocalizationNodelet, AnotherDayIsKnownWhereItIs) {
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(roomOfAnotherDay());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected() && !robot.states.empty() && !robot.maps.empty(); }));
@@ -190,7 +190,7 @@ TEST_F(LocalizationNodelet, anotherDayIsKnownWhereItIs) {
   EXPECT_EQ(robot.states.back().state, LocalizationState::UNCERTAIN) << "whoever is moved by hand says so";
 }
 
-TEST_F(LocalizationNodelet, anInitialPoseIsNeitherNeededNorAcceptedAgainstMatches) {
+TEST_F(LocalizationNodelet, AnInitialPoseIsNeitherNeededNorAcceptedAgainstMatches) {
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(roomOfAnotherDay());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));
@@ -215,7 +215,7 @@ TEST_F(LocalizationNodelet, anInitialPoseIsNeitherNeededNorAcceptedAgainstMatche
   expectRight(robot, 14);
 }
 
-TEST_F(LocalizationNodelet, aWorldThatWasNeverSeenIsNew) {
+TEST_F(LocalizationNodelet, AWorldThatWasNeverSeenIsNew) {
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(street());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));
@@ -229,7 +229,7 @@ TEST_F(LocalizationNodelet, aWorldThatWasNeverSeenIsNew) {
   EXPECT_TRUE(robot.poses.empty());
 }
 
-TEST_F(LocalizationNodelet, aGapInOdometryIsABeginning) {
+TEST_F(LocalizationNodelet, AGapInOdometryIsABeginning) {
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(roomOfAnotherDay());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));
@@ -244,7 +244,7 @@ TEST_F(LocalizationNodelet, aGapInOdometryIsABeginning) {
   expectRight(robot, 17);
 }
 
-TEST_F(LocalizationNodelet, aStoreThatIsNoneIsNamedWithTheParameter) {
+TEST_F(LocalizationNodelet, AStoreThatIsNoneIsNamedWithTheParameter) {
   std::vector<rosgraph_msgs::Log> logs;
   const boost::function<void(const rosgraph_msgs::LogConstPtr&)> hear = [&](const rosgraph_msgs::LogConstPtr& log) {
     logs.push_back(*log);

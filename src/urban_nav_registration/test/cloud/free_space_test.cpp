@@ -40,7 +40,7 @@ PointCloud corridor() {
   return cloud;
 }
 
-TEST(FreeSpace, isWhereBeamsWentThroughAndNothingElse) {
+TEST(FreeSpace, IsWhereBeamsWentThroughAndNothingElse) {
   const FreeSpace space(corridor(), 0.5F);
   Dice dice(1);
   int free = 0;
@@ -63,7 +63,7 @@ TEST(FreeSpace, isWhereBeamsWentThroughAndNothingElse) {
   EXPECT_TRUE(space.isFree({2.0F, 2.0F, 1.1F})) << "beside it";
 }
 
-TEST(FreeSpace, knowsNothingWithoutBeams) {
+TEST(FreeSpace, KnowsNothingWithoutBeams) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   PointCloud cloud;
   EXPECT_FALSE(FreeSpace(cloud, 0.5F).isFree(Vector3f::Zero()));

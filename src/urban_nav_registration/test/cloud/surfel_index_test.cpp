@@ -17,7 +17,7 @@ Eigen::Vector3f somewhere(Dice& dice, double size) {
           static_cast<float>(dice.uniform(-size, size))};
 }
 
-TEST(SurfelIndex, findsWhatALookAtAllOfThemFinds) {
+TEST(SurfelIndex, FindsWhatALookAtAllOfThemFinds) {
   Dice dice(3);
   std::vector<Surfel> surfels;
   for (int i = 0; i < 8000; ++i)
@@ -48,7 +48,7 @@ TEST(SurfelIndex, findsWhatALookAtAllOfThemFinds) {
   }
 }
 
-TEST(SurfelIndex, aFinerOneAnswersForWhatIsNear) {
+TEST(SurfelIndex, AFinerOneAnswersForWhatIsNear) {
   Dice dice(4);
   std::vector<Surfel> surfels;
   for (int i = 0; i < 3000; ++i) surfels.push_back({somewhere(dice, 4.0), somewhere(dice, 1.0).normalized(), 0.5F});
@@ -67,7 +67,7 @@ TEST(SurfelIndex, aFinerOneAnswersForWhatIsNear) {
   EXPECT_GT(far, 300);
 }
 
-TEST(SurfelIndex, nothingIsNearWhatIsNoPlace) {
+TEST(SurfelIndex, NothingIsNearWhatIsNoPlace) {
   const SurfelIndex index({{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 1.0F}}, 1.0F);
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30F})

@@ -51,7 +51,7 @@ Pair makePair(const World& world, const Pose& T_world_source, const Pose& T_worl
           T_world_target.inverse() * T_world_source};
 }
 
-TEST(Align, findsSmallMotionsFromTheIdentity) {
+TEST(Align, FindsSmallMotionsFromTheIdentity) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Pair pair = makePair(courtyard(seed), stand(1.0, 0.5, 5.0, 1.0, -2.0), stand(0.3, 0.1, 0.0), seed);
     const Alignment alignment = align(pair.source, pair.target, {});
@@ -63,7 +63,7 @@ TEST(Align, findsSmallMotionsFromTheIdentity) {
   }
 }
 
-TEST(Align, needsNoGuessWhateverTheHeading) {
+TEST(Align, NeedsNoGuessWhateverTheHeading) {
   Dice dice(5);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Pose there = stand(dice.uniform(-3.0, 3.0), dice.uniform(-3.0, 3.0), dice.uniform(90.0, 270.0),
@@ -78,7 +78,7 @@ TEST(Align, needsNoGuessWhateverTheHeading) {
   }
 }
 
-TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
+TEST(Align, WhatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
   // A closed box looks the same both ways.
   World box;
   for (int side = 0; side < 4; ++side) {
@@ -144,7 +144,7 @@ Pair gatheredPair(const World& source, const World& target, std::uint64_t seed) 
   return pair;
 }
 
-TEST(Align, gatheredCloudsFitAsWellAsNoiseLetsThem) {
+TEST(Align, GatheredCloudsFitAsWellAsNoiseLetsThem) {
   AlignmentPrior known;
   known.deformation_sigma = 0.005;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -165,7 +165,7 @@ TEST(Align, gatheredCloudsFitAsWellAsNoiseLetsThem) {
   }
 }
 
-TEST(Align, whatBeamsWentThroughIsNoWall) {
+TEST(Align, WhatBeamsWentThroughIsNoWall) {
   AlignmentPrior known;
   known.deformation_sigma = 0.005;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -187,7 +187,7 @@ PointCloud ahead(const PointCloud& cloud, double half_deg) {
   return kept;
 }
 
-TEST(Align, whereNothingElseComesNearLessOfTheSurfacesWillDo) {
+TEST(Align, WhereNothingElseComesNearLessOfTheSurfacesWillDo) {
   int alone = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Pair pair = makePair(courtyard(seed), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), seed);
@@ -208,7 +208,7 @@ TEST(Align, whereNothingElseComesNearLessOfTheSurfacesWillDo) {
   EXPECT_GE(alone, 2);
 }
 
-TEST(Align, whatASearchFindsIsNoBetterThanNoiseLetsIt) {
+TEST(Align, WhatASearchFindsIsNoBetterThanNoiseLetsIt) {
   const PointCloud court = scan(panelledCourt(1), stand(1.0, 0.5, 5.0), {}, 1),
                    again = scan(panelledCourt(1), stand(-0.5, 0.3, 95.0), {}, 2),
                    alike = scan(panelledCourt(51), stand(-0.5, 0.3, 95.0), {}, 2);
@@ -223,7 +223,7 @@ TEST(Align, whatASearchFindsIsNoBetterThanNoiseLetsIt) {
   expectFinite(alignment);
 }
 
-TEST(Align, whereNothingIsPossibleItSaysSo) {
+TEST(Align, WhereNothingIsPossibleItSaysSo) {
   const Pair pair = makePair(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
   const auto never = [](const urban_nav_core::Constraint&) { return false; };
   for (const SearchMode search : {SearchMode::Never, SearchMode::IfRejected, SearchMode::AtOnce}) {
@@ -234,7 +234,7 @@ TEST(Align, whereNothingIsPossibleItSaysSo) {
   }
 }
 
-TEST(Align, neverTakesOnePlaceForAnother) {
+TEST(Align, NeverTakesOnePlaceForAnother) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const PointCloud source = scan(courtyard(seed), stand(0.0, 0.0, 0.0), {}, 1),
                      target = scan(courtyard(seed + 100), stand(0.0, 0.0, 0.0), {}, 2);
@@ -251,7 +251,7 @@ PointCloud scanLevel(const World& world, const Pose& T_world_sensor, std::uint64
   return scan(world, T_world_sensor, scanner, seed);
 }
 
-TEST(Align, planarScansThatAreHeldInTheirPlaneAreAccepted) {
+TEST(Align, PlanarScansThatAreHeldInTheirPlaneAreAccepted) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (const SearchMode search : {SearchMode::IfRejected, SearchMode::AtOnce}) {
       const Pose T_world_source = stand(1.0, 0.5, 5.0), T_world_target = stand(0.3, 0.1, 0.0);
@@ -272,7 +272,7 @@ TEST(Align, planarScansThatAreHeldInTheirPlaneAreAccepted) {
     }
 }
 
-TEST(Align, planarScansOfACorridorSlideInTheirPlane) {
+TEST(Align, PlanarScansOfACorridorSlideInTheirPlane) {
   World corridor;
   corridor.blocks = {{0.0, 3.0, 200.0, 1.0, 0.0, 5.0, 0.0}, {0.0, -3.0, 200.0, 1.0, 0.0, 5.0, 0.0}};
   const Alignment alignment =
@@ -285,7 +285,7 @@ TEST(Align, planarScansOfACorridorSlideInTheirPlane) {
   expectFinite(alignment);
 }
 
-TEST(Align, planarScansOfDifferentPlacesAreRejected) {
+TEST(Align, PlanarScansOfDifferentPlacesAreRejected) {
   int rejected = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Alignment alignment =
@@ -296,7 +296,7 @@ TEST(Align, planarScansOfDifferentPlacesAreRejected) {
   EXPECT_GE(rejected, 19) << "courtyards are rectangles, and two may have the same sides";
 }
 
-TEST(Align, aFacadeLeavesItsDirectionFree) {
+TEST(Align, AFacadeLeavesItsDirectionFree) {
   const Pair pair = makePair(urban_nav_core::testing::facade(), stand(3.0, 0.2, 2.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});
   EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate);
@@ -310,7 +310,7 @@ TEST(Align, aFacadeLeavesItsDirectionFree) {
   expectFinite(alignment);
 }
 
-TEST(Align, groundHoldsHeightRollAndPitchAlone) {
+TEST(Align, GroundHoldsHeightRollAndPitchAlone) {
   const Pair pair = makePair(urban_nav_core::testing::plain(), stand(1.0, 0.7, 10.0, 1.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});
   EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate);
@@ -319,7 +319,7 @@ TEST(Align, groundHoldsHeightRollAndPitchAlone) {
   EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5);
 }
 
-TEST(Align, givesTheSameBitsWhateverTheThreads) {
+TEST(Align, GivesTheSameBitsWhateverTheThreads) {
   const Pair pair = makePair(courtyard(9), stand(2.0, 1.0, 170.0), stand(0.0, 0.0, 0.0), 3);
   std::vector<Alignment> alignments;
   for (const int threads : {1, 2, 5}) {
@@ -333,7 +333,7 @@ TEST(Align, givesTheSameBitsWhateverTheThreads) {
   }
 }
 
-TEST(Align, badCloudsAreNamed) {
+TEST(Align, BadCloudsAreNamed) {
   const PointCloud good = scan(courtyard(2), stand(0.0, 0.0, 0.0), {}, 1);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto all = [](float x, float y, float z) {
@@ -361,7 +361,7 @@ TEST(Align, badCloudsAreNamed) {
   }
 }
 
-TEST(Align, anotherScaleIsRejected) {
+TEST(Align, AnotherScaleIsRejected) {
   const PointCloud good = scan(courtyard(2), stand(0.0, 0.0, 0.0), {}, 1);
   for (const float scale : {0.001F, 0.3F, 2.0F, 1000.0F}) {
     PointCloud scaled = good;
@@ -372,7 +372,7 @@ TEST(Align, anotherScaleIsRejected) {
   }
 }
 
-TEST(Align, beamsWithoutReturnDoNotMatter) {
+TEST(Align, BeamsWithoutReturnDoNotMatter) {
   const Pair pair = makePair(courtyard(3), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 4);
   PointCloud source;
   for (const Eigen::Vector3f& point : pair.source.points) {
@@ -384,7 +384,7 @@ TEST(Align, beamsWithoutReturnDoNotMatter) {
   EXPECT_EQ(with.source_left_out, pair.source.points.size());
 }
 
-TEST(Align, aThirdOfOutliersIsBorne) {
+TEST(Align, AThirdOfOutliersIsBorne) {
   Dice dice(8);
   Pair pair = makePair(courtyard(4), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 5);
   for (Eigen::Vector3f& point : pair.source.points)

@@ -17,7 +17,7 @@ struct Plane {
   double residual(const Pose& T) const { return normal.dot(T * point_source - point_target); }
 };
 
-TEST(NormalEquations, theJacobianIsThatOfTheResidualFarFromZeroToo) {
+TEST(NormalEquations, TheJacobianIsThatOfTheResidualFarFromZeroToo) {
   Dice dice(1);
   for (int i = 0; i < 20; ++i) {
     const Plane plane{10.0 * dice.normals<3>(), 10.0 * dice.normals<3>(), dice.normals<3>().normalized()};
@@ -42,7 +42,7 @@ std::vector<Match> randomMatches(int count) {
   return matches;
 }
 
-TEST(NormalEquations, theSumsAreTheOnesWrittenOut) {
+TEST(NormalEquations, TheSumsAreTheOnesWrittenOut) {
   const std::vector<Match> matches = randomMatches(3000);
   const double sigma = 0.05;
   const NormalEquations sums = sumUp(matches, sigma);
@@ -59,7 +59,7 @@ TEST(NormalEquations, theSumsAreTheOnesWrittenOut) {
 }
 
 /// The gradient of the robust cost is what the normal equations' right-hand side says.
-TEST(NormalEquations, theRightHandSideIsHalfTheGradientOfTheCost) {
+TEST(NormalEquations, TheRightHandSideIsHalfTheGradientOfTheCost) {
   const std::vector<Match> matches = randomMatches(50);
   const double sigma = 0.05;
   const auto cost = [&](const Pose& T) {
@@ -74,7 +74,7 @@ TEST(NormalEquations, theRightHandSideIsHalfTheGradientOfTheCost) {
   EXPECT_LT((0.5 * gradient.transpose() - sumUp(matches, sigma).b).norm(), 1e-6);
 }
 
-TEST(NormalEquations, theSpreadIsTheDeviationOfAGaussian) {
+TEST(NormalEquations, TheSpreadIsTheDeviationOfAGaussian) {
   std::vector<Match> matches = randomMatches(20000);
   EXPECT_NEAR(computeSpread(matches), 0.1, 0.003);
   for (std::size_t i = 0; i < matches.size(); i += 4) matches[i].residual = 50.0;

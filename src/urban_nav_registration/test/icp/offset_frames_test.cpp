@@ -16,7 +16,7 @@ const CloudOffsets kOffsets{{691244.0, 5334577.0, 519.0}, {-30.0, 12.0, 4.0}};
 
 Pose somePose() { return Pose(urban_nav_core::expSo3(Vector3d(0.1, -0.2, 0.7)), Vector3d(3.0, 1.0, -2.0)); }
 
-TEST(OffsetFrames, posesMapTheSamePoints) {
+TEST(OffsetFrames, PosesMapTheSamePoints) {
   const Pose T = somePose(), near = relativeToOffsets(T, kOffsets);
   for (const Vector3d& p : {Vector3d(1.0, 2.0, 3.0), Vector3d(691200.0, 5334500.0, 510.0)})
     EXPECT_LT((near * (p - kOffsets.source) + kOffsets.target - T * p).norm(), 1e-8);
@@ -25,7 +25,7 @@ TEST(OffsetFrames, posesMapTheSamePoints) {
   EXPECT_LT((toFileFrames(alignment, kOffsets).T_target_source.t() - T.t()).norm(), 1e-8);
 }
 
-TEST(OffsetFrames, covarianceFollowsTheTangent) {
+TEST(OffsetFrames, CovarianceFollowsTheTangent) {
   const CloudOffsets offsets{{200.0, -50.0, 7.0}, {3.0, 2.0, 1.0}};
   Alignment alignment;
   alignment.T_target_source = somePose();

@@ -41,7 +41,7 @@ class KeyframeBuilderTest : public ::testing::Test {
   KeyframeBuilder builder_;
 };
 
-TEST_F(KeyframeBuilderTest, pairsWaitForOdometryAndAreSelectedAlongIt) {
+TEST_F(KeyframeBuilderTest, PairsWaitForOdometryAndAreSelectedAlongIt) {
   for (StampNs stamp = 1; stamp <= 5; ++stamp) addPair(stamp);
   EXPECT_TRUE(taken().empty());
   for (StampNs stamp = 1; stamp <= 5; ++stamp) addOdometry(stamp);
@@ -51,20 +51,20 @@ TEST_F(KeyframeBuilderTest, pairsWaitForOdometryAndAreSelectedAlongIt) {
   EXPECT_EQ(builder_.counts().without_odometry, 0);
 }
 
-TEST_F(KeyframeBuilderTest, odometryMayArriveFirst) {
+TEST_F(KeyframeBuilderTest, OdometryMayArriveFirst) {
   for (StampNs stamp = 1; stamp <= 3; ++stamp) addOdometry(stamp);
   for (StampNs stamp = 1; stamp <= 3; ++stamp) addPair(stamp);
   EXPECT_EQ(taken(), (std::vector<StampNs>{1, 3}));
 }
 
-TEST_F(KeyframeBuilderTest, pairsWithoutOdometryAreCountedAndSkipped) {
+TEST_F(KeyframeBuilderTest, PairsWithoutOdometryAreCountedAndSkipped) {
   for (const StampNs stamp : {1, 2, 3}) addPair(stamp);
   for (const StampNs stamp : {1, 3}) addOdometry(stamp);
   EXPECT_EQ(taken(), (std::vector<StampNs>{1, 3}));
   EXPECT_EQ(builder_.counts().without_odometry, 1);
 }
 
-TEST_F(KeyframeBuilderTest, repeatedPosesAreIgnored) {
+TEST_F(KeyframeBuilderTest, RepeatedPosesAreIgnored) {
   addOdometry(2);
   addOdometry(2);
   addOdometry(1);
@@ -73,7 +73,7 @@ TEST_F(KeyframeBuilderTest, repeatedPosesAreIgnored) {
   EXPECT_EQ(taken(), (std::vector<StampNs>{2}));
 }
 
-TEST_F(KeyframeBuilderTest, waitingPairsAreBounded) {
+TEST_F(KeyframeBuilderTest, WaitingPairsAreBounded) {
   for (StampNs stamp = 1; stamp <= 120; ++stamp) {
     StereoPairWithMotion pair;
     pair.pair.stamp = stamp;
@@ -82,7 +82,7 @@ TEST_F(KeyframeBuilderTest, waitingPairsAreBounded) {
   EXPECT_EQ(builder_.counts().without_odometry, 20);
 }
 
-TEST_F(KeyframeBuilderTest, aRestartSelectsTheFirstPairAgain) {
+TEST_F(KeyframeBuilderTest, ARestartSelectsTheFirstPairAgain) {
   addPair(1);
   addOdometry(1);
   EXPECT_EQ(taken(), (std::vector<StampNs>{1}));
@@ -93,7 +93,7 @@ TEST_F(KeyframeBuilderTest, aRestartSelectsTheFirstPairAgain) {
   EXPECT_EQ(taken(), (std::vector<StampNs>{1})) << "the pair that waited is gone, the selection begins again";
 }
 
-TEST_F(KeyframeBuilderTest, clearingTheCameraDropsItsPairs) {
+TEST_F(KeyframeBuilderTest, ClearingTheCameraDropsItsPairs) {
   addPair(1);
   builder_.clearCamera();
   EXPECT_FALSE(builder_.camera());

@@ -53,7 +53,7 @@ class TwoCameras : public ::testing::Test {
   Pose T_base1_base2_;
 };
 
-TEST_F(TwoCameras, calibratedAnewMeasureTheTruth) {
+TEST_F(TwoCameras, CalibratedAnewMeasureTheTruth) {
   RenderCamera later;
   later.fx += 3.0, later.fy += 3.0;
   later.cx += 2.0;
@@ -62,7 +62,7 @@ TEST_F(TwoCameras, calibratedAnewMeasureTheTruth) {
   expectTruth(measure(RenderCamera(), Pose(), later, mounted), 0.03, 0.004);
 }
 
-TEST_F(TwoCameras, ofTwoRobotsMeasureTheTruth) {
+TEST_F(TwoCameras, OfTwoRobotsMeasureTheTruth) {
   RenderCamera other;
   other.width = 400;
   other.height = 300;
@@ -74,7 +74,7 @@ TEST_F(TwoCameras, ofTwoRobotsMeasureTheTruth) {
   expectTruth(measure(RenderCamera(), Pose(), other, mounted), 0.04, 0.006);
 }
 
-TEST_F(TwoCameras, convertedPointsKeepTheirPlaces) {
+TEST_F(TwoCameras, ConvertedPointsKeepTheirPlaces) {
   const MountedCamera from{street_.camera(), Pose()};
   MountedCamera to = from;
   to.camera.left.fx *= 0.9, to.camera.left.fy *= 0.9, to.camera.baseline *= 2.0;
@@ -92,7 +92,7 @@ TEST_F(TwoCameras, convertedPointsKeepTheirPlaces) {
   }
 }
 
-TEST(FindConversion, isNullForTheSameCameraAndRefusesWhatItCannotRead) {
+TEST(FindConversion, IsNullForTheSameCameraAndRefusesWhatItCannotRead) {
   const MountedCamera camera{Photographer(urban_nav_core::testing::texturedStreet()).camera(), Pose()};
   const std::string words = calibrationFingerprint(camera.camera, camera.T_base_left);
   bool is_known = false;
@@ -105,7 +105,7 @@ TEST(FindConversion, isNullForTheSameCameraAndRefusesWhatItCannotRead) {
   }
 }
 
-TEST(ParseCalibrationFingerprint, returnsWhatWasPrinted) {
+TEST(ParseCalibrationFingerprint, ReturnsWhatWasPrinted) {
   MountedCamera camera{Photographer(urban_nav_core::testing::texturedStreet()).camera(),
                        Pose(urban_nav_core::expSo3(urban_nav_core::Vector3d(0.1, 0.2, -0.3)), {1.0, 2.0, 3.0})};
   camera.camera.disparity_offset = 1.25;

@@ -23,9 +23,9 @@ class Choice : public ::testing::Test {
   KeyframeSelector selector_{parameters()};
 };
 
-TEST_F(Choice, theFirstViewIsKept) { EXPECT_TRUE(selector_.select(keyframePose(7.0))); }
+TEST_F(Choice, TheFirstViewIsKept) { EXPECT_TRUE(selector_.select(keyframePose(7.0))); }
 
-TEST_F(Choice, wayIsMeasuredFromTheLastOneThatWasKept) {
+TEST_F(Choice, WayIsMeasuredFromTheLastOneThatWasKept) {
   EXPECT_TRUE(selector_.select(keyframePose(0.0)));
   EXPECT_FALSE(selector_.select(keyframePose(0.6)));
   EXPECT_FALSE(selector_.select(keyframePose(0.99)));
@@ -34,13 +34,13 @@ TEST_F(Choice, wayIsMeasuredFromTheLastOneThatWasKept) {
   EXPECT_TRUE(selector_.select(keyframePose(2.1)));
 }
 
-TEST_F(Choice, aTurnOnTheSpotIsEnough) {
+TEST_F(Choice, ATurnOnTheSpotIsEnough) {
   EXPECT_TRUE(selector_.select(keyframePose(0.0)));
   EXPECT_FALSE(selector_.select(keyframePose(0.0, 0.24)));
   EXPECT_TRUE(selector_.select(keyframePose(0.0, -0.26)));
 }
 
-TEST_F(Choice, resumesAfterAStoredKeyframe) {
+TEST_F(Choice, ResumesAfterAStoredKeyframe) {
   selector_.keep(keyframePose(5.0));
   EXPECT_FALSE(selector_.select(keyframePose(5.5)));
   EXPECT_TRUE(selector_.select(keyframePose(6.5)));

@@ -58,7 +58,7 @@ Picture drawn(const PointCloud& source, const PointCloud& target, const Pose& gu
   return drawClouds(source, target, guess, T, options);
 }
 
-TEST(CloudPicture, purpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
+TEST(CloudPicture, PurpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
   const Pose T(urban_nav_core::Matrix3d::Identity(), {0.0, 1.5, 0.0});
   const Picture picture = drawn(moved(wall(), T.inverse()), wall(), Pose(), T);
   EXPECT_EQ(picture.width, 3 * panel + 2 * gap);
@@ -71,7 +71,7 @@ TEST(CloudPicture, purpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
   EXPECT_GT(side.purple, 3000) << "the wall's face";
 }
 
-TEST(CloudPicture, showsWhatSlides) {
+TEST(CloudPicture, ShowsWhatSlides) {
   CloudPictureOptions options;
   const Picture plain = drawn(wall(), wall(), Pose(), Pose(), options);
   options.free_directions.push_back(urban_nav_core::Vector6d::Unit(0));
@@ -82,7 +82,7 @@ TEST(CloudPicture, showsWhatSlides) {
   EXPECT_EQ(plain.bgr, drawn(wall(), wall(), Pose(), Pose(), options).bgr) << "a heading has no arrow";
 }
 
-TEST(CloudPicture, whateverTheCloudsHold) {
+TEST(CloudPicture, WhateverTheCloudsHold) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   PointCloud odd;
   odd.points = {{nan, 0.0F, 0.0F}, {inf, 1.0F, 0.0F}, {0.0F, -inf, nan}, {3e38F, 3e38F, -3e38F}};

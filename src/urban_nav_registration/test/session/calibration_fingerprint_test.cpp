@@ -6,7 +6,7 @@
 namespace urban_nav_registration {
 namespace {
 
-TEST(CameraWords, tellsWhateverMakesViewsDiffer) {
+TEST(CameraWords, TellsWhateverMakesViewsDiffer) {
   urban_nav_core::StereoCamera camera;
   camera.left = {400.0, 400.0, 255.5, 191.5, 512, 384};
   camera.baseline = 0.12;
@@ -26,7 +26,7 @@ TEST(CameraWords, tellsWhateverMakesViewsDiffer) {
   EXPECT_FALSE(isSameCalibration(words, words + " 1"));
 }
 
-TEST(CameraWords, roundingIsNoOtherCamera) {
+TEST(CameraWords, RoundingIsNoOtherCamera) {
   urban_nav_core::StereoCamera camera;
   camera.left = {400.0, 400.0, 255.5, 191.5, 512, 384};
   camera.baseline = 0.12;

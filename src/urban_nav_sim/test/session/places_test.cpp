@@ -10,7 +10,7 @@ namespace {
 
 namespace frames = urban_nav_core::frames;
 
-TEST(SensorPlaces, ofRawImagesAreTurnedIntoTheRectifiedOnesByTheirCalibration) {
+TEST(SensorPlaces, OfRawImagesAreTurnedIntoTheRectifiedOnesByTheirCalibration) {
   SessionOptions rectified, raw;
   rectified.duration = raw.duration = 1.0;
   rectified.sensors = raw.sensors = {Sensor::Stereo};

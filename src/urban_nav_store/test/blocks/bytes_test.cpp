@@ -6,7 +6,7 @@
 namespace urban_nav_store {
 namespace {
 
-TEST(Bytes, roundTrip) {
+TEST(Bytes, RoundTrip) {
   std::string bytes;
   appendInteger(bytes, 0xfedcba9876543210U);
   appendInteger32(bytes, 7);
@@ -24,7 +24,7 @@ TEST(Bytes, roundTrip) {
   EXPECT_TRUE(reader.complete());
 }
 
-TEST(Bytes, nothingIsReadAfterTheEnd) {
+TEST(Bytes, NothingIsReadAfterTheEnd) {
   std::string bytes;
   appendText(bytes, "words");
   for (std::size_t size = 0; size < bytes.size(); ++size) {

@@ -10,14 +10,14 @@
 namespace urban_nav_store {
 namespace {
 
-TEST(Deflate, roundTrip) {
+TEST(Deflate, RoundTrip) {
   testing::Drawn drawn(1);
   for (const std::string& bytes : {std::string(), std::string("x"), std::string(100000, '\0'), drawn.bytes(100000)})
     EXPECT_EQ(inflated(deflated(bytes), 100000), bytes);
   EXPECT_LT(deflated(std::string(100000, '\0')).size(), 1000U);
 }
 
-TEST(Deflate, refusesWhatIsTooLongOrNoSuchThing) {
+TEST(Deflate, RefusesWhatIsTooLongOrNoSuchThing) {
   const std::string bytes = deflated(std::string(1000, 'x'));
   EXPECT_FALSE(inflated(bytes, 999));
   EXPECT_FALSE(inflated(bytes.substr(0, bytes.size() - 1), 1000));
@@ -28,7 +28,7 @@ TEST(Deflate, refusesWhatIsTooLongOrNoSuchThing) {
   EXPECT_FALSE(inflated(lies, ~std::size_t{0}));
 }
 
-TEST(Deflate, survivesAnything) {
+TEST(Deflate, SurvivesAnything) {
   testing::Drawn drawn(1);
   const auto result =
       urban_nav_core::testing::fuzzText({deflated("words"), deflated(drawn.bytes(300))}, [](const std::string& text) {

@@ -7,7 +7,7 @@ namespace urban_nav_store {
 namespace {
 
 // FIPS 180-4's own examples, and the lengths at which the padding needs one block and two.
-TEST(Sha256, isThatOfTheStandard) {
+TEST(Sha256, IsThatOfTheStandard) {
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
@@ -16,7 +16,7 @@ TEST(Sha256, isThatOfTheStandard) {
 }
 
 // By coreutils' sha256sum.
-TEST(Sha256, padsEveryLength) {
+TEST(Sha256, PadsEveryLength) {
   EXPECT_EQ(sha256(std::string(55, '\0')), "02779466cdec163811d078815c633f21901413081449002f24aa3e80f0b88ef7");
   EXPECT_EQ(sha256(std::string(56, '\0')), "d4817aa5497628e7c77e6b606107042bbba3130888c5f47a375e6179be789fbb");
   EXPECT_EQ(sha256(std::string(63, '\0')), "c7723fa1e0127975e49e62e753db53924c1bd84b8ac1ac08df78d09270f3d971");

@@ -22,12 +22,12 @@ std::vector<InputEvent> someEvents() {
   return events;
 }
 
-TEST(EventBlock, roundTripIsExact) {
+TEST(EventBlock, RoundTripIsExact) {
   EXPECT_EQ(unpackEvents(packEvents(someEvents())), someEvents());
   EXPECT_EQ(unpackEvents(packEvents({})), std::vector<InputEvent>());
 }
 
-TEST(EventBlock, survivesAnything) {
+TEST(EventBlock, SurvivesAnything) {
   std::vector<InputEvent> few = someEvents();
   few.resize(5);
   const std::string plain = *inflated(packEvents(few), 1 << 20);

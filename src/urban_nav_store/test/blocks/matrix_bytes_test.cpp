@@ -12,7 +12,7 @@ namespace {
 
 using testing::Drawn;
 
-TEST(MatrixBytes, roundTripAndRefusal) {
+TEST(MatrixBytes, RoundTripAndRefusal) {
   Drawn drawn(1);
   const urban_nav_core::Matrix6d matrix = drawn.matrix();
   urban_nav_core::Matrix6d back;

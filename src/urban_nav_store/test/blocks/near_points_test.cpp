@@ -18,7 +18,7 @@ NearPoints pointsOfKeyframe(const std::vector<NearPoints::Point>& points) {
   return row;
 }
 
-TEST(NearPoints, comeBackToAQuarterOfAMillimetre) {
+TEST(NearPoints, ComeBackToAQuarterOfAMillimetre) {
   const std::vector<NearPoints::Point> points = {{{4.1234F, -2.5F, 0.0001F}, 0.0123F, 200},
                                                  {{-8.1F, 8.1F, 0.0F}, 0.5F, 0}};
   const std::vector<NearPoints::Point> back = pointsOfKeyframe(points).points();
@@ -30,7 +30,7 @@ TEST(NearPoints, comeBackToAQuarterOfAMillimetre) {
   }
 }
 
-TEST(NearPoints, leaveOutWhatCannotBeEncoded) {
+TEST(NearPoints, LeaveOutWhatCannotBeEncoded) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   EXPECT_TRUE(NearPoints::pack({{{nan, 0.0F, 0.0F}, 0.1F, 1}}).empty());
   EXPECT_TRUE(NearPoints::pack({{{0.0F, infinity, 0.0F}, 0.1F, 1}}).empty());
@@ -41,13 +41,13 @@ TEST(NearPoints, leaveOutWhatCannotBeEncoded) {
   EXPECT_NEAR(back[0].sigma, 6.5535F, 1e-4F) << "the largest one";
 }
 
-TEST(NearPoints, refuseBytesOfAnotherLength) {
+TEST(NearPoints, RefuseBytesOfAnotherLength) {
   NearPoints row = pointsOfKeyframe({{{1.0F, 1.0F, 1.0F}, 0.1F, 1}});
   row.packed.pop_back();
   EXPECT_THROW(row.points(), urban_nav_core::DataError);
 }
 
-TEST(NearPoints, areLeastCertainAlongTheLineOfSight) {
+TEST(NearPoints, AreLeastCertainAlongTheLineOfSight) {
   const NearPoints row = pointsOfKeyframe({});
   const NearPoints::Point point{{4.3F, 0.0F, 1.0F}, 0.1F, 0};  // straight ahead of the camera, 4 m away
   const Eigen::Matrix3d covariance = row.covariance(point);

@@ -24,7 +24,7 @@ std::vector<Scan> someScans() {
   return scans;
 }
 
-TEST(ScanBlock, roundTripIsExact) {
+TEST(ScanBlock, RoundTripIsExact) {
   const std::vector<Scan> scans = someScans();
   const auto back = unpackScans(packScans(scans));
   ASSERT_TRUE(back);
@@ -33,20 +33,20 @@ TEST(ScanBlock, roundTripIsExact) {
   EXPECT_TRUE(unpackScans(packScans({}))->empty());
 }
 
-TEST(ScanBlock, directionsThatRepeatCostNothing) {
+TEST(ScanBlock, DirectionsThatRepeatCostNothing) {
   const std::vector<Scan> scans = someScans();
   std::size_t beams = 0;
   for (const Scan& scan : scans) beams += scan.beams.size();
   EXPECT_LT(packScans(scans).size(), beams * 8) << "drawn ranges and intensities alone are four bytes each";
 }
 
-TEST(ScanBlock, refusesWhatIsNotFinite) {
+TEST(ScanBlock, RefusesWhatIsNotFinite) {
   std::vector<Scan> scans = someScans();
   scans[1].beams[2].range = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(unpackScans(packScans(scans)));
 }
 
-TEST(ScanBlock, survivesAnything) {
+TEST(ScanBlock, SurvivesAnything) {
   std::vector<Scan> few = someScans();
   few.resize(2);
   // Damage inside the compressed data too.

@@ -63,7 +63,7 @@ class Damage : public ::testing::Test {
   std::string bytes, whole;
 };
 
-TEST_F(Damage, ofAnyPageIsNamed) {
+TEST_F(Damage, OfAnyPageIsNamed) {
   ASSERT_GT(bytes.size(), 20 * kPage);
   for (std::size_t page = 0; page < bytes.size() / kPage; ++page) {
     for (const char fill_with : {'\0', '\xff', '\x5a'}) {
@@ -81,7 +81,7 @@ TEST_F(Damage, ofAnyPageIsNamed) {
   }
 }
 
-TEST_F(Damage, ofAnyByteIsNamed) {
+TEST_F(Damage, OfAnyByteIsNamed) {
   std::mt19937 random(1);
   int same = 0, refused = 0;
   for (int i = 0; i < 400; ++i) {
@@ -99,14 +99,14 @@ TEST_F(Damage, ofAnyByteIsNamed) {
   EXPECT_GT(same, 0) << "free space is not in use";
 }
 
-TEST_F(Damage, aFileThatIsCutOffIsNamed) {
+TEST_F(Damage, AFileThatIsCutOffIsNamed) {
   for (std::size_t size = 1; size < bytes.size(); size += 3001) {
     writeFile(path, bytes.substr(0, size));
     EXPECT_EQ(opened(), Outcome::Refused) << size;
   }
 }
 
-TEST_F(Damage, aDamagedStoreIsNotWrittenTo) {
+TEST_F(Damage, ADamagedStoreIsNotWrittenTo) {
   std::string damaged = bytes;
   damaged.replace(5 * kPage, kPage, kPage, '\xff');
   writeFile(path, damaged);

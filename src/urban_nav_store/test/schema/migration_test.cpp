@@ -146,7 +146,7 @@ class Migration : public ::testing::Test {
   std::string before;
 };
 
-TEST_F(Migration, aFileOfSchema2IsAsThisProgramWouldMakeIt) {
+TEST_F(Migration, AFileOfSchema2IsAsThisProgramWouldMakeIt) {
   createVersion2(folder.file("old.db"));
   Connection old(folder.file("old.db"), Connection::Mode::Read);
   Connection created(folder.file("new.db"), Connection::Mode::Create);
@@ -157,7 +157,7 @@ TEST_F(Migration, aFileOfSchema2IsAsThisProgramWouldMakeIt) {
   EXPECT_NO_THROW(schema::check(created));
 }
 
-TEST_F(Migration, addsTablesAndColumnsAndKeepsAllRows) {
+TEST_F(Migration, AddsTablesAndColumnsAndKeepsAllRows) {
   Connection connection(path, Connection::Mode::Write);
   schema::migrate(connection, laterTables());
   EXPECT_EQ(schema::version(connection), kLater);
@@ -181,7 +181,7 @@ TEST_F(Migration, addsTablesAndColumnsAndKeepsAllRows) {
   EXPECT_EQ(properties(connection).size(), 2U) << "nothing is left to do";
 }
 
-TEST_F(Migration, anOlderFileIsReadAsItIs) {
+TEST_F(Migration, AnOlderFileIsReadAsItIs) {
   Connection connection(path, Connection::Mode::Read);
   const std::vector<PropertyWithUnit> rows = properties(connection);
   ASSERT_EQ(rows.size(), 2U);
@@ -196,7 +196,7 @@ TEST_F(Migration, anOlderFileIsReadAsItIs) {
   EXPECT_TRUE(Store(path, Access::Read).sessions().find(id));
 }
 
-TEST_F(Migration, happensAsAWholeOrNotAtAll) {
+TEST_F(Migration, HappensAsAWholeOrNotAtAll) {
   {
     Connection connection(path, Connection::Mode::Write);
     connection.execute("CREATE TABLE landmark(a)");
@@ -208,7 +208,7 @@ TEST_F(Migration, happensAsAWholeOrNotAtAll) {
   EXPECT_EQ(dump(store), before);
 }
 
-TEST_F(Migration, aLostRowIsNamedBeforeItsTableIsWrittenAnew) {
+TEST_F(Migration, ALostRowIsNamedBeforeItsTableIsWrittenAnew) {
   Connection connection(path, Connection::Mode::Write);
   connection.execute("UPDATE tally SET count=count+1 WHERE name='property'");
   expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not add up to the 3 written");

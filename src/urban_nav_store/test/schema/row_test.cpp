@@ -40,7 +40,7 @@ class Rows : public ::testing::Test {
   const Table& table = declaredTable<NodeRow>();
 };
 
-TEST_F(Rows, addUp) {
+TEST_F(Rows, AddUp) {
   EXPECT_NO_THROW(readAll("one"));
   EXPECT_NO_THROW(readAll("two"));
   EXPECT_NO_THROW(readAll("none"));
@@ -52,7 +52,7 @@ TEST_F(Rows, addUp) {
   EXPECT_NO_THROW(readAll("one"));
 }
 
-TEST_F(Rows, aChangeOfAnyColumnIsSeen) {
+TEST_F(Rows, AChangeOfAnyColumnIsSeen) {
   for (const Column& column : table.columns) {
     connection.beginWriting();
     const std::string other = column.type == ColumnType::Text      ? "'one ' || stamp_ns"
@@ -70,12 +70,12 @@ TEST_F(Rows, aChangeOfAnyColumnIsSeen) {
   }
 }
 
-TEST_F(Rows, anotherTypeIsSeen) {
+TEST_F(Rows, AnotherTypeIsSeen) {
   connection.execute("UPDATE node SET covariance='text' WHERE stamp_ns=3");
   expectError([&] { readAll("one"); }, connection.name(), "holds another type");
 }
 
-TEST_F(Rows, aRowThatIsGoneIsMissed) {
+TEST_F(Rows, ARowThatIsGoneIsMissed) {
   connection.execute("UPDATE tally SET count=count+1 WHERE session='one'");
   expectError([&] { readAll("one"); }, connection.name(), "do not add up to the 6 written");
   connection.execute("UPDATE tally SET count=count-1, sum=sum+1 WHERE session='one'");
@@ -84,7 +84,7 @@ TEST_F(Rows, aRowThatIsGoneIsMissed) {
   expectError([&] { readAll("one"); }, connection.name(), "do not add up");
 }
 
-TEST(RowChecksum, bytesDoNotMoveBetweenColumns) {
+TEST(RowChecksum, BytesDoNotMoveBetweenColumns) {
   RowChecksum one, two, blob;
   one.text("ab"), one.text("c");
   two.text("a"), two.text("bc");

@@ -12,7 +12,7 @@ namespace {
 using testing::expectError;
 using testing::Folder;
 
-TEST(Schema, isThatOfItsVersion) {
+TEST(Schema, IsThatOfItsVersion) {
   const Folder folder;
   Connection connection(folder.file("s.db"), Connection::Mode::Create);
   schema::create(connection);
@@ -20,7 +20,7 @@ TEST(Schema, isThatOfItsVersion) {
   EXPECT_EQ(schema::version(connection), schemaVersion());
 }
 
-TEST(Schema, aTableThatWasChangedByHandIsNamed) {
+TEST(Schema, ATableThatWasChangedByHandIsNamed) {
   const Folder folder;
   for (const char* change : {"DROP TRIGGER node_in", "DROP TABLE scan", "ALTER TABLE edge ADD COLUMN more"}) {
     Connection connection(folder.file(std::string(change) + ".db"), Connection::Mode::Create);

@@ -11,7 +11,7 @@ namespace {
 using testing::expectError;
 using testing::Folder;
 
-TEST(Connection, keepsValuesExactly) {
+TEST(Connection, KeepsValuesExactly) {
   const Folder folder;
   Connection connection(folder.file("c.db"), Connection::Mode::Create, "shown.db");
   connection.execute("CREATE TABLE t(a INTEGER, b REAL, c TEXT, d BLOB)");
@@ -35,7 +35,7 @@ TEST(Connection, keepsValuesExactly) {
   EXPECT_FALSE(get.step());
 }
 
-TEST(Connection, anErrorTakesBackTheTransaction) {
+TEST(Connection, AnErrorTakesBackTheTransaction) {
   const Folder folder;
   Connection connection(folder.file("c.db"), Connection::Mode::Create);
   connection.execute("CREATE TABLE t(a NOT NULL)");
@@ -46,7 +46,7 @@ TEST(Connection, anErrorTakesBackTheTransaction) {
   EXPECT_EQ(connection.integer("SELECT count(*) FROM t"), 0);
 }
 
-TEST(Connection, closedIsClosed) {
+TEST(Connection, ClosedIsClosed) {
   const Folder folder;
   Connection connection(folder.file("c.db"), Connection::Mode::Create);
   connection.execute("CREATE TABLE t(a)");

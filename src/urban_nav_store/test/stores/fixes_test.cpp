@@ -18,7 +18,7 @@ class StoredFixes : public ::testing::Test {
   const std::string path = folder.file("s.db");
 };
 
-TEST_F(StoredFixes, comeBackBitByBitAndStayWhenResultsAreCleared) {
+TEST_F(StoredFixes, ComeBackBitByBitAndStayWhenResultsAreCleared) {
   Store store(path, Access::Write);
   store.sessions().put(Session{"s", "quad", "", "", 1, true});
   TableStore<StoredFix> fixes(store);
@@ -33,7 +33,7 @@ TEST_F(StoredFixes, comeBackBitByBitAndStayWhenResultsAreCleared) {
   EXPECT_EQ(found->z, kFix.z);
 }
 
-TEST_F(StoredFixes, aStoreOfSchema3GetsTheTable) {
+TEST_F(StoredFixes, AStoreOfSchema3GetsTheTable) {
   {
     Store store(path, Access::Write);
     store.sessions().put(Session{"s", "quad", "", "", 1, true});

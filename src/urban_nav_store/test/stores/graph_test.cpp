@@ -33,7 +33,7 @@ bool sameBits(const urban_nav_core::Pose& a, const urban_nav_core::Pose& b) {
   return a.t() == b.t() && a.q().coeffs() == b.q().coeffs();
 }
 
-TEST_F(GraphRows, nodesComeBackBitByBitInOrder) {
+TEST_F(GraphRows, NodesComeBackBitByBitInOrder) {
   std::vector<Node> nodes;
   for (int i = 0; i < 100; ++i) nodes.push_back(drawn.node(1000 - 10 * i));
   for (const Node& node : nodes) graph.put("a", node);
@@ -59,7 +59,7 @@ TEST_F(GraphRows, nodesComeBackBitByBitInOrder) {
   EXPECT_FALSE(graph.node({"b", 6}));
 }
 
-TEST_F(GraphRows, edgesComeBackAndAreTheirKey) {
+TEST_F(GraphRows, EdgesComeBackAndAreTheirKey) {
   const NodeRef a{"a", 1}, b{"b", 2};
   for (const EdgeKind kind :
        {EdgeKind::Odometry, EdgeKind::Stereo, EdgeKind::Icp, EdgeKind::Plane, EdgeKind::Session, EdgeKind::Asserted}) {
@@ -92,7 +92,7 @@ TEST_F(GraphRows, edgesComeBackAndAreTheirKey) {
   EXPECT_EQ(left, 11U);
 }
 
-TEST_F(GraphRows, relaxedPosesAreReplaced) {
+TEST_F(GraphRows, RelaxedPosesAreReplaced) {
   RelaxedPose pose = drawn.relaxed(7);
   graph.put("a", pose);
   pose = drawn.relaxed(7);
@@ -107,7 +107,7 @@ TEST_F(GraphRows, relaxedPosesAreReplaced) {
   EXPECT_EQ(seen, 1U);
 }
 
-TEST_F(GraphRows, noNumberThatIsNoneGetsIn) {
+TEST_F(GraphRows, NoNumberThatIsNoneGetsIn) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, inf, -inf}) {
     Node node = drawn.node(1'500'000'000);
@@ -130,7 +130,7 @@ TEST_F(GraphRows, noNumberThatIsNoneGetsIn) {
   EXPECT_EQ(graph.nodes("a"), 0);
 }
 
-TEST_F(GraphRows, minusZeroIsZero) {
+TEST_F(GraphRows, MinusZeroIsZero) {
   Node node;
   node.T_odom_base = urban_nav_core::Pose(urban_nav_core::Quaterniond(1.0, -0.0, 0.0, -0.0), {-0.0, 1.0, -0.0});
   graph.put("a", node);

@@ -19,7 +19,7 @@ std::vector<InputEvent> all(Store& store, const SessionId& session) {
   return events;
 }
 
-TEST(Inputs, keepTheirOrderOverBlocksCommitsAndOpenings) {
+TEST(Inputs, KeepTheirOrderOverBlocksCommitsAndOpenings) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   std::vector<InputEvent> events;

@@ -34,7 +34,7 @@ class StoredKeyframePlaces : public ::testing::Test {
   const std::string path = folder.file("s.db");
 };
 
-TEST_F(StoredKeyframePlaces, areApartFromPlacesAtTheSameTimeAndStayWhenResultsAreCleared) {
+TEST_F(StoredKeyframePlaces, AreApartFromPlacesAtTheSameTimeAndStayWhenResultsAreCleared) {
   write();
   Store store(path, Access::Write);
   store.sessions().clear("s");
@@ -45,14 +45,14 @@ TEST_F(StoredKeyframePlaces, areApartFromPlacesAtTheSameTimeAndStayWhenResultsAr
   EXPECT_FALSE(TableStore<StoredPlace>(store).get(makeRow()));
 }
 
-TEST_F(StoredKeyframePlaces, areMergedWithTheirSession) {
+TEST_F(StoredKeyframePlaces, AreMergedWithTheirSession) {
   write();
   merge({path}, folder.file("merged.db"));
   Store merged(folder.file("merged.db"), Access::Read);
   EXPECT_TRUE(TableStore<StoredKeyframePlace>(merged).get(makeRow()));
 }
 
-TEST_F(StoredKeyframePlaces, areAddedToAStoreOfSchema4) {
+TEST_F(StoredKeyframePlaces, AreAddedToAStoreOfSchema4) {
   {
     Store store(path, Access::Write);
     store.sessions().put(Session{"s", "quad", "", "", 1, true});

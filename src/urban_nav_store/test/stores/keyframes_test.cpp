@@ -17,7 +17,7 @@ using testing::expectError;
 using testing::Folder;
 using urban_nav_core::StampNs;
 
-TEST(Keyframes, comeBackAsTheyWere) {
+TEST(Keyframes, ComeBackAsTheyWere) {
   const Folder folder;
   Drawn drawn(1);
   const StoredKeyframe first{-5, drawn.bytes(3000), drawn.bytes(700)},
@@ -40,7 +40,7 @@ TEST(Keyframes, comeBackAsTheyWere) {
   EXPECT_FALSE(store.keyframes().get("u", "left", -5));
 }
 
-TEST(Keyframes, outliveWhatStagesMadeOfTheirSession) {
+TEST(Keyframes, OutliveWhatStagesMadeOfTheirSession) {
   const Folder folder;
   Store store(folder.file("s.db"), Access::Write);
   const SessionId id = testing::fill(store, 1, 20);
@@ -53,7 +53,7 @@ TEST(Keyframes, outliveWhatStagesMadeOfTheirSession) {
   EXPECT_TRUE(store.scans().lasers(id).empty());
 }
 
-TEST(Keyframes, aStoreFromBeforeThemIsReadAsItIsAndGetsThemWhenItIsWritten) {
+TEST(Keyframes, AStoreFromBeforeThemIsReadAsItIsAndGetsThemWhenItIsWritten) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   SessionId id;
@@ -86,7 +86,7 @@ TEST(Keyframes, aStoreFromBeforeThemIsReadAsItIsAndGetsThemWhenItIsWritten) {
   EXPECT_TRUE(Store(path, Access::Read).keyframes().get(id, "left", 1));
 }
 
-TEST(Keyframes, oneThatWasDamagedOrLostIsNamed) {
+TEST(Keyframes, OneThatWasDamagedOrLostIsNamed) {
   const Folder folder;
   const auto broken = [&](const std::string& name, const std::string& sql) {
     const std::string path = folder.file(name);

@@ -24,7 +24,7 @@ std::vector<StampNs> listStamps(Store& store, const std::string& laser, StampNs 
   return stamps;
 }
 
-TEST(Scans, comeBackInOrderWhateverTheOrderTheyCameIn) {
+TEST(Scans, ComeBackInOrderWhateverTheOrderTheyCameIn) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   std::vector<Scan> scans;
@@ -57,7 +57,7 @@ TEST(Scans, comeBackInOrderWhateverTheOrderTheyCameIn) {
   EXPECT_TRUE(listStamps(store, "middle", -1000, 1000).empty());
 }
 
-TEST(Scans, noBeamThatIsNoneGetsIn) {
+TEST(Scans, NoBeamThatIsNoneGetsIn) {
   const Folder folder;
   Store store(folder.file("s.db"), Access::Write);
   Drawn drawn(1);
@@ -67,7 +67,7 @@ TEST(Scans, noBeamThatIsNoneGetsIn) {
   EXPECT_TRUE(store.scans().lasers("s").empty());
 }
 
-TEST(Scans, whatIsTakenBackIsNotThere) {
+TEST(Scans, WhatIsTakenBackIsNotThere) {
   const Folder folder;
   Store store(folder.file("s.db"), Access::Write);
   Drawn drawn(1);

@@ -18,7 +18,7 @@ using testing::expectError;
 using testing::fill;
 using testing::Folder;
 
-TEST(SessionId, dependsOnEveryPartOfTheOriginAndOnNothingElse) {
+TEST(SessionId, DependsOnEveryPartOfTheOriginAndOnNothingElse) {
   const SessionOrigin origin{"lisa", "run", 1225719873501685123, "digest"};
   EXPECT_EQ(makeSessionId(origin), makeSessionId(origin));
   EXPECT_EQ(makeSessionId(origin).size(), 20U);
@@ -40,7 +40,7 @@ class SessionRows : public ::testing::Test {
   SessionStore& sessions = store.sessions();
 };
 
-TEST_F(SessionRows, comeBackInOrderOfStart) {
+TEST_F(SessionRows, ComeBackInOrderOfStart) {
   Session late{"b", "late", "lisa", "two", 200, false}, early{"c", "early", "", "", -5, true},
       same{"a", "x", "", "", 200, true};
   for (const Session& session : {late, early, same}) sessions.put(session);
@@ -55,7 +55,7 @@ TEST_F(SessionRows, comeBackInOrderOfStart) {
   expectError([&] { sessions.put(other); }, path, "session b is another one already");
 }
 
-TEST_F(SessionRows, whatIsKnownOfThemIsReplacedByName) {
+TEST_F(SessionRows, WhatIsKnownOfThemIsReplacedByName) {
   Drawn drawn(1);
   sessions.put("a", StoredParameter{"swf_vo.window", "25", "default"});
   sessions.put("a", StoredParameter{"swf_vo.window", "26", "--set"});
@@ -76,7 +76,7 @@ TEST_F(SessionRows, whatIsKnownOfThemIsReplacedByName) {
   EXPECT_TRUE(sessions.parameters("b").empty());
 }
 
-TEST_F(SessionRows, areRemovedWithAllThatNamesThem) {
+TEST_F(SessionRows, AreRemovedWithAllThatNamesThem) {
   const SessionId stays = fill(store, 1, 10);
   const std::string before = dump(store);
   const SessionId goes = fill(store, 2, 10);

@@ -13,7 +13,7 @@ namespace {
 using testing::Drawn;
 using testing::Folder;
 
-TEST(States, ofAnyLengthComeBack) {
+TEST(States, OfAnyLengthComeBack) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   Drawn drawn(1);

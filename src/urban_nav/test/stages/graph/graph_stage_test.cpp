@@ -47,7 +47,7 @@ double worstError(const urban_nav_core::Trajectory& trajectory, const Pose& T_tr
   return worst;
 }
 
-TEST(GraphRunTest, relaxesSessionsIntoOneMap) {
+TEST(GraphRunTest, RelaxesSessionsIntoOneMap) {
   const VoRun monday = driveCircle(0, 1200, 2e-4), tuesday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
   // Moments between frames, so that odometry has to carry them.
@@ -73,7 +73,7 @@ TEST(GraphRunTest, relaxesSessionsIntoOneMap) {
   EXPECT_EQ(written[0].session_a, "monday");
 }
 
-TEST(GraphRunTest, keepsApartWhatNothingJoins) {
+TEST(GraphRunTest, KeepsApartWhatNothingJoins) {
   const VoRun monday = driveCircle(0, 300, 0.0), tuesday = driveCircle(0, 300, 0.0);
   const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, {});
   EXPECT_TRUE(run.joined(0));
@@ -82,7 +82,7 @@ TEST(GraphRunTest, keepsApartWhatNothingJoins) {
   EXPECT_NE(run.warnings[0].find("tuesday"), std::string::npos);
 }
 
-TEST(GraphRunTest, leavesASessionWithoutClosuresAsOdometryHasIt) {
+TEST(GraphRunTest, LeavesASessionWithoutClosuresAsOdometryHasIt) {
   const VoRun monday = driveCircle(0, 700, 0.0), tuesday = driveCircle(0, 300, 0.0);
   ClosureRow wrong = closure("tuesday", 10.0, "tuesday", 290.0);
   wrong.T_a_b = Pose(Eigen::Quaterniond::Identity(), Vector3d(30.0, 0.0, 0.0)) * *wrong.T_a_b;
@@ -97,7 +97,7 @@ TEST(GraphRunTest, leavesASessionWithoutClosuresAsOdometryHasIt) {
   EXPECT_NE(run.covariances[0].back(), monday.settled.back().T_odom_base.covariance);
 }
 
-TEST(GraphRunTest, usesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
+TEST(GraphRunTest, UsesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
   const VoRun run = driveCircle(0, 1200, 1e-3);
   const urban_nav_core::LocalTangent tangent({0.9, 0.0, 100.0});
   constexpr double kDegrees = 180.0 / M_PI;
@@ -125,7 +125,7 @@ TEST(GraphRunTest, usesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
   EXPECT_NE(late.warnings[0].find("1 of 61 GPS fixes"), std::string::npos) << late.warnings[0];
 }
 
-TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
+TEST(GraphRunTest, TakesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
   const VoRun monday = driveCircle(0, 900, 2e-4), tuesday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
   for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
@@ -153,7 +153,7 @@ TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
   EXPECT_TRUE(toBytes(rows, known) == expected) << "the file has all of them again";
 }
 
-TEST(GraphRunTest, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
+TEST(GraphRunTest, SessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
   const VoRun monday = driveCircle(0, 300, 0.0), tuesday = driveCircle(300, 900, 1e-4),
               friday = driveCircle(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
@@ -209,7 +209,7 @@ struct TwoDays {
 // The robot's first pose leans by 0.1 rad to the side and 0.05 rad ahead.
 const Pose kLeaning(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
 
-TEST(GraphRunTest, levelsTheMapWhereAnAccelerometerKnowsHow) {
+TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
   TwoDays days;
   const GraphRun before = days.relaxed(false);
   EXPECT_FALSE(before.levels[0].known());
@@ -239,7 +239,7 @@ TEST(GraphRunTest, levelsTheMapWhereAnAccelerometerKnowsHow) {
   }
 }
 
-TEST(GraphRunTest, holdsRollAndPitchBySpecificForce) {
+TEST(GraphRunTest, HoldsRollAndPitchBySpecificForce) {
   // Odometry that leans ever more to one side, by 0.05 rad in 45 s, from a start that leans; closures would see that.
   TwoDays days;
   days.rows.clear();
@@ -266,7 +266,7 @@ TEST(GraphRunTest, holdsRollAndPitchBySpecificForce) {
   EXPECT_LT(held, 0.3 * leant);
 }
 
-TEST(GraphRunTest, namesClosuresThatCannotBeUsed) {
+TEST(GraphRunTest, NamesClosuresThatCannotBeUsed) {
   const VoRun monday = driveCircle(0, 300, 0.0);
   std::vector<ClosureRow> rows = {closure("monday", 10, "sunday", 20), closure("monday", 10, "monday", 5000),
                                   closure("monday", 10, "monday", 10.1), closure("monday", 10, "monday", 200),
@@ -282,7 +282,7 @@ TEST(GraphRunTest, namesClosuresThatCannotBeUsed) {
   EXPECT_NE(run.warnings.at(0).find("5 closures"), std::string::npos);
 }
 
-TEST(ClosuresFile, bringsBackWhatItWrote) {
+TEST(ClosuresFile, BringsBackWhatItWrote) {
   ClosureRow row = closure("a", 10, "b", 20);
   row.verdict = "accepted";
   row.reason = "agrees, with all";
@@ -297,7 +297,7 @@ TEST(ClosuresFile, bringsBackWhatItWrote) {
   EXPECT_EQ(printClosures({row, ClosureRow()}).substr(0, 9), "session_a");
 }
 
-TEST(ClosuresFile, standsDamage) {
+TEST(ClosuresFile, StandsDamage) {
   ClosureRow row = closure("a", 10, "b", 20);
   const auto result = urban_nav_core::testing::fuzzFile({printClosures({row, row}), printClosures({})}, "closures.csv",
                                                         [](const std::string& path) { readClosures(path); });

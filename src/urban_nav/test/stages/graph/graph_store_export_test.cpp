@@ -45,7 +45,7 @@ ClosureRow sideways(int step) {
   return row;
 }
 
-TEST(GraphRows, aStoreHoldsTheRelaxedMap) {
+TEST(GraphRows, AStoreHoldsTheRelaxedMap) {
   const VoRun monday = straight(20), tuesday = straight(20), friday = straight(20);
   const GraphRun run = runGraph({}, {&monday, &tuesday, &friday}, {"monday", "tuesday", "friday"},
                                 {sideways(3), sideways(8), sideways(15)});

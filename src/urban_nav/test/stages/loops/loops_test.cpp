@@ -57,7 +57,7 @@ class Loops : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> Loops::shared_;
 
-TEST_F(Loops, findsTheTransformsOfTrueClosuresAndJoinsTheSessions) {
+TEST_F(Loops, FindsTheTransformsOfTrueClosuresAndJoinsTheSessions) {
   const std::vector<ClosureRow> rows = listRows("out");
   ASSERT_EQ(rows.size(), 4U);
   const std::vector<Pose> truth = urban_nav_core::readKitti(file("monday") + "/poses.txt");
@@ -79,20 +79,20 @@ TEST_F(Loops, findsTheTransformsOfTrueClosuresAndJoinsTheSessions) {
     EXPECT_NE(summary.find(text), std::string::npos) << text;
 }
 
-TEST_F(Loops, namesWhyTheOthersHaveNone) {
+TEST_F(Loops, NamesWhyTheOthersHaveNone) {
   const std::string text = readFile(file("out") + "/closures.csv");
   EXPECT_NE(text.find("unknown_moment: no frames around 900.000000000 s in tuesday"), std::string::npos) << text;
   EXPECT_NE(text.find("no session \"\"sunday\"\" in this map; there are: monday, tuesday"), std::string::npos) << text;
 }
 
-TEST_F(Loops, givesTheSameBytesWithTwoThreads) {
+TEST_F(Loops, GivesTheSameBytesWithTwoThreads) {
   map({file("monday"), file("tuesday")}, file("threads"), file("closures.csv"),
       [](MapOptions& request) { request.threads = 2; });
   for (const char* name : {"trajectory.tum", "covariance.csv", "closures.csv", "graph.g2o"})
     EXPECT_EQ(readFile(file("out") + "/" + name), readFile(file("threads") + "/" + name)) << name;
 }
 
-TEST_F(Loops, laterDaysFindTheViewsOfEarlierOnesInTheStore) {
+TEST_F(Loops, LaterDaysFindTheViewsOfEarlierOnesInTheStore) {
   map({file("monday")}, file("first"), "");
   map({file("tuesday")}, file("second"), file("closures.csv"),
       [](MapOptions& request) { request.store = file("first") + "/session.db"; });
@@ -102,7 +102,7 @@ TEST_F(Loops, laterDaysFindTheViewsOfEarlierOnesInTheStore) {
   EXPECT_EQ(rows[1].T_a_b->matrix(), listRows("out")[1].T_a_b->matrix());
 }
 
-TEST_F(Loops, whySaysWhatTheStoreKnows) {
+TEST_F(Loops, WhySaysWhatTheStoreKnows) {
   urban_nav_store::Store store(file("out") + "/session.db", urban_nav_store::Access::Read);
   const std::vector<StoredClosure> closures = listClosures(store);
   ASSERT_EQ(closures.size(), 3U) << "the one with an unknown session has no place in a store";
@@ -117,7 +117,7 @@ TEST_F(Loops, whySaysWhatTheStoreKnows) {
   EXPECT_EQ(page.sections[0].pictures.size(), 1U);
 }
 
-TEST_F(Loops, anotherDayIsFoundInAMapThatStaysAsItIs) {
+TEST_F(Loops, AnotherDayIsFoundInAMapThatStaysAsItIs) {
   map({file("monday")}, file("frozen"), "");
   const std::string before = readFile(file("frozen") + "/session.db");
   map({file("tuesday")}, file("found"), "", [](MapOptions& request) {
@@ -140,7 +140,7 @@ TEST_F(Loops, anotherDayIsFoundInAMapThatStaysAsItIs) {
       urban_nav_core::UserError);
 }
 
-TEST_F(Loops, withoutTheStageTheTransformsOfTheFileCount) {
+TEST_F(Loops, WithoutTheStageTheTransformsOfTheFileCount) {
   writeFile(file("measured.csv"),
             "session_a,stamp_a_ns,session_b,stamp_b_ns,probability,x,y,z,qx,qy,qz,qw\n"
             "monday,200000000,tuesday,200000000,0.9,0,0,0,0,0,0,1\n");

@@ -47,7 +47,7 @@ StoredScene mapDensely(const TemporaryFolder& folder, const std::string& out, in
   return scene;
 }
 
-TEST(StereoStage, storesGroundAndPointsOfKeyframesWhateverTheThreads) {
+TEST(StereoStage, StoresGroundAndPointsOfKeyframesWhateverTheThreads) {
   const TemporaryFolder folder;
   testing::makeKittiFolder(folder.file("in"));
   const StoredScene one = mapDensely(folder, "one", 1), two = mapDensely(folder, "two", 2);
@@ -72,7 +72,7 @@ TEST(StereoStage, storesGroundAndPointsOfKeyframesWhateverTheThreads) {
   EXPECT_NE(readFile(folder.file("one/report.html")).find("Dense stereo"), std::string::npos);
 }
 
-TEST(StereoKeyframes, areSelectedByDistanceAngleAndTime) {
+TEST(StereoKeyframes, AreSelectedByDistanceAngleAndTime) {
   StereoKeyframeSelector selector{dense_stereo::Parameters()};  // 0.25 m, 10 deg, 0.25 s
   const auto at = [](double x, double turn) {
     return Pose(Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ())), Vector3d(x, 0.0, 0.0));
@@ -89,7 +89,7 @@ TEST(StereoKeyframes, areSelectedByDistanceAngleAndTime) {
   EXPECT_TRUE(resumed.select(4 * second, at(1.5, 0.2)));
 }
 
-TEST(StereoRuns, comeBackFromTheirBytes) {
+TEST(StereoRuns, ComeBackFromTheirBytes) {
   StereoRun run;
   run.keyframes.push_back({5, 20.0, "none", "", 0.9, 0.5, "found", 0.01, 1.1, 2000, 3});
   run.pictures.push_back({0, "caption", {1, 2, 3}, 10, 20});

@@ -31,7 +31,7 @@ VoRun someRun(int frames) {
   return run;
 }
 
-TEST(VoState, comesBackBitByBit) {
+TEST(VoState, ComesBackBitByBit) {
   const VoRun run = someRun(20);
   const std::string bytes = packVoRun(run);
   std::optional<VoRun> back = unpackVoRun(bytes);
@@ -122,7 +122,7 @@ bool isSame(const urban_nav_core::Pose& pose, const Eigen::Vector3d& t, const Ei
   return pose.t() == t && pose.q().coeffs() == q.coeffs();
 }
 
-TEST(VoState, version2IsRead) {
+TEST(VoState, Version2IsRead) {
   const std::string bytes = runOfVersion2();
   ASSERT_EQ(urban_nav_store::sha256(bytes), "1169c17f9910b635689f1f0e619638026e63c64ea56fac4435832c9ee6cf3a2b")
       << "as the program of that version wrote them";
@@ -170,7 +170,7 @@ TEST(VoState, version2IsRead) {
   EXPECT_EQ(again->settled[0].T_odom_base.covariance, countedFrom(100));
 }
 
-TEST(VoState, version3IsReadWithoutConstantsOfTheRig) {
+TEST(VoState, Version3IsReadWithoutConstantsOfTheRig) {
   VoRun run = *unpackVoRun(runOfVersion2());
   run.rig.delay_s = 1e-3;
   const std::string now = packVoRun(run);
@@ -185,7 +185,7 @@ TEST(VoState, version3IsReadWithoutConstantsOfTheRig) {
   EXPECT_EQ(then->settled[0].T_odom_base.covariance, countedFrom(100));
 }
 
-TEST(VoState, damagedBytesOfVersion2AreRefused) {
+TEST(VoState, DamagedBytesOfVersion2AreRefused) {
   const std::string bytes = runOfVersion2();
   for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpackVoRun(bytes.substr(0, size))) << size;
   const auto result = urban_nav_core::testing::fuzzText({bytes}, [](const std::string& text) {
@@ -196,7 +196,7 @@ TEST(VoState, damagedBytesOfVersion2AreRefused) {
   EXPECT_GT(result.refused, 0);
 }
 
-TEST(VoState, survivesAnything) {
+TEST(VoState, SurvivesAnything) {
   VoRun run = someRun(3);
   run.landmarks.erase(std::next(run.landmarks.begin(), 3), run.landmarks.end());
   const auto result = urban_nav_core::testing::fuzzText({packVoRun(run)}, [](const std::string& text) {

@@ -28,9 +28,9 @@ void lose(VoRow& row, swf_vo::Reason reason, const std::string& sentence) {
   row.status = {Health::Lost, static_cast<int>(reason), sentence};
 }
 
-TEST(VoSummary, warnsOfNothingWhereAllIsWell) { EXPECT_TRUE(summarise(steadyRun()).warnings.empty()); }
+TEST(VoSummary, WarnsOfNothingWhereAllIsWell) { EXPECT_TRUE(summarise(steadyRun()).warnings.empty()); }
 
-TEST(VoSummary, saysHowManyFramesWereLostAndWhy) {
+TEST(VoSummary, SaysHowManyFramesWereLostAndWhy) {
   VoRun run = steadyRun();
   lose(run.rows[1], swf_vo::Reason::NotRectified, "rows differ by 4.0 px");
   lose(run.rows[2], swf_vo::Reason::NotRectified, "rows differ by 5.0 px");
@@ -42,7 +42,7 @@ TEST(VoSummary, saysHowManyFramesWereLostAndWhy) {
   EXPECT_EQ(warnings, expected);
 }
 
-TEST(VoSummary, namesAnOffsetOutsideItsPrior) {
+TEST(VoSummary, NamesAnOffsetOutsideItsPrior) {
   VoRun run = steadyRun();
   run.rows.back().statistics.disparity_offset_px = -0.84;
   const std::vector<std::string> warnings = summarise(run).warnings;
@@ -55,7 +55,7 @@ TEST(VoSummary, namesAnOffsetOutsideItsPrior) {
   EXPECT_TRUE(summarise(run).warnings.empty());
 }
 
-TEST(VoSummary, namesRowsThatAreFollowedButApart) {
+TEST(VoSummary, NamesRowsThatAreFollowedButApart) {
   VoRun run = steadyRun();
   run.rows.back().statistics.row_offset_px = 0.4;
   EXPECT_TRUE(summarise(run).warnings.empty());
@@ -65,7 +65,7 @@ TEST(VoSummary, namesRowsThatAreFollowedButApart) {
   EXPECT_NE(warnings[0].find("2.5 px higher"), std::string::npos) << warnings[0];
 }
 
-TEST(VoSummary, namesARollAndADelayOutsideTheirPriors) {
+TEST(VoSummary, NamesARollAndADelayOutsideTheirPriors) {
   VoRun run = steadyRun();
   run.rig = {0.1 * M_PI / 180.0, 0.02 * M_PI / 180.0, 0.2e-3, 0.05e-3};
   EXPECT_TRUE(summarise(run).warnings.empty());

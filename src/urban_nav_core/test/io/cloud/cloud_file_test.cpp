@@ -126,7 +126,7 @@ std::string refusal(const std::string& content) {
   return catchError([&] { parseCloud(content, "c"); });
 }
 
-TEST(CloudFile, everyFormatGivesThePoints) {
+TEST(CloudFile, EveryFormatGivesThePoints) {
   for (const std::string& content :
        {plyAscii(), plyBinary(false), plyBinary(true), pcdAscii(), pcdBinary(), pcdCompressed(), asText(","),
         asText(" ; "), asText("\t"), "x, y ,\"Z\"\n" + asText(","), "# of a laser\n" + asText("  ")}) {
@@ -136,13 +136,13 @@ TEST(CloudFile, everyFormatGivesThePoints) {
   expectPoints(parseCloud(gzipped(asText(",").substr(0, 40)) + gzipped(asText(",").substr(40)), "two members"));
 }
 
-TEST(CloudFile, columnsOfAHeaderComeInAnyOrder) {
+TEST(CloudFile, ColumnsOfAHeaderComeInAnyOrder) {
   const PointCloud cloud = parseCloud("nx;z;x;y\n9;3;1;2\n", "c").cloud;
   ASSERT_EQ(cloud.points.size(), 1U);
   EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1.0F, 2.0F, 3.0F));
 }
 
-TEST(CloudFile, originsOfBeamsComeWithThePoints) {
+TEST(CloudFile, OriginsOfBeamsComeWithThePoints) {
   std::string header = "1.0\nelement vertex 2\n", bytes;
   for (const char* name : {"origin_z", "x", "y", "z", "origin_x", "origin_y"})
     header += std::string("property float ") + name + "\n";
@@ -160,7 +160,7 @@ TEST(CloudFile, originsOfBeamsComeWithThePoints) {
   EXPECT_TRUE(parseCloud(plyAscii(), "c").cloud.origins.empty());
 }
 
-TEST(CloudFile, isReadAsOtherProgramsWriteIt) {
+TEST(CloudFile, IsReadAsOtherProgramsWriteIt) {
   expectPoints(parseCloud("//X,Y,Z\n" + asText(","), "CloudCompare"));
   expectPoints(parseCloud("//X Y Z\n4\n" + asText(" "), "CloudCompare, counted"));
   expectPoints(parseCloud("4\n" + asText(" "), "pts"));
@@ -173,7 +173,7 @@ TEST(CloudFile, isReadAsOtherProgramsWriteIt) {
   expectPoints(parseCloud(one_line, "all numbers in a line"));
 }
 
-TEST(CloudFile, listsOfVerticesAreSkipped) {
+TEST(CloudFile, ListsOfVerticesAreSkipped) {
   const std::string header =
       "1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty list uchar int views\n"
       "end_header\n";
@@ -191,7 +191,7 @@ TEST(CloudFile, listsOfVerticesAreSkipped) {
   }
 }
 
-TEST(CloudFile, farCoordinatesKeepMillimetres) {
+TEST(CloudFile, FarCoordinatesKeepMillimetres) {
   const CloudFile file =
       parseCloud("691244.251,5334577.502,519.001\n691245.253,5334578.504,519.003\n691246.0,5334579.0,520.0\n", "utm");
   ASSERT_EQ(file.cloud.points.size(), 3U);
@@ -225,7 +225,7 @@ std::string las(const std::vector<Eigen::Vector3i>& points, std::uint8_t format 
   return bytes;
 }
 
-TEST(CloudFile, lasIsRead) {
+TEST(CloudFile, LasIsRead) {
   const CloudFile file = parseCloud(las({{1500, 0, -1}, {1, 2, 3}, {5, 5, 5}}), "c");
   ASSERT_EQ(file.cloud.points.size(), 3U);
   const Eigen::Vector3d first = file.offset + file.cloud.points[0].cast<double>();
@@ -234,7 +234,7 @@ TEST(CloudFile, lasIsRead) {
   EXPECT_EQ(refusal(las({{1, 2, 3}}).substr(0, 250)), "c: ends before its 1 points: allowed a whole file");
 }
 
-TEST(CloudFile, beamsWithoutReturnAreKept) {
+TEST(CloudFile, BeamsWithoutReturnAreKept) {
   const PointCloud cloud = parseCloud("1,2,3\nnan,NaN,-inf\n1e300,0,0\n", "c").cloud;
   ASSERT_EQ(cloud.points.size(), 3U);
   EXPECT_TRUE(std::isnan(cloud.points[1].x()));
@@ -242,9 +242,9 @@ TEST(CloudFile, beamsWithoutReturnAreKept) {
   EXPECT_FALSE(cloud.points[2].allFinite());
 }
 
-TEST(CloudFile, anEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").cloud.points.empty()); }
+TEST(CloudFile, AnEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").cloud.points.empty()); }
 
-TEST(CloudFile, mistakesAreNamedWithTheirLine) {
+TEST(CloudFile, MistakesAreNamedWithTheirLine) {
   EXPECT_EQ(refusal("1,2,3\n1,2\n"), "c:2: 2 columns: allowed at least 3");
   EXPECT_EQ(refusal("1,2,3\n1,b,3\n"), "c:2: `b`: allowed a number");
   EXPECT_EQ(refusal("a,b,c\n1,2,3\n"), "c:1: no column x: allowed PLY, PCD, or CSV with the columns x, y, z");
@@ -264,7 +264,7 @@ TEST(CloudFile, mistakesAreNamedWithTheirLine) {
   EXPECT_EQ(refusal(withSizes("\xff\xff", 4000000000U)), "c: ends before its 4 points: allowed a whole file");
 }
 
-TEST(CloudFile, survivesDamage) {
+TEST(CloudFile, SurvivesDamage) {
   const std::vector<std::vector<std::string>> formats = {{plyAscii()},
                                                          {plyBinary(false), plyBinary(true)},
                                                          {pcdAscii()},
