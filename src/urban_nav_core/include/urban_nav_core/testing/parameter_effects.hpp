@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace urban_nav_core::testing {
+
+/// A value of one row of a table: {"window", 5}.
+struct ParameterChange {
+  std::string name;
+  ParameterValue value;
+};
+
+/// A run of a core whose result depends on parameters, and the changes that it shows.
+template <typename Parameters>
+struct ParameterExperiment {
+  using Run = std::function<std::string(const Parameters&)>;
+  using Changes = std::vector<ParameterChange>;
+  ParameterExperiment(std::string title, Run function, Changes tested, Changes beside = {})
+      : name(std::move(title)), run(std::move(function)), changes(std::move(tested)), conditions(std::move(beside)) {}
+
+  std::string name;    ///< for messages: "map of a street"
+  Run run;             ///< returns the result as bytes or text, the same for equal parameters
+  Changes changes;     ///< each of them alone must change the result
+  Changes conditions;  ///< apply to all runs: for a row that matters only beside others
+};
+
+/// A row whose effect is shown by another test: since it is not on results (threads, memory, rates), or since another
+/// package uses the row.
+struct ParameterTest {
+  std::string name;         ///< "queue"
+  std::string test;         ///< "LiveMapper.DropsTheOldestScans"
+  std::string source = "";  ///< of a test of another binary: path from the working folder, that of the package
+};
+
+namespace detail {
+
+/// Returns whether this binary, or the source, has the test.
+inline bool exists(const ParameterTest& wanted) {
+  if (!wanted.source.empty()) {
+    const std::size_t dot = wanted.test.find('.');
+    const std::string head = "(" + wanted.test.substr(0, dot) + ", " + wanted.test.substr(dot + 1) + ")";
+    return readTextFile(wanted.source).find(head) != std::string::npos;
+  }
+  const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
+  for (int i = 0; i < all.total_test_suite_count(); ++i) {
+    const ::testing::TestSuite& suite = *all.GetTestSuite(i);
+    for (int j = 0; j < suite.total_test_count(); ++j)
+      if (std::string(suite.name()) + "." + suite.GetTestInfo(j)->name() == wanted.test) return true;
+  }
+  return false;
+}
+
+template <typename Parameters>
+const RowInfo* findRow(const Table<Parameters>& table, const std::string& name) {
+  const std::vector<RowInfo>& rows = table.rows();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&name](const RowInfo& each) { return each.name == name; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+/// Sets one value; returns what is wrong with the change, in words, or an empty text.
+template <typename Parameters>
+std::string applyChange(const Table<Parameters>& table, const ParameterChange& change, Parameters& parameters) {
+  const RowInfo* row = findRow(table, change.name);
+  if (row == nullptr) return "is no row of the table";
+  if (!isAllowed(*row, change.value)) return "is not allowed: " + allowed(*row);
+  const Parameters before = parameters;
+  table.set(parameters, change.name, change.value);
+  const bool is_same = table.get(before, change.name) == table.get(parameters, change.name);
+  return is_same ? "is the value without the change" : "";
+}
+
+/// Runs one experiment; returns a line for each change that is wrong or has no effect.
+template <typename Parameters>
+std::string runExperiment(const Table<Parameters>& table, const ParameterExperiment<Parameters>& experiment) {
+  std::string faults;
+  const auto report = [&](const ParameterChange& change, const std::string& fault) {
+    faults += fullName(table.stage(), change.name) + " = " + printValue(change.value) + " " + fault + " (" +
+              experiment.name + ")\n";
+  };
+  Parameters conditions;
+  for (const ParameterChange& condition : experiment.conditions)
+    if (const std::string fault = applyChange(table, condition, conditions); !fault.empty()) report(condition, fault);
+  const std::string without_change = experiment.run(conditions);
+  if (experiment.run(conditions) != without_change) return experiment.name + ": two equal runs differ\n";
+  for (const ParameterChange& change : experiment.changes) {
+    Parameters changed = conditions;
+    const std::string fault = applyChange(table, change, changed);
+    if (!fault.empty()) report(change, fault);
+    else if (experiment.run(changed) == without_change) report(change, "does not change the result");
+  }
+  return faults;
+}
+
+}  // namespace detail
+
+/// Returns a line for each change that does not change the result of its experiment; empty if all do.
+template <typename Parameters>
+std::string findChangesWithoutEffect(const Table<Parameters>& table,
+                                     const std::vector<ParameterExperiment<Parameters>>& experiments) {
+  std::string faults;
+  for (const ParameterExperiment<Parameters>& experiment : experiments)
+    faults += detail::runExperiment(table, experiment);
+  return faults;
+}
+
+/// Returns a line for each row of the table that has no test in which it matters, and what findChangesWithoutEffect()
+/// returns; empty if every row has one. Each row must be among the changes of an experiment, or have a test in
+/// `elsewhere`.
+template <typename Parameters>
+std::string findParametersWithoutEffect(const Table<Parameters>& table,
+                                        const std::vector<ParameterExperiment<Parameters>>& experiments,
+                                        const std::vector<ParameterTest>& elsewhere = {}) {
+  std::string faults = findChangesWithoutEffect(table, experiments);
+  std::vector<std::string> shown;
+  for (const ParameterExperiment<Parameters>& experiment : experiments)
+    for (const ParameterChange& change : experiment.changes) shown.push_back(change.name);
+  for (const ParameterTest& other : elsewhere) {
+    if (detail::findRow(table, other.name) == nullptr) faults += other.name + " is no row of the table\n";
+    if (!detail::exists(other)) faults += other.name + ": there is no test " + other.test + "\n";
+    shown.push_back(other.name);
+  }
+  for (const RowInfo& row : table.rows())
+    if (std::find(shown.begin(), shown.end(), row.name) == shown.end())
+      faults += fullName(table.stage(), row.name) + " has no test in which it changes a result\n";
+  return faults;
+}
+
+}  // namespace urban_nav_core::testing
