@@ -49,7 +49,6 @@ class SessionRecorder {
   void setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   /// Returns the frames of lasers that have scans and no pose.
   std::vector<std::string> unplacedLasers() const;
-  bool hasLasers() const { return !lasers_.empty(); }
   /// Appends a step of smoothed odometry. The first one, and one after a jump back in time, begins a session.
   void addStep(const urban_nav_core::RelativePose& step);
 

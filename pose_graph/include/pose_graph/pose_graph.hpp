@@ -190,9 +190,6 @@ class PoseGraph {
   std::int64_t revision() const { return revision_; }
   urban_nav_core::Status status() const;
 
-  /// T_map_odom at a session's newest pose.
-  Pose mapFromOdom(const SessionId& session) const;
-
   /// The graph as a problem: poses of the tracks one after another, edges: the chains, then the closures in the order
   /// of ids.
   Problem<3> problem() const;

@@ -245,12 +245,6 @@ std::vector<double> PoseGraph::weights() const {
   return made;
 }
 
-Pose PoseGraph::mapFromOdom(const SessionId& session) const {
-  const Track* track = this->track(session);
-  if (track == nullptr || track->stamps.empty()) return {};
-  return track->map.back() * track->odom.back().inverse();
-}
-
 urban_nav_core::Status PoseGraph::status() const {
   using urban_nav_core::Health;
   if (broken_)

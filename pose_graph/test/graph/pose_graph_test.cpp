@@ -85,7 +85,6 @@ TEST(PoseGraph, ClosesALoop) {
   EXPECT_EQ(relaxed.jump->reason, JumpReason::Believed);
   EXPECT_EQ(relaxed.jump->witnesses.size(), 10u);
   ASSERT_FALSE(relaxed.moved.empty());
-  EXPECT_TRUE(isApprox(graph.mapFromOdom("a") * graph.tracks()[0].odom.back(), graph.tracks()[0].map.back(), 1e-9));
 }
 
 TEST(PoseGraph, SaysWhyTheRobotJumped) {
@@ -178,7 +177,7 @@ TEST(PoseGraph, WaitsForASecondWitnessOfALargeCorrection) {
   EXPECT_EQ(graph.relax().waiting, 1u);
   EXPECT_EQ(graph.closures().at(first).verdict, ClosureVerdict::Waiting);
   EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::Waiting));
-  EXPECT_TRUE(isApprox(graph.mapFromOdom("a"), Pose(), 1e-9));
+  EXPECT_TRUE(isApprox(graph.tracks()[0].map.back(), graph.tracks()[0].odom.back(), 1e-9));
   graph.addClosure(closureBetween("a", 140, "a", 140 + kRound));
   EXPECT_EQ(graph.relax().accepted, 2u);
 

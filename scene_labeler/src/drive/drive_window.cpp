@@ -12,10 +12,7 @@ constexpr std::size_t most_returns = 4'000'000;
 }  // namespace
 
 void DriveWindow::add(const DriveReturn& one) {
-  if (returns_.size() >= most_returns && one.travelled <= returns_.back().travelled) {
-    ++left_out_;
-    return;
-  }
+  if (returns_.size() >= most_returns && one.travelled <= returns_.back().travelled) return;
   returns_.push_back(one);
   work(false);
 }

@@ -47,7 +47,6 @@ class Filter {
   const Prior& prior() const { return prior_; }
   const Cost& cost() const { return cost_; }
   const Datum& datum() const { return datum_; }
-  const DriftSandwich& driftSandwich() const { return scores_.sandwich(); }
 
   /// All that the following steps depend on.
   struct Checkpoint {

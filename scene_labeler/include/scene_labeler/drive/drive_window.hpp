@@ -43,8 +43,6 @@ class DriveWindow {
   /// Frames come in order of the path.
   void add(DriveFrame frame);
   void finish();
-  /// Returns how many returns were left out because the robot stood.
-  std::size_t leftOut() const { return left_out_; }
 
  private:
   void work(bool is_end);
@@ -57,7 +55,6 @@ class DriveWindow {
   std::deque<DriveFrame> frames_;
   bool has_previous_ = false;
   double previous_ = 0.0;  // travelled, of the frame before frames_.front()
-  std::size_t left_out_ = 0;
 };
 
 }  // namespace scene_labeler

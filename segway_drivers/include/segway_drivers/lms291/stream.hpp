@@ -13,7 +13,6 @@ namespace segway_drivers {
 
 constexpr double lms_period =
     0.013338;  // s, of the mirror; measured on both lasers of the New College log (nominal 75 Hz)
-constexpr int lms_beams = 181;
 
 /// A scan with its place in the stream and in time.
 struct LmsStampedScan {

@@ -30,7 +30,6 @@ class RmpCommandGuard {
   /// Stops until releaseStop().
   void emergencyStop() { stopped_ = true; }
   void releaseStop() { stopped_ = false; }
-  bool isStopped() const { return stopped_; }
 
   /// The command to send now.
   RmpCommand step(TimeNs now);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stage_list.hpp"
 
-#include <algorithm>
-
 #include "stages/graph/graph_stage.hpp"
 #include "stages/keyframes/keyframes_stage.hpp"
 #include "stages/labels/labels_stage.hpp"
@@ -35,17 +33,6 @@ std::vector<std::string> stageNames() {
   std::vector<std::string> names;
   for (const std::unique_ptr<Stage>& stage : makeStages())
     if (stage->describe().listed) names.push_back(stage->describe().name);
-  return names;
-}
-
-std::vector<std::string> plannedStageNames() {
-  const std::vector<std::string> existing = stageNames();
-  std::vector<std::string> names = {"places", "lasers", "stereo", "labels"};
-  names.erase(std::remove_if(names.begin(), names.end(),
-                             [&](const std::string& name) {
-                               return std::find(existing.begin(), existing.end(), name) != existing.end();
-                             }),
-              names.end());
   return names;
 }
 

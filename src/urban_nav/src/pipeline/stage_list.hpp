@@ -17,7 +17,5 @@ std::vector<std::unique_ptr<Stage>> makeStages();
 
 /// Returns the words of --stages: those of makeStages() that are selectable.
 std::vector<std::string> stageNames();
-/// Returns the words of --stages that are reserved for stages to come.
-std::vector<std::string> plannedStageNames();
 
 }  // namespace urban_nav

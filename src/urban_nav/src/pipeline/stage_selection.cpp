@@ -18,10 +18,8 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 
 void checkWords(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
-    if (contains(stageNames(), word)) continue;
-    const std::string found =
-        contains(plannedStageNames(), word) ? "stage " + word + " is not in this version" : "no stage \"" + word + "\"";
-    throw UserError("--stages", found, urban_nav_core::joined(stageNames()));
+    if (!contains(stageNames(), word))
+      throw UserError("--stages", "no stage \"" + word + "\"", urban_nav_core::joined(stageNames()));
   }
 }
 
@@ -42,8 +40,6 @@ StageList selectStages(const std::vector<std::unique_ptr<Stage>>& stages, const 
       left_out.push_back(description.name + " (" + selection.reason + ")");
     }
   }
-  if (options.stages.empty() && !plannedStageNames().empty())
-    left_out.push_back(urban_nav_core::joined(plannedStageNames()) + " (not in this version)");
   console.info("stages: " + urban_nav_core::joined(names) +
                (left_out.empty() ? "" : "; left out: " + urban_nav_core::joined(left_out)));
   for (const std::string& note : notes) console.info(note);

@@ -27,19 +27,6 @@ Quaterniond unit(const Quaterniond& q) {
   return std::abs(q.squaredNorm() - 1.0) <= kRounding ? q : q.normalized();
 }
 
-// The block that couples rotation and translation in the left Jacobian of SE(3) (Barfoot, State Estimation for
-// Robotics, eq. 7.86).
-Matrix3d couplingBlock(const Vector3d& rho, const Vector3d& phi) {
-  const double angle = phi.norm();
-  const Matrix3d P = skew(rho);
-  const Matrix3d F = skew(phi);
-  const Matrix3d FP = F * P;
-  const Matrix3d PF = P * F;
-  const Matrix3d FPF = FP * F;
-  return 0.5 * P + series::sineRest(angle) * (FP + PF + FPF) +
-         series::cosineRest(angle) * (F * FP + PF * F - 3.0 * FPF) + series::mixedRest(angle) * (FPF * F + F * FPF);
-}
-
 }  // namespace
 
 Pose::Pose(const Quaterniond& q, const Vector3d& t) : q_(unit(q)), t_(t) {
@@ -88,21 +75,6 @@ Matrix6d adjoint(const Pose& T) {
   Matrix6d A;
   A << R, skew(T.t()) * R, Matrix3d::Zero(), R;
   return A;
-}
-
-Matrix6d leftJacobianSe3(const Vector6d& tangent) {
-  const Matrix3d J = leftJacobianSo3(tangent.tail<3>());
-  Matrix6d M;
-  M << J, couplingBlock(tangent.head<3>(), tangent.tail<3>()), Matrix3d::Zero(), J;
-  return M;
-}
-
-Matrix6d leftJacobianInverseSe3(const Vector6d& tangent) {
-  const Matrix3d J_inverse = leftJacobianInverseSo3(tangent.tail<3>());
-  Matrix6d M;
-  M << J_inverse, -J_inverse * couplingBlock(tangent.head<3>(), tangent.tail<3>()) * J_inverse, Matrix3d::Zero(),
-      J_inverse;
-  return M;
 }
 
 Pose boxPlus(const Pose& T_a_b, const Vector6d& d) {

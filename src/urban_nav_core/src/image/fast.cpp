@@ -54,7 +54,7 @@ void collectRow(const ScoreRows& rows, int v, int width, bool suppress, std::vec
     int kept = keptOfSixteen(rows, u, suppress);
     for (int i = u; kept != 0; ++i, kept >>= 1) {
       if ((kept & 1) != 0)
-        corners.push_back({static_cast<std::int16_t>(i), static_cast<std::int16_t>(v), rows.here[i], 0.0F});
+        corners.push_back({static_cast<std::int16_t>(i), static_cast<std::int16_t>(v), rows.here[i]});
     }
   }
 }

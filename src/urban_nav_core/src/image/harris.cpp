@@ -75,16 +75,4 @@ StructureTensor structureTensor(const ImageView& image, int u, int v) {
           static_cast<float>(sums.vv) * kScale};
 }
 
-void scoreByHarris(const ImageView& image, std::vector<Corner>& corners) {
-  std::size_t out = 0;
-  for (Corner corner : corners) {
-    const bool has_window = corner.u >= kHarrisMargin && corner.v >= kHarrisMargin &&
-                            corner.u < image.width - kHarrisMargin && corner.v < image.height - kHarrisMargin;
-    if (!has_window) continue;
-    corner.harris = structureTensor(image, corner.u, corner.v).harris();
-    corners[out++] = corner;
-  }
-  corners.resize(out);
-}
-
 }  // namespace urban_nav_core

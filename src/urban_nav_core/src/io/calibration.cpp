@@ -199,6 +199,4 @@ EurocImu parseEurocImu(std::string_view text, const std::string& name) {
 
 EurocImu readEurocImu(const std::string& path) { return parseEurocImu(readTextFile(path), path); }
 
-Pose readEurocExtrinsics(const std::string& path) { return requireExtrinsics(readYaml(path), path); }
-
 }  // namespace urban_nav_core

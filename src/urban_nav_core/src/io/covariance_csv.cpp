@@ -93,8 +93,5 @@ std::vector<RelativeCovarianceRow> parseRelativeCovariances(std::string_view tex
 std::vector<CovarianceRow> readCovariances(const std::string& path) {
   return parseCovariances(readTextFile(path), path);
 }
-std::vector<RelativeCovarianceRow> readRelativeCovariances(const std::string& path) {
-  return parseRelativeCovariances(readTextFile(path), path);
-}
 
 }  // namespace urban_nav_core

@@ -7,12 +7,8 @@
 #include <random>
 #include <sstream>
 
-#include "urban_nav_core/testing/numeric_jacobian.hpp"
-
 namespace urban_nav_core {
 namespace {
-
-using testing::numericJacobian;
 
 constexpr double kDegree = M_PI / 180.0;
 
@@ -109,17 +105,6 @@ TEST(Se3, AdjointMovesATangentAcross) {
   const Pose T = randomPose(random);
   const Vector6d x = randomTangent(random, 0.5, 40.0 * kDegree);
   EXPECT_TRUE(isApprox(T * expSe3(x) * T.inverse(), expSe3(adjoint(T) * x), 1e-13));
-}
-
-TEST(Se3, LeftJacobianIsTheNumericDerivative) {
-  std::mt19937 random(6);
-  for (const double angle : {0.0, 1e-5, 0.1, 0.79, 0.81, 1.19, 1.21, 40.0 * kDegree, 2.0, 3.1}) {
-    const Vector6d x = randomTangent(random, 0.5, angle);
-    // d with Exp(x + e) = Exp(d) Exp(x), so in the tangent of SE(3), not by boxMinus.
-    const auto f = [&x](const Vector6d& y) -> Vector6d { return logSe3(expSe3(y) * expSe3(x).inverse()); };
-    EXPECT_LE((numericJacobian<6, 6>(f, x) - leftJacobianSe3(x)).norm(), 1e-9) << angle;
-    EXPECT_LE((leftJacobianSe3(x) * leftJacobianInverseSe3(x) - Matrix6d::Identity()).norm(), 1e-12) << angle;
-  }
 }
 
 TEST(Se3, BoxMinusUndoesBoxPlus) {

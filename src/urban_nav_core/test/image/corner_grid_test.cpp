@@ -5,9 +5,9 @@
 
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "urban_nav_core/image/fast.hpp"
-#include "urban_nav_core/image/harris.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 #include "urban_nav_core/testing/allocations.hpp"
 
@@ -20,10 +20,14 @@ std::vector<Corner> randomCorners(int n, int width, int height, unsigned seed) {
   for (int i = 0; i < n; ++i) {
     corners.push_back({static_cast<std::int16_t>(random() % static_cast<unsigned>(width)),
                        static_cast<std::int16_t>(random() % static_cast<unsigned>(height)),
-                       static_cast<std::uint8_t>(5 + random() % 60), static_cast<float>(i)});
+                       static_cast<std::uint8_t>(5 + random() % 60)});
   }
   return corners;
 }
+
+using CornerSet = std::multiset<std::tuple<int, int, int>>;
+
+void insertInto(CornerSet& set, const Corner& corner) { set.emplace(corner.u, corner.v, corner.fast); }
 
 TEST(CornerGrid, FindsWhatASearchThroughAllFinds) {
   const std::vector<Corner> corners = randomCorners(700, 333, 201, 1);
@@ -35,13 +39,13 @@ TEST(CornerGrid, FindsWhatASearchThroughAllFinds) {
   std::size_t found_in_all = 0;
   for (int i = 0; i < 500; ++i) {
     const double u0 = u(random), v0 = v(random), radius = r(random);
-    std::set<float> expected, found;
+    CornerSet expected, found;
     for (const Corner& c : corners) {
-      if ((c.u - u0) * (c.u - u0) + (c.v - v0) * (c.v - v0) <= radius * radius) expected.insert(c.harris);
+      if ((c.u - u0) * (c.u - u0) + (c.v - v0) * (c.v - v0) <= radius * radius) insertInto(expected, c);
     }
     grid.forEachWithin(u0, v0, radius, [&](const Corner& c, std::size_t index) {
       EXPECT_EQ(grid.corners()[index], c);
-      EXPECT_TRUE(found.insert(c.harris).second) << "twice";
+      insertInto(found, c);
     });
     ASSERT_EQ(found, expected) << "about " << u0 << ", " << v0 << " within " << radius;
     found_in_all += found.size();
@@ -53,11 +57,11 @@ TEST(CornerGrid, FindsTheBandOfAStereoSearch) {
   const std::vector<Corner> corners = randomCorners(500, 200, 100, 3);
   CornerGrid grid(16);
   grid.assign(corners, 200, 100);
-  std::set<float> expected, found;
+  CornerSet expected, found;
   for (const Corner& c : corners) {
-    if (c.u >= 20 && c.u <= 90.5 && c.v >= 49 && c.v <= 51) expected.insert(c.harris);
+    if (c.u >= 20 && c.u <= 90.5 && c.v >= 49 && c.v <= 51) insertInto(expected, c);
   }
-  grid.forEachInside(20, 49, 90.5, 51, [&](const Corner& c, std::size_t) { found.insert(c.harris); });
+  grid.forEachInside(20, 49, 90.5, 51, [&](const Corner& c, std::size_t) { insertInto(found, c); });
   EXPECT_FALSE(found.empty());
   EXPECT_EQ(found, expected);
 }
@@ -70,7 +74,7 @@ TEST(CornerGrid, EmptyAndRefilled) {
   grid.assign({}, 100, 100);
   grid.forEachWithin(5, 5, 100, count);
   EXPECT_EQ(visits, 0);
-  grid.assign({{99, 99, 1, 0.0F}}, 100, 100);
+  grid.assign({{99, 99, 1}}, 100, 100);
   grid.forEachWithin(99, 99, 0, count);
   EXPECT_EQ(visits, 1);
 }
@@ -80,8 +84,7 @@ TEST(CornerCap, KeepsTheBestOfEachCell) {
   // The left half is busy, the right half has few and weak corners.
   std::vector<Corner> corners = randomCorners(600, 96, 96, 4);
   for (const Corner& weak : randomCorners(40, 96, 96, 5)) {
-    corners.push_back(
-        {static_cast<std::int16_t>(weak.u + 96), weak.v, static_cast<std::uint8_t>(5 + weak.fast / 4), weak.harris});
+    corners.push_back({static_cast<std::int16_t>(weak.u + 96), weak.v, static_cast<std::uint8_t>(5 + weak.fast / 4)});
   }
   std::vector<Corner> kept = corners;
   CornerCap(quota).apply(kept, 192, 96);
@@ -108,8 +111,8 @@ TEST(CornerCap, KeepsTheBestOfEachCell) {
 
 TEST(CornerCap, OfEqualsTheFirstStayAndOrderIsKept) {
   std::vector<Corner> corners;
-  for (int i = 0; i < 10; ++i) corners.push_back({static_cast<std::int16_t>(i), 0, 50, static_cast<float>(i)});
-  corners.push_back({11, 0, 60, 10.0F});
+  for (int i = 0; i < 10; ++i) corners.push_back({static_cast<std::int16_t>(i), 0, 50});
+  corners.push_back({11, 0, 60});
   CornerCap({32, 20, 1, 4}).apply(corners, 32, 32);
   ASSERT_EQ(corners.size(), 4U);
   EXPECT_EQ(corners[0].u, 0);
@@ -135,7 +138,6 @@ TEST(CornerGrid, FromPixelsToTheGridNothingIsAllocatedOnceBuffersHaveGrown) {
     for (int l = 0; l < pyramid.levels(); ++l) {
       corners = fast.detect(pyramid.level(l), 10, Fast::Suppression::LocalMaximum);
       cap.apply(corners, pyramid.level(l).width, pyramid.level(l).height);
-      scoreByHarris(pyramid.level(l), corners);
       grid.assign(corners, pyramid.level(l).width, pyramid.level(l).height);
     }
   }

@@ -74,17 +74,6 @@ TEST(Harris, CornersArePositiveEdgesNegativeNothingIsZero) {
   EXPECT_EQ(structureTensor(view(image), 8, 8).harris(), 0.0F);
 }
 
-TEST(Harris, ScoresCornersInTheirOrderAndDropsThoseAtTheBorder) {
-  const cv::Mat image = randomImage(40, 30, 9);
-  std::vector<Corner> corners{
-      {3, 10, 7, 0.0F}, {20, 20, 8, 0.0F}, {4, 4, 9, 0.0F}, {20, 26, 10, 0.0F}, {35, 25, 11, 0.0F}};
-  scoreByHarris(view(image), corners);
-  ASSERT_EQ(corners.size(), 3U);
-  EXPECT_EQ(corners[0], (Corner{20, 20, 8, structureTensor(view(image), 20, 20).harris()}));
-  EXPECT_EQ(corners[1].fast, 9);
-  EXPECT_EQ(corners[2].fast, 11);
-}
-
 TEST(Harris, HoldsTheSteepestContrast) {
   cv::Mat image(16, 16, CV_8U);
   for (int v = 0; v < 16; ++v) {

@@ -44,10 +44,6 @@ Vector6d logSe3(const Pose& T);
 /// Ad(T) with T Exp(x) T^-1 = Exp(Ad(T) x).
 Matrix6d adjoint(const Pose& T);
 
-/// Left Jacobian of SE(3) and its inverse: Exp(x + d) = Exp(J d) Exp(x) to first order.
-Matrix6d leftJacobianSe3(const Vector6d& tangent);
-Matrix6d leftJacobianInverseSe3(const Vector6d& tangent);
-
 /// The perturbation used by every covariance that leaves a stage, and by the estimators:
 /// boxPlus(T, (rho, phi)) = [Exp(phi) R, t + rho], both in the parent frame. boxMinus(A, B) is the d with A =
 /// boxPlus(B, d).

@@ -9,11 +9,8 @@ namespace urban_nav_core {
 struct Corner {
   std::int16_t u = 0, v = 0;  ///< px of its level
   std::uint8_t fast = 0;      ///< score of FAST (fast.hpp), grey levels
-  float harris = 0.0F;        ///< score of Harris (harris.hpp)
 };
 
-inline bool operator==(const Corner& a, const Corner& b) {
-  return a.u == b.u && a.v == b.v && a.fast == b.fast && a.harris == b.harris;
-}
+inline bool operator==(const Corner& a, const Corner& b) { return a.u == b.u && a.v == b.v && a.fast == b.fast; }
 
 }  // namespace urban_nav_core

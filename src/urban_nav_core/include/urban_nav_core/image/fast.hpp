@@ -26,7 +26,7 @@ class Fast {
     LocalMaximum,
   };
 
-  /// Corners of the image in reading order, harris = 0; threshold 0...254. The result lives until the next call.
+  /// Corners of the image in reading order; threshold 0...254. The result lives until the next call.
   const std::vector<Corner>& detect(const ImageView& image, int threshold, Suppression suppression);
 
  private:

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
-#include "urban_nav_core/image/corner.hpp"
 #include "urban_nav_core/image/view.hpp"
 
 namespace urban_nav_core {
@@ -25,8 +22,5 @@ struct StructureTensor {
 /// Returns the structure tensor of the window centred at (u, v), which must be at least kHarrisMargin from every
 /// border. Sums are of integers and so are the same on every machine.
 StructureTensor structureTensor(const ImageView& image, int u, int v);
-
-/// Fills Corner::harris; drops corners nearer to a border than kHarrisMargin. Keeps the order.
-void scoreByHarris(const ImageView& image, std::vector<Corner>& corners);
 
 }  // namespace urban_nav_core

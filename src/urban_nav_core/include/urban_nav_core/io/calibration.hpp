@@ -48,7 +48,4 @@ struct EurocImu {
 EurocImu readEurocImu(const std::string& path);
 EurocImu parseEurocImu(std::string_view text, const std::string& name);
 
-/// T_BS of another sensor.yaml (state_groundtruth_estimate0, leica0).
-Pose readEurocExtrinsics(const std::string& path);
-
 }  // namespace urban_nav_core

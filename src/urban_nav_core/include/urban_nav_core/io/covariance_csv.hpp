@@ -35,7 +35,6 @@ std::string printCovarianceRow(const RelativeCovarianceRow& row);
 /// their size or have a negative diagonal.
 std::vector<CovarianceRow> readCovariances(const std::string& path);
 std::vector<CovarianceRow> parseCovariances(std::string_view text, const std::string& name);
-std::vector<RelativeCovarianceRow> readRelativeCovariances(const std::string& path);
 std::vector<RelativeCovarianceRow> parseRelativeCovariances(std::string_view text, const std::string& name);
 
 }  // namespace urban_nav_core

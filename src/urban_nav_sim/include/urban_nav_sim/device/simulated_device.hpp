@@ -69,7 +69,6 @@ class SimulatedDevice {
 
  private:
   DeviceBytes damage(DeviceBytes frame);
-  bool isOff() const { return off_; }
   void watchPower();
 
   DeviceOptions options_;
