@@ -1,9 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests all there is, on a bare Debian 12 too; the last line is the result, and so is the exit status.
-#   ./run_tests.sh              warnings are errors; lint, gtest, Python, rostest; readers and window once more under sanitizers
-#   ./run_tests.sh --sanitize   all ROS-free cores under the sanitizers, every reader fuzzed for 20 s
-#   ./run_tests.sh --tidy       each source compiled alone; clang-format and clang-tidy over all of them as well
+#   ./run_tests.sh                  warnings are errors; lint, gtest, Python, rostest; readers and window once more under sanitizers
+#   ./run_tests.sh --since COMMIT   the packages that differ from that commit, their dependents and the command alone
+#   ./run_tests.sh --benches        the programs in bench/ are compiled as well
+#   ./run_tests.sh --sanitize       all ROS-free cores under the sanitizers, every reader fuzzed for 20 s
+#   ./run_tests.sh --tidy           each source compiled alone; clang-format and clang-tidy over all of them as well
+# --since selects by scripts/affected.py, which says on standard error what it selected and why. Lint, catkin_lint and the tables of
+# the documents are checked in any case. Everything is tested where a ground package, a script or the build changed, or more than half
+# of the packages, or where the commit is not in this clone.
 # URBAN_NAV_UNITY=OFF compiles each source alone: slower at first, quicker for a changed file.
 # Tests on real data look in the folder that URBAN_NAV_DATA names, and are skipped without it.
 set -eu
@@ -11,13 +16,21 @@ set -eu
 . "$(dirname "$(readlink -f "$0")")/scripts/lib.sh"
 cd "$root"
 
-sanitize=no tidy=no
-for argument; do
-  case $argument in
+usage() { sed -n 's/^#   //p' "$0" >&2; exit 2; }
+
+sanitize=no tidy=no benches=no since=''
+while [ $# -gt 0 ]; do
+  case $1 in
     --sanitize) sanitize=yes ;;
     --tidy) tidy=yes ;;
-    *) sed -n 's/^#   //p' "$0" >&2; exit 2 ;;
+    --benches) benches=yes ;;
+    --since)
+      case ${2:-} in '' | -*) say "--since: the name of a commit is missing"; usage ;; esac
+      since=$2
+      shift ;;
+    *) say "$1: not an option"; usage ;;
   esac
+  shift
 done
 
 use_system_tools
@@ -42,29 +55,88 @@ step() {
   fi
 }
 
+# What is tested: everything, or the packages in `tested`, whose tests need what is in the folders `built`.
+selected=everything tested=() built=()
+
+# select_packages: reads what changed since the commit $since. A name that is of no commit ends the run.
+select_packages() {
+  local lines status=0
+  lines=$(scripts/affected.py "$since") || status=$?
+  if [ $status = 2 ]; then usage; fi
+  if [ $status != 0 ] || [ "$lines" = everything ]; then return; fi
+  selected=some
+  mapfile -t tested < <(sed -n 's/^test //p' <<<"$lines")
+  mapfile -t built < <(sed -n 's/^build //p' <<<"$lines")
+}
+
+anything_selected() { [ $selected = everything ] || [ ${#tested[@]} -gt 0 ]; }
+
+# is_selected PACKAGE
+is_selected() {
+  local name
+  if [ $selected = everything ]; then return; fi
+  for name in "${tested[@]}"; do
+    if [ "$name" = "$1" ]; then return; fi
+  done
+  return 1
+}
+
+# targets_of FOLDER PATTERN...: the targets of a workspace whose whole name matches one of the patterns.
+targets_of() {
+  local folder=$1
+  shift
+  ninja -C "$folder/build" -t targets all | sed -n 's/^\([^:]*\): .*/\1/p' | grep -xE "$(IFS='|'; printf '%s' "$*")" | sort -u
+}
+
+# wanted_targets FOLDER: what is compiled for the selected tests.
+wanted_targets() {
+  local name patterns=()
+  if [ $selected = everything ]; then
+    if [ "$1" = "$ws" ]; then echo all; fi
+    echo tests
+    if [ $benches = yes ]; then echo urban_nav_benches; fi
+    return
+  fi
+  if [ "$1" = "$ws" ]; then
+    for name in "${built[@]}"; do patterns+=("urban_nav/$name/all"); done
+  fi
+  for name in "${tested[@]}"; do
+    patterns+=("$name-([a-z]+-)?(ros)?test")
+    if [ $benches = yes ]; then patterns+=("$name-bench-.*"); fi
+  done
+  targets_of "$1" "${patterns[@]}"
+}
+
 # In batches, which takes half the time of a first build; warnings that a batch cannot give are those of --tidy.
 build_all() (
-  local unity=${URBAN_NAV_UNITY:-ON}
+  local unity=${URBAN_NAV_UNITY:-ON} targets
   if [ $tidy = yes ]; then unity=OFF; fi
   lock
   configure "$ws" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_BENCH=ON -DURBAN_NAV_WERROR=ON -DURBAN_NAV_SANITIZED_READERS=ON \
-    -DURBAN_NAV_TEST_SHARDS="$(nproc)" -DURBAN_NAV_UNITY=$unity
+    -DURBAN_NAV_TEST_SHARDS="$(nproc)" -DURBAN_NAV_UNITY="$unity"
+  mapfile -t targets < <(wanted_targets "$ws")
+  if [ ${#targets[@]} = 0 ]; then return; fi
   : >"$ws/command.started"
-  compile "$ws" "Building" all tests urban_nav_benches || return 1
-  mv "$ws/command.started" "$ws/command.built"
+  compile "$ws" "Building" "${targets[@]}" || return 1
+  if is_selected urban_nav; then mv "$ws/command.started" "$ws/command.built"; fi
 )
 
 # All cores under the sanitizers, with their tests.
 build_cores() (
+  local targets
   lock
   configure "$build/cores" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_CORES_ONLY=ON -DURBAN_NAV_SANITIZE=ON -DURBAN_NAV_TEST_SHARDS="$(nproc)" \
     -DCATKIN_BLACKLIST_PACKAGES='urban_nav_msgs;urban_nav_ros;urban_nav_launch;urban_nav_rviz'
-  compile "$build/cores" "Building the sanitized cores" tests
+  mapfile -t targets < <(wanted_targets "$build/cores")
+  if [ ${#targets[@]} = 0 ]; then return; fi
+  compile "$build/cores" "Building the sanitized cores" "${targets[@]}"
 )
 
-# list_tests FOLDER KIND: catkin's own targets for the tests of one kind (gtest, sanitized, python, rostest).
+# list_tests FOLDER KIND: catkin's own targets for the selected tests of one kind (gtest, sanitized, python, rostest).
 list_tests() {
-  ninja -C "$1/build" -t targets all | sed -n "s/^\(run_tests_[A-Za-z0-9_]*_$2_[^:/]*\): phony.*/\1/p" | sort -u
+  local packages='[A-Za-z0-9_]*'
+  if [ $selected = some ]; then packages=$(IFS='|'; printf '%s' "${tested[*]}"); fi
+  targets_of "$1" "run_tests_($packages)_$2_[^/]+"
 }
 
 # say_troubles LOG: what in a log of tests is worth a line.
@@ -119,24 +191,26 @@ run_tidy() {
 }
 
 run_lint() {
-  mkdir -p "$build"
-  scripts/lint_test.py >"$build/lint_test.log" 2>&1 || { cat "$build/lint_test.log" >&2; return 1; }
-  scripts/lint.py
+  local results=$build/scripts/test_results/scripts/scripts.xml
+  mkdir -p "$build/scripts"
+  scripts/unit_tests.py "$results" >"$build/scripts/tests.log" 2>&1 || cat "$build/scripts/tests.log" >&2
+  scripts/lint.py && [ -s "$results" ]
 }
 
 run_format() {
   git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
 }
 
-results=()
+results=("$build/scripts/test_results")
 find "$build" -path '*/test_results/*' -name '*.xml' -delete 2>/dev/null || true
 tools=()
 if [ $tidy = yes ]; then tools=(clang-format clang-tidy clang-tools); fi
 step "packages" install_packages "${tools[@]}" || true
+if [ -n "$since" ]; then select_packages; fi
 if [ $sanitize = no ]; then
   seconds=${URBAN_NAV_FUZZ_SECONDS:-2}
   step "lint" run_lint || true
-  if step "build" build_all; then
+  if anything_selected && step "build" build_all; then
     step "gtest" run_group "$ws" gtest
     step "readers under the sanitizers, $seconds s of fuzzing each" run_group "$ws" sanitized "$seconds"
     step "Python" run_group "$ws" python
@@ -151,7 +225,7 @@ if [ $sanitize = no ]; then
   fi
 else
   seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
-  if step "build under the sanitizers" build_cores; then
+  if anything_selected && step "build under the sanitizers" build_cores; then
     step "tests under the sanitizers, $seconds s of fuzzing a reader" run_group "$build/cores" gtest "$seconds"
     results+=("$build/cores/build/test_results")
   fi || true
