@@ -21,10 +21,10 @@ ENFORCED = {"long_files", "long_lines", "unity_names", "gtest_names", "command_i
 LONG_FUNCTIONS = {
     # Tables: one row after another, without a branch.
     "segway_drivers/src/parameters.cpp:table": "table of parameters",
-    "src/urban_nav/src/commands/simulate.cpp:simulateCommand": "table of options",
+    "src/urban_nav/src/simulate/simulate_command.cpp:simulateCommand": "table of options",
     "src/urban_nav_live/include/urban_nav_live/stereo_input_parameters.hpp:withStereoInput": "table of parameters",
     "src/urban_nav_registration/src/parameters.cpp:table": "table of parameters",
-    "src/urban_nav/src/stages/lasers/map_viewer_script.cpp:mapViewerScript": "one script of the page, as text",
+    "src/urban_nav/src/topics/lasers/map_viewer_script.cpp:mapViewerScript": "one script of the page, as text",
     # Loops of a solver whose steps share most of their variables: apart, each would take ten arguments.
     "pose_graph/src/condense/solve_condensed.cpp:solveCondensed": "descent and its tests of convergence",
     "pose_graph/src/incremental/incremental_solver.cpp:IncrementalSolver::relax": "descent and its tests of convergence",
@@ -34,16 +34,16 @@ LONG_FUNCTIONS = {
 # Folders of src/urban_nav/src, lowest first; folders on one line are of one level. A folder includes itself, its level
 # and lower ones.
 COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
-    ["command_line", "report"],
-    ["input"],
-    ["evaluation"],
-    ["checks"],
-    ["stage"],
-    ["stages"],
-    ["pipeline"],
-    ["convert", "places", "simulate", "inspect", "doctor", "explain", "device", "disparity", "labels", "relax"],
+    ["base"],
+    ["evaluation", "convert", "device"],
+    ["map", "simulate"],
+    ["topics"],
+    ["inspect"],
     ["commands"],
 ]
+
+STAGES = ["swf_vo", "fabmap_node", "loop_metric", "pose_graph", "laser_mapper", "dense_stereo", "scene_labeler", "segway_drivers",
+          "urban_nav_localization"]
 
 NODELET_LINES = {"swf_vo": 300, "pose_graph": 500, "loop_metric": 500}
 WORDS = ["behind", "nobody", "somebody", "felt", "told", "heard", "believe"]
@@ -329,10 +329,13 @@ def command_includes(tree):
         if folder not in level:
             yield f"{source.path}: folder {folder} has no level in {Path(__file__).name}"
             continue
-        if folder == "stages":
-            for other in re.findall(r'^#include "(stages/\w+)/', source.text, re.M):
+        if folder == "topics":
+            for other in re.findall(r'^#include "(topics/\w+)/', source.text, re.M):
                 if not source.path.startswith(start + other + "/"):
-                    yield f"{source.path}: a stage includes another one, {other}"
+                    yield f"{source.path}: a topic includes another one, {other}"
+        if folder in ("base", "map"):
+            for stage in re.findall(rf'^#include "({"|".join(STAGES)})/', source.text, re.M):
+                yield f"{source.path}: includes the stage {stage}"
         for included in re.findall(r'^#include "(\w+)/', source.text, re.M):
             if included in level and included != folder:
                 edges[folder].add(included)

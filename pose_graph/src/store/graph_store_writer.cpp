@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "pose_graph/forces_state.hpp"
 #include "pose_graph/ground_views.hpp"
-#include "pose_graph/stored_fixes.hpp"
 #include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_store/forces_state.hpp"
+#include "urban_nav_store/stored_fixes.hpp"
 
 namespace pose_graph {
 
@@ -207,7 +207,9 @@ bool GraphStoreWriter::syncForces(const PoseGraph& graph, bool at_once) {
     const std::size_t known = tracks_[t].forces;
     if (forces.size() <= known || (!at_once && 5 * forces.size() < 6 * known)) continue;
     const SessionId& session = graph.tracks()[t].session;
-    if (!post([session, forces](Store& store) { store.states().put(session, kForcesStage, packForces(forces)); }))
+    if (!post([session, forces](Store& store) {
+          store.states().put(session, urban_nav_store::kForcesStage, urban_nav_store::packForces(forces));
+        }))
       return false;
     tracks_[t].forces = forces.size();
   }
@@ -232,7 +234,7 @@ bool GraphStoreWriter::syncFixes(const PoseGraph& graph) {
     if (fixes.size() <= tracks_[t].fixes) continue;
     const SessionId& session = graph.tracks()[t].session;
     std::vector<PositionFix> added(fixes.begin() + static_cast<std::ptrdiff_t>(tracks_[t].fixes), fixes.end());
-    if (!post([session, added](Store& store) { writeFixes(store, session, added); })) return false;
+    if (!post([session, added](Store& store) { urban_nav_store::writeFixes(store, session, added); })) return false;
     tracks_[t].fixes = fixes.size();
   }
   return true;

@@ -6,9 +6,9 @@
 #include <set>
 #include <tuple>
 
-#include "pose_graph/forces_state.hpp"
 #include "pose_graph/ground_views.hpp"
-#include "pose_graph/stored_fixes.hpp"
+#include "urban_nav_store/forces_state.hpp"
+#include "urban_nav_store/stored_fixes.hpp"
 
 namespace pose_graph {
 
@@ -80,9 +80,9 @@ StoredGraph readGraph(Store& store) {
                            collectSteps(store, session.id, steps),
                            {},
                            readGround(store, session.id),
-                           readFixes(store, session.id)});
-    if (const auto forces = store.states().get(session.id, kForcesStage))
-      made.chains.back().forces = unpackForces(*forces).value_or(std::vector<SpecificForce>());
+                           urban_nav_store::readFixes(store, session.id)});
+    if (const auto forces = store.states().get(session.id, urban_nav_store::kForcesStage))
+      made.chains.back().forces = urban_nav_store::unpackForces(*forces).value_or(std::vector<SpecificForce>());
     store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {
       made.revision = std::max(made.revision, pose.revision);
     });

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segway_drivers/camera/bag_pictures.hpp"
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
@@ -15,10 +13,16 @@
 #include "segway_drivers/bumblebee2/frame.hpp"
 #include "segway_drivers/camera/pack_frames.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
 
 namespace segway_drivers {
+
+using urban_nav_input::RecordedMessage;
+using urban_nav_input::RecordedMessages;
+using urban_nav_input::Recording;
 
 namespace {
 
@@ -26,63 +30,64 @@ constexpr int simulated_quality = 90;
 
 std::string withoutSlash(const std::string& topic) { return topic.rfind('/', 0) == 0 ? topic.substr(1) : topic; }
 
-cv::Mat decodeColour(const rosbag::MessageInstance& instance) {
-  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>())
+cv::Mat decodeColour(const RecordedMessage& message) {
+  if (const auto compressed = message.as<sensor_msgs::CompressedImage>())
     return cv::imdecode(compressed->data, cv::IMREAD_COLOR);
-  const auto image = instance.instantiate<sensor_msgs::Image>();
+  const auto image = message.as<sensor_msgs::Image>();
   if (!image || image->encoding != "bgr8" || image->data.size() < 3UL * image->width * image->height) return {};
   const cv::Mat view(static_cast<int>(image->height), static_cast<int>(image->width), CV_8UC3,
                      const_cast<std::uint8_t*>(image->data.data()), image->step);
   return view.clone();
 }
 
-cv::Mat decodeGrey(const rosbag::MessageInstance& instance) {
-  if (const auto image = instance.instantiate<sensor_msgs::Image>())
-    return urban_nav_ros::toGrey(*image).pixels.clone();
-  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>())
+cv::Mat decodeGrey(const RecordedMessage& message) {
+  if (const auto image = message.as<sensor_msgs::Image>()) return urban_nav_ros::toGrey(*image).pixels.clone();
+  if (const auto compressed = message.as<sensor_msgs::CompressedImage>())
     return urban_nav_ros::toGrey(*compressed).pixels;
   return {};
 }
 
-ros::Time readImageStamp(const rosbag::MessageInstance& instance) {
-  if (const auto image = instance.instantiate<sensor_msgs::Image>()) return image->header.stamp;
-  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>()) return compressed->header.stamp;
-  return instance.getTime();
+ros::Time readImageStamp(const RecordedMessage& message) {
+  if (const auto image = message.as<sensor_msgs::Image>()) return image->header.stamp;
+  if (const auto compressed = message.as<sensor_msgs::CompressedImage>()) return compressed->header.stamp;
+  return urban_nav_ros::toRosTime(message.receipt());
+}
+
+std::vector<std::string> withAndWithoutSlash(const std::map<std::string, std::size_t>& topics) {
+  std::vector<std::string> names;
+  for (const auto& [topic, place] : topics) {
+    names.push_back(topic);
+    names.push_back("/" + topic);
+  }
+  return names;
 }
 
 /// Groups of images with one stamp, one of each topic.
 class BagGroups {
  public:
   BagGroups(const std::string& path, std::map<std::string, std::size_t> topics, std::size_t size)
-      : topics_(std::move(topics)), size_(size) {
-    try {
-      bag_.open(path, rosbag::bagmode::Read);
-      begin_ = rosbag::View(bag_).getBeginTime();
-      view_.addQuery(
-          bag_, [this](const rosbag::ConnectionInfo* each) { return topics_.count(withoutSlash(each->topic)) != 0; });
-      next_ = view_.begin();
-    } catch (const rosbag::BagException& error) {
-      throw urban_nav_core::UserError(path, error.what(), "a bag of urban_nav simulate");
-    }
-    if (next_ == view_.end())
+      : topics_(std::move(topics)),
+        size_(size),
+        recording_(path),
+        messages_(recording_.messages(withAndWithoutSlash(topics_))),
+        begin_(urban_nav_ros::toRosTime(recording_.begin())) {
+    if (messages_.size() == 0)
       throw urban_nav_core::UserError(path, "no images", "a bag with the images of this camera");
   }
 
   /// The next complete group; sets the times of `frame`. Empty at the end.
-  std::optional<std::vector<cv::Mat>> next(const std::function<cv::Mat(const rosbag::MessageInstance&)>& decode,
+  std::optional<std::vector<cv::Mat>> next(const std::function<cv::Mat(const RecordedMessage&)>& decode,
                                            SimFrame& frame) {
-    for (; next_ != view_.end(); ++next_) {
-      const rosbag::MessageInstance& instance = *next_;
-      const ros::Time stamp = readImageStamp(instance);
+    while (const std::optional<RecordedMessage> message = messages_.next()) {
+      const ros::Time stamp = readImageStamp(*message);
       std::vector<cv::Mat>& group = waiting_[stamp];
       group.resize(size_);
-      group[topics_.at(withoutSlash(instance.getTopic()))] = decode(instance);
+      group[topics_.at(withoutSlash(message->topic()))] = decode(*message);
       if (std::any_of(group.begin(), group.end(), [](const cv::Mat& each) { return each.empty(); })) continue;
       frame.time = std::max((stamp - begin_).toSec(), 0.0);
       frame.recorded = static_cast<TimeNs>(stamp.toNSec());
       std::vector<cv::Mat> complete = std::move(group);
       waiting_.erase(waiting_.begin(), waiting_.upper_bound(stamp));
-      ++next_;
       return complete;
     }
     return std::nullopt;
@@ -91,11 +96,10 @@ class BagGroups {
  private:
   std::map<std::string, std::size_t> topics_;  // by place in the group
   std::size_t size_;
-  rosbag::Bag bag_;
-  rosbag::View view_;
-  rosbag::View::iterator next_;
-  std::map<ros::Time, std::vector<cv::Mat>> waiting_;
+  Recording recording_;
+  RecordedMessages messages_;
   ros::Time begin_;
+  std::map<ros::Time, std::vector<cv::Mat>> waiting_;
 };
 
 }  // namespace
@@ -135,29 +139,25 @@ FrameReader readLadybugFrames(const std::string& bag) {
 }
 
 std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& path, const std::string& side) {
-  try {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
-    rosbag::View view(bag, [&](const rosbag::ConnectionInfo* each) {
-      return withoutSlash(each->topic) == "stereo/" + side + "/camera_info";
-    });
-    for (const rosbag::MessageInstance& instance : view) {
-      const auto message = instance.instantiate<sensor_msgs::CameraInfo>();
-      if (!message || message->width == 0 || message->height == 0) continue;
-      sensor_msgs::CameraInfo info = *message;
-      const double sx = static_cast<double>(bb2_width) / info.width, sy = static_cast<double>(bb2_height) / info.height;
-      info.width = bb2_width;
-      info.height = bb2_height;
-      for (const auto& [matrix, columns] : {std::pair{info.K.data(), 3}, std::pair{info.P.data(), 4}}) {
-        matrix[0] *= sx;
-        matrix[2] = (matrix[2] + 0.5) * sx - 0.5;
-        matrix[columns + 1] *= sy;
-        matrix[columns + 2] = (matrix[columns + 2] + 0.5) * sy - 0.5;
-        if (columns == 4) matrix[3] *= sx;
-      }
-      return urban_nav_ros::toCameraInfo(info);
+  if (!urban_nav_input::isBagFile(path)) return std::nullopt;  // a camera
+  const std::string topic = "stereo/" + side + "/camera_info";
+  Recording recording(path);
+  RecordedMessages messages = recording.messages({topic, "/" + topic});
+  while (const std::optional<RecordedMessage> each = messages.next()) {
+    const auto message = each->as<sensor_msgs::CameraInfo>();
+    if (!message || message->width == 0 || message->height == 0) continue;
+    sensor_msgs::CameraInfo info = *message;
+    const double sx = static_cast<double>(bb2_width) / info.width, sy = static_cast<double>(bb2_height) / info.height;
+    info.width = bb2_width;
+    info.height = bb2_height;
+    for (const auto& [matrix, columns] : {std::pair{info.K.data(), 3}, std::pair{info.P.data(), 4}}) {
+      matrix[0] *= sx;
+      matrix[2] = (matrix[2] + 0.5) * sx - 0.5;
+      matrix[columns + 1] *= sy;
+      matrix[columns + 2] = (matrix[columns + 2] + 0.5) * sy - 0.5;
+      if (columns == 4) matrix[3] *= sx;
     }
-  } catch (const rosbag::BagException&) {
-    return std::nullopt;
+    return urban_nav_ros::toCameraInfo(info);
   }
   return std::nullopt;
 }

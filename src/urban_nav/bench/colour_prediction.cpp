@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "laser_mapper/laser_map.hpp"
-#include "stage/panorama_views.hpp"
-#include "stages/lasers/map_colour.hpp"
+#include "topics/lasers/map_colour.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/pictures/stored_panorama_view.hpp"
 #include "urban_nav_registration/session/adopted_calibration.hpp"
 #include "urban_nav_registration/visibility/depth_map.hpp"
 #include "urban_nav_store/stored_map.hpp"
@@ -111,7 +111,7 @@ std::vector<LeftOutView> leaveOut(Store& store, const laser_mapper::MappedSessio
     const auto T_map_base = session.T_map_base->at(row.stamp - correction.delay, kLongestGap);
     removed.push_back({row.session, row.camera, row.stamp, {}});
     if (camera == cameras.end() || !T_map_base) return;
-    const urban_nav_core::RawCamera raw = rawCamera(camera->second);
+    const urban_nav_core::RawCamera raw = urban_nav_registration::storedRawCamera(camera->second);
     views.push_back({raw,
                      (*T_map_base * correction.T_correction * camera->second.T_base_camera).inverse(),
                      urban_nav_registration::decodePicture(row.jpeg),

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "command_line/console.hpp"
+#include "base/console.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
-#include "stages/graph/plane_closures.hpp"
-#include "stages/loops/loops_run.hpp"
 #include "support/laser_sessions.hpp"
+#include "topics/graph/plane_closures.hpp"
+#include "topics/loops/loops_run.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
@@ -51,13 +51,13 @@ Trajectory atFrames(const Trajectory& truth) {
 }
 
 /// An odometry that knows how far it may be off.
-VoRun makeOdometry(const Trajectory& truth, unsigned seed) {
+SessionOdometry makeOdometry(const Trajectory& truth, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
   const double root = std::sqrt(1e-9 * static_cast<double>(kFrame));
-  VoRun run;
+  SessionOdometry run;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    swf_vo::Settled settled;
+    SmoothedFrame settled;
     settled.stamp = truth[i].stamp;
     urban_nav_core::RelativePose& step = settled.from_previous;
     step.from = truth[i == 0 ? 0 : i - 1].stamp;
@@ -119,7 +119,7 @@ std::vector<ClosureRow> drawClosures(const Trajectory& truth, unsigned seed) {
   return rows;
 }
 
-std::vector<ClosureRow> measureClosures(const Trajectory& truth, const VoRun& odometry, Store& store) {
+std::vector<ClosureRow> measureClosures(const Trajectory& truth, const SessionOdometry& odometry, Store& store) {
   std::vector<ClosureRow> rows;
   for (const auto& [a, b] : findRevisits(truth)) rows.push_back(makeCandidate(truth, a, b));
   Console console;
@@ -190,7 +190,7 @@ double compare(const std::string& bag, unsigned trials, bool by_icp, urban_nav_c
     for (const bool has_planes : {false, true}) {
       Figures sum;
       for (unsigned seed = 1; seed <= trials; ++seed) {
-        const VoRun odometry = makeOdometry(truth, seed);
+        const SessionOdometry odometry = makeOdometry(truth, seed);
         std::vector<ClosureRow> closures;
         if (has_closures) closures = by_icp ? measureClosures(truth, odometry, store) : drawClosures(truth, seed);
         const GraphRun run =

@@ -3,8 +3,6 @@
 
 #include <geometry_msgs/TwistStamped.h>
 #include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MagneticField.h>
@@ -15,6 +13,8 @@
 #include <functional>
 
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_sim {
 
@@ -33,23 +33,18 @@ enum class BagTopic { Required, Optional };
 template <typename Message>
 double forEachOfTopic(const std::string& path, const std::string& topic, BagTopic kind,
                       const std::function<void(const Message& message, double time)>& take) {
-  try {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
-    rosbag::View view(
-        bag, [&](const rosbag::ConnectionInfo* each) { return each->topic == topic || each->topic == "/" + topic; });
-    const double begin = rosbag::View(bag).getBeginTime().toSec();
-    bool is_empty = true;
-    for (const rosbag::MessageInstance& instance : view) {
-      const auto message = instance.instantiate<Message>();
-      if (!message) continue;
-      is_empty = false;
-      take(*message, std::max(message->header.stamp.toSec() - begin, 0.0));
-    }
-    if (is_empty && kind == BagTopic::Required) throw DataError(path, "holds nothing on " + topic, "");
-    return begin;
-  } catch (const rosbag::BagException& error) {
-    throw UserError(path, error.what(), "a bag of urban_nav simulate");
+  urban_nav_input::Recording recording(path);
+  const double begin = urban_nav_ros::toRosTime(recording.begin()).toSec();
+  urban_nav_input::RecordedMessages messages = recording.messages({topic, "/" + topic});
+  bool is_empty = true;
+  while (const auto each = messages.next()) {
+    const auto message = each->template as<Message>();
+    if (!message) continue;
+    is_empty = false;
+    take(*message, std::max(message->header.stamp.toSec() - begin, 0.0));
   }
+  if (is_empty && kind == BagTopic::Required) throw DataError(path, "holds nothing on " + topic, "");
+  return begin;
 }
 
 /// The reading of a time; null if there is none. `at` rises from call to call.

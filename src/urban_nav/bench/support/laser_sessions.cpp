@@ -1,31 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "laser_sessions.hpp"
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <filesystem>
 
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 
 namespace urban_nav::bench {
 
-void putLaserSession(const std::string& bag_path, const urban_nav_store::SessionId& id, const std::string& name,
+void putLaserSession(const std::string& bag, const urban_nav_store::SessionId& id, const std::string& name,
                      urban_nav_store::Store& store) {
   store.sessions().put(urban_nav_store::Session{id, name, "", "", 1, true});
-  rosbag::Bag bag(bag_path, rosbag::bagmode::Read);
-  urban_nav_ros::StaticTransforms transforms;
-  rosbag::View statics(bag, rosbag::TopicQuery(std::string("/tf_static")));
-  for (const rosbag::MessageInstance& instance : statics) transforms.add(*instance.instantiate<tf2_msgs::TFMessage>());
+  urban_nav_input::Recording recording(bag);
+  const urban_nav_ros::StaticTransforms transforms = recording.transforms();
   for (const char* topic : {"/laser_left/scan", "/laser_right/scan"}) {
-    rosbag::View scans(bag, rosbag::TopicQuery(std::string(topic)));
+    urban_nav_input::RecordedMessages scans = recording.messages({topic});
     bool is_placed = false;
-    for (const rosbag::MessageInstance& instance : scans) {
-      const auto message = instance.instantiate<sensor_msgs::LaserScan>();
+    while (const auto each = scans.next()) {
+      const auto message = each->as<sensor_msgs::LaserScan>();
       const std::string& frame = message->header.frame_id;
       if (!is_placed)
         store.sessions().put(

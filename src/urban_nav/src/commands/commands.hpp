@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "command_line/command.hpp"
+#include <vector>
+
+#include "base/command.hpp"
 
 namespace urban_nav {
 
-/// The subcommands (docs/files.md), each in a file of its name.
-Command convertCommand();
-Command deviceCommand();
-Command disparityCommand();
-Command doctorCommand();
-Command evaluateCommand();
-Command exportCommand();
-Command icpCommand();
-Command infoCommand();
-Command labelsCommand();
-Command mapCommand();
-Command mergeCommand();
-Command placesCommand();
-Command relaxCommand();
-Command simulateCommand();
-Command whyCommand();
+/// Returns the subcommands (docs/files.md), in the order of `urban_nav --help`.
+std::vector<Command> allCommands();
 
 }  // namespace urban_nav

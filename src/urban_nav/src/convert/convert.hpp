@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "command_line/console.hpp"
-#include "command_line/json.hpp"
-#include "input/open.hpp"
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "urban_nav_input/session/open.hpp"
 
 namespace urban_nav {
 
@@ -18,8 +18,8 @@ struct Converted {
 /// A folder of KITTI or EuRoC into a bag: rectified images with camera_info, static tf, IMU and truth where the folder
 /// has them. `ahead`: pictures are decoded by a second thread, the bag is the same. Throws DataError naming the file
 /// for an image that is missing or damaged: no bag is left.
-Converted convertStereoFolder(const std::string& folder, const std::string& bag, const SourceOptions& options,
-                              Console& console, bool ahead = true);
+Converted convertStereoFolder(const std::string& folder, const std::string& bag,
+                              const urban_nav_input::SourceOptions& options, Console& console, bool ahead = true);
 
 /// A folder of the New College data set (or its .alog alone) into a bag: lasers with reflectance, odometry in REP-103,
 /// whatever stereo and panoramic images there are. Throws UserError naming file and line for damaged parts: no bag is

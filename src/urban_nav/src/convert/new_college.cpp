@@ -11,12 +11,12 @@
 #include "convert/laser_topics.hpp"
 #include "convert/row_check.hpp"
 #include "convert/stereo_topics.hpp"
-#include "input/image_file.hpp"
-#include "input/new_college_files.hpp"
-#include "input/new_college_log.hpp"
-#include "input/new_college_rig.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_input/folder/image_file.hpp"
+#include "urban_nav_input/folder/new_college_files.hpp"
+#include "urban_nav_input/folder/new_college_log.hpp"
+#include "urban_nav_input/folder/new_college_rig.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -34,19 +34,23 @@ constexpr double kRowsAgree = 0.3;  // px
 constexpr std::size_t kPairsChecked = 3;
 
 std::vector<geometry_msgs::TransformStamped> transforms() {
-  std::vector<geometry_msgs::TransformStamped> all = stereoTransforms(newCollegeCamera(), newCollegeLeftCamera());
-  all.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_left, newCollegeLeftLaser()));
-  all.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_right, newCollegeRightLaser()));
+  std::vector<geometry_msgs::TransformStamped> all =
+      stereoTransforms(urban_nav_input::newCollegeCamera(), urban_nav_input::newCollegeLeftCamera());
+  all.push_back(
+      urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_left, urban_nav_input::newCollegeLeftLaser()));
+  all.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_right,
+                                                 urban_nav_input::newCollegeRightLaser()));
   return all;
 }
 
-void write(const NewCollegeScan& event, BagWriter& bag) {
+void write(const urban_nav_input::NewCollegeScan& event, BagWriter& bag) {
   urban_nav_core::PlanarScan scan = event.scan;
   scan.stamp = event.stamp;
-  writeLaser(event.side == Side::Left ? "left" : "right", scan, static_cast<std::uint32_t>(event.id), bag);
+  writeLaser(event.side == urban_nav_input::Side::Left ? "left" : "right", scan, static_cast<std::uint32_t>(event.id),
+             bag);
 }
 
-void write(const NewCollegeOdometry& event, BagWriter& bag) {
+void write(const urban_nav_input::NewCollegeOdometry& event, BagWriter& bag) {
   nav_msgs::Odometry message;
   message.header.stamp = urban_nav_ros::toRosTime(event.stamp);
   message.header.frame_id = frames::odom;
@@ -58,11 +62,11 @@ void write(const NewCollegeOdometry& event, BagWriter& bag) {
   bag.write("/wheel_odom", event.stamp, message);
 }
 
-void write(const NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {
+void write(const urban_nav_input::NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {
 }  // the index alone; pictures are taken by the names of their files
 
-void write(const NewCollegeFiles::Image& image, BagWriter& bag) {
-  const urban_nav_ros::GreyImage seen = readPixels(image.path);
+void write(const urban_nav_input::NewCollegeFiles::Image& image, BagWriter& bag) {
+  const urban_nav_ros::GreyImage seen = urban_nav_input::readPixels(image.path);
   if (seen.pixels.empty()) throw DataError("", seen.fault, "");
   std::ifstream file(image.path, std::ios::binary);
   sensor_msgs::CompressedImage message;
@@ -76,13 +80,13 @@ void write(const NewCollegeFiles::Image& image, BagWriter& bag) {
 /// Everything of one data set, in the order of stamps.
 class NewCollege {
  public:
-  explicit NewCollege(const std::string& source) : files_(findNewCollege(source)) {
+  explicit NewCollege(const std::string& source) : files_(urban_nav_input::findNewCollege(source)) {
     if (!files_.alog.empty()) log_.emplace(files_.alog);
     if (log_) event_ = log_->next();
   }
 
   StampNs first() const {
-    StampNs stamp = event_ ? toStamp(*event_) : std::numeric_limits<StampNs>::max();
+    StampNs stamp = event_ ? urban_nav_input::toStamp(*event_) : std::numeric_limits<StampNs>::max();
     if (!files_.stereo.empty()) stamp = std::min(stamp, files_.stereo.front().stamp);
     if (!files_.panorama.empty()) stamp = std::min(stamp, files_.panorama.front().stamp);
     return stamp;
@@ -91,7 +95,7 @@ class NewCollege {
   void writeAll(BagWriter& bag, Progress& progress) {
     std::int64_t written = 0;
     for (; event_; event_ = log_->next()) {
-      writeImagesUntil(toStamp(*event_), bag);
+      writeImagesUntil(urban_nav_input::toStamp(*event_), bag);
       std::visit([&](const auto& event) { write(event, bag); }, *event_);
       progress.update(++written);
     }
@@ -120,7 +124,7 @@ class NewCollege {
 
  private:
   void addLogNotes(std::vector<std::string>& notes) const {
-    const NewCollegeCounts& counts = log_->counts();
+    const urban_nav_input::NewCollegeCounts& counts = log_->counts();
     if (counts.scans_lost > 0)
       notes.push_back(std::to_string(counts.scans_lost) +
                       " laser scans were lost before the log (gaps in their numbers)");
@@ -145,7 +149,7 @@ class NewCollege {
 
   static cv::Mat read(const std::string& path, const urban_nav_core::Pinhole& size) {
     if (path.empty()) return {};
-    const urban_nav_ros::GreyImage image = readGrey(path);
+    const urban_nav_ros::GreyImage image = urban_nav_input::readGrey(path);
     if (image.pixels.empty()) throw DataError("", image.fault, "");
     if (image.pixels.cols != size.width || image.pixels.rows != size.height) {
       throw DataError(path, std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels",
@@ -154,21 +158,21 @@ class NewCollege {
     return image.pixels;
   }
 
-  void writePair(const NewCollegeFiles::Pair& files, BagWriter& bag) {
-    const urban_nav_core::StereoCamera camera = newCollegeCamera();
+  void writePair(const urban_nav_input::NewCollegeFiles::Pair& files, BagWriter& bag) {
+    const urban_nav_core::StereoCamera camera = urban_nav_input::newCollegeCamera();
     const cv::Mat left = read(files.left, camera.left), right = read(files.right, camera.left);
     if (left.empty() || right.empty()) ++lonely_;
     if (row_differences_.size() < kPairsChecked) {
       if (const std::optional<double> rows = rowDisagreement(left, right)) row_differences_.push_back(*rows);
     }
-    const auto [left_view, left_owner] = keep(left);
-    const auto [right_view, right_owner] = keep(right);
+    const auto [left_view, left_owner] = urban_nav_input::sharedView(left);
+    const auto [right_view, right_owner] = urban_nav_input::sharedView(right);
     writeStereo({files.stamp, left_view, right_view}, files.stamp, camera, bag);
   }
 
-  const NewCollegeFiles files_;
-  std::optional<NewCollegeLog> log_;
-  std::optional<NewCollegeEvent> event_;
+  const urban_nav_input::NewCollegeFiles files_;
+  std::optional<urban_nav_input::NewCollegeLog> log_;
+  std::optional<urban_nav_input::NewCollegeEvent> event_;
   std::size_t next_stereo_ = 0, next_panorama_ = 0;
   std::vector<double> row_differences_;
   std::int64_t lonely_ = 0;

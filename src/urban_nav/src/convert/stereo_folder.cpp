@@ -7,10 +7,10 @@
 #include "convert/bag_writer.hpp"
 #include "convert/convert.hpp"
 #include "convert/stereo_topics.hpp"
-#include "evaluation/truth.hpp"
-#include "input/euroc_layout.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_input/folder/euroc_layout.hpp"
+#include "urban_nav_input/truth/truth.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -37,7 +37,7 @@ geometry_msgs::PoseStamped truthMessage(const urban_nav_core::StampedPose& pose,
 /// What is written beside the images, in the order of stamps.
 class Companions {
  public:
-  Companions(std::vector<sensor_msgs::Imu> imu, std::optional<TrajectoryFile> truth, StampNs shift)
+  Companions(std::vector<sensor_msgs::Imu> imu, std::optional<urban_nav_input::TrajectoryFile> truth, StampNs shift)
       : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
 
   /// Everything up to a stamp of the folder.
@@ -57,22 +57,22 @@ class Companions {
 
  private:
   std::vector<sensor_msgs::Imu> imu_;
-  std::optional<TrajectoryFile> truth_;
+  std::optional<urban_nav_input::TrajectoryFile> truth_;
   StampNs shift_;
   std::size_t next_imu_ = 0, next_truth_ = 0;
 };
 
-void refuseFaults(const SourceItem& input) {
+void refuseFaults(const urban_nav_input::SourceItem& input) {
   if (!input.faults.empty()) throw DataError("", input.faults.front(), "");
 }
 
 }  // namespace
 
-Converted convertStereoFolder(const std::string& folder, const std::string& path, const SourceOptions& options,
-                              Console& console, bool ahead) {
-  std::unique_ptr<Source> source = openSource({folder}, options);
-  if (ahead) source = readAhead(std::move(source), 4);
-  const SourceInfo& info = source->info();
+Converted convertStereoFolder(const std::string& folder, const std::string& path,
+                              const urban_nav_input::SourceOptions& options, Console& console, bool ahead) {
+  std::unique_ptr<urban_nav_input::Source> source = urban_nav_input::openSource({folder}, options);
+  if (ahead) source = urban_nav_input::readAhead(std::move(source), 4);
+  const urban_nav_input::SourceInfo& info = source->info();
   const StampNs shift = info.first < kEarliest ? kEpoch : 0;
   Converted converted;
   converted.notes = info.notes;
@@ -81,20 +81,21 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
 
   std::vector<sensor_msgs::Imu> imu;
   std::vector<geometry_msgs::TransformStamped> transforms = stereoTransforms(info.camera, info.T_base_camera);
-  if (inputKind(folder) == InputKind::EurocFolder) {
-    for (const EurocImu& row : readEurocImu(eurocFolder(folder))) imu.push_back(toImuMessage(row));
+  if (urban_nav_input::inputKind(folder) == urban_nav_input::InputKind::EurocFolder) {
+    for (const urban_nav_input::EurocImu& row : urban_nav_input::readEurocImu(urban_nav_input::eurocFolder(folder)))
+      imu.push_back(urban_nav_input::toImuMessage(row));
     if (!imu.empty())
-      transforms.push_back(urban_nav_ros::toStaticTransform(urban_nav_core::frames::base_link,
-                                                            urban_nav_core::frames::imu,
-                                                            readEurocRig(eurocFolder(folder)).T_base_body));
+      transforms.push_back(urban_nav_ros::toStaticTransform(
+          urban_nav_core::frames::base_link, urban_nav_core::frames::imu,
+          urban_nav_input::readEurocRig(urban_nav_input::eurocFolder(folder)).T_base_body));
   }
-  Companions companions(std::move(imu), findTruth({{folder}}, info, options), shift);
+  Companions companions(std::move(imu), urban_nav_input::findTruth({{folder}}, info, options), shift);
 
   BagWriter bag(path);
   bag.writeStaticTransforms(info.first + shift, transforms);
   Progress progress(console, "convert", "frames", info.frames);
   std::int64_t frames = 0;
-  while (const std::optional<SourceItem> input = source->next()) {
+  while (const std::optional<urban_nav_input::SourceItem> input = source->next()) {
     refuseFaults(*input);
     const urban_nav_core::StereoPair& pair = input->assembled.pair;
     companions.writeUntil(pair.stamp, bag);

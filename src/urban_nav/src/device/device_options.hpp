@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "command_line/command.hpp"
+#include "base/command.hpp"
 #include "urban_nav_sim/device/simulated_device.hpp"
 #include "urban_nav_sim/session.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "urban_nav_core/trajectory/errors.hpp"
+#include "urban_nav_input/truth/trajectory_file.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 
 namespace urban_nav {
@@ -22,11 +23,6 @@ double errorWith(Axes axes, Matched matched) {
 
 }  // namespace
 
-Pose opticalToBody(const Pose& T_first_camera) {
-  const Pose T_base_camera = urban_nav_ros::opticalInBody();
-  return T_base_camera * T_first_camera * T_base_camera.inverse();
-}
-
 Axes detectAxes(const Matched& matched) {
   constexpr double kBetter = 0.1, kOfPath = 0.2;
   if (matched.truth.size() < 2) return Axes::Same;
@@ -40,7 +36,8 @@ Axes detectAxes(const Matched& matched) {
 
 void applyAxes(Axes axes, Matched& matched) {
   if (axes == Axes::Same) return;
-  for (Pose& pose : axes == Axes::EstimateOptical ? matched.estimate : matched.truth) pose = opticalToBody(pose);
+  for (Pose& pose : axes == Axes::EstimateOptical ? matched.estimate : matched.truth)
+    pose = urban_nav_input::opticalToBody(pose);
 }
 
 Matrix6d applyAxes(Axes axes, const Matrix6d& covariance) {

@@ -10,9 +10,6 @@ namespace urban_nav {
 /// (x forward, z up).
 enum class Axes { Same, EstimateOptical, TruthOptical };
 
-/// Returns a pose of optical axes, relative to a first pose of optical axes, as one of body axes.
-urban_nav_core::Pose opticalToBody(const urban_nav_core::Pose& T_first_camera);
-
 /// Detects that the poses agree much better (a tenth of the error, and under a fifth of the path) once one of both is
 /// turned from optical to body axes. Same for anything less clear.
 Axes detectAxes(const urban_nav_core::Matched& matched);

@@ -26,7 +26,8 @@ constexpr double kFew = 0.5;  // share of the shorter trajectory below which an 
 
 std::string secondsText(StampNs ns) { return urban_nav_core::printNumber(1e-9 * static_cast<double>(ns)) + " s"; }
 
-Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evaluation& evaluation, bool find_offset) {
+Matched match(const urban_nav_input::TrajectoryFile& truth, const urban_nav_input::TrajectoryFile& estimate,
+              Evaluation& evaluation, bool find_offset) {
   if (!truth.stamped || !estimate.stamped) {
     std::optional<Matched> matched = urban_nav_core::associateByIndex(truth.poses, estimate.poses);
     if (matched) return *matched;
@@ -54,7 +55,8 @@ Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evalu
   return matched;
 }
 
-std::vector<urban_nav_core::Matrix6d> computeCovariances(const TrajectoryFile& estimate, const Matched& matched,
+std::vector<urban_nav_core::Matrix6d> computeCovariances(const urban_nav_input::TrajectoryFile& estimate,
+                                                         const Matched& matched,
                                                          const std::vector<urban_nav_core::CovarianceRow>& rows) {
   std::map<StampNs, const urban_nav_core::CovarianceRow*> by_stamp;
   for (const urban_nav_core::CovarianceRow& row : rows) by_stamp[row.stamp] = &row;
@@ -98,7 +100,7 @@ Matrix6d truthCovariance(const Pose& T_first_i, const TruthSigma& sigma) {
 
 }  // namespace
 
-Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
+Evaluation evaluate(const urban_nav_input::TrajectoryFile& truth, const urban_nav_input::TrajectoryFile& estimate,
                     const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options) {
   using urban_nav_core::TrajectoryAlignment;
   Evaluation evaluation;

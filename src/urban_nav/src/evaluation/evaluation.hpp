@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "command_line/json.hpp"
+#include "base/json.hpp"
 #include "evaluation/axes.hpp"
-#include "evaluation/trajectory_file.hpp"
 #include "urban_nav_core/io/covariance_csv.hpp"
 #include "urban_nav_core/trajectory/associate.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
+#include "urban_nav_input/truth/trajectory_file.hpp"
 
 namespace urban_nav {
 
@@ -54,7 +54,7 @@ struct EvaluationOptions {
 
 /// DataError where no two poses belong together; where that may be the stamps, it names the offset that would help.
 /// `covariances`: of T_first_estimate, found by stamp (or by line where there are no stamps); may be empty.
-Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
+Evaluation evaluate(const urban_nav_input::TrajectoryFile& truth, const urban_nav_input::TrajectoryFile& estimate,
                     const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options);
 
 /// The keys of docs/files.md, and a few more, into an object.

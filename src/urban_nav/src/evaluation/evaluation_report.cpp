@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/evaluation_report.hpp"
+#include "urban_nav_core/io/format_number.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +55,8 @@ std::vector<PlotPoint> projected(const std::vector<Pose>& poses, int a, int b) {
 }
 
 std::string percentText(const urban_nav_core::RelativeError& error) {
-  return forPerson(error.percent, 3) + " %, " + forPerson(error.deg_per_m, 3) + " deg/m";
+  return urban_nav_core::formatNumber(error.percent, 3) + " %, " + urban_nav_core::formatNumber(error.deg_per_m, 3) +
+         " deg/m";
 }
 
 /// In which unit a length reads well.
@@ -66,7 +68,7 @@ Length lengthFor(double m) { return m < 0.01 ? Length{"mm", 1000.0} : Length{"m"
 
 std::string lengthText(double m) {
   const Length unit = lengthFor(m);
-  return forPerson(unit.per_m * m, 2) + " " + unit.name;
+  return urban_nav_core::formatNumber(unit.per_m * m, 2) + " " + unit.name;
 }
 
 /// Two columns: what, how much.
@@ -74,31 +76,33 @@ std::vector<std::vector<std::string>> formatFigures(const Evaluation& e) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"poses", std::to_string(e.matched.truth.size()) + " matched, " + std::to_string(e.frames_estimate) +
                                " estimated, " + std::to_string(e.frames_truth) + " true"});
-  rows.push_back({"length of the true path", forPerson(e.length_m, 5) + " m"});
+  rows.push_back({"length of the true path", urban_nav_core::formatNumber(e.length_m, 5) + " m"});
   if (e.offset)
     rows.push_back({e.offset_applied ? "offset that was applied to the stamps" : "offset of the stamps that would help",
-                    forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) + " s"});
+                    urban_nav_core::formatNumber(1e-9 * static_cast<double>(e.offset->offset), 6) + " s"});
   const auto absolute = [&](const char* name, const urban_nav_core::ErrorStatistics& s) {
     const Length unit = lengthFor(s.rmse);
-    rows.push_back({name, forPerson(unit.per_m * s.rmse, 4) + " " + unit.name + " (median " +
-                              forPerson(unit.per_m * s.median, 3) + ", largest " + forPerson(unit.per_m * s.max, 3) +
-                              ")"});
+    rows.push_back({name, urban_nav_core::formatNumber(unit.per_m * s.rmse, 4) + " " + unit.name + " (median " +
+                              urban_nav_core::formatNumber(unit.per_m * s.median, 3) + ", largest " +
+                              urban_nav_core::formatNumber(unit.per_m * s.max, 3) + ")"});
   };
   absolute("absolute error, first poses aligned", e.first);
   absolute("absolute error, after a rigid motion", e.se3);
   absolute("absolute error, after a similarity", e.sim3);
   if (e.ten_frames)
-    rows.push_back({"relative error over 10 frames",
-                    percentText(*e.ten_frames) + ", step ratio " + forPerson(e.ten_frames->step_ratio, 5)});
+    rows.push_back({"relative error over 10 frames", percentText(*e.ten_frames) + ", step ratio " +
+                                                         urban_nav_core::formatNumber(e.ten_frames->step_ratio, 5)});
   for (const SpanError& span : e.spans)
     rows.push_back({"relative error over " + printSpan(span.span),
                     percentText(span.error) + " (" + std::to_string(span.error.count) + " spans)"});
   if (e.nees)
-    rows.push_back({"NEES, 6 degrees of freedom", forPerson(e.nees->mean, 3) + " (translation " +
-                                                      forPerson(e.nees->mean_translation, 3) + " of 3, rotation " +
-                                                      forPerson(e.nees->mean_rotation, 3) + " of 3)"});
-  rows.push_back({"at the end", forPerson(e.end.m, 3) + " m, " + forPerson(e.end.deg, 3) + " deg" +
-                                    (e.end.nees ? ", NEES " + forPerson(*e.end.nees, 3) : "")});
+    rows.push_back({"NEES, 6 degrees of freedom",
+                    urban_nav_core::formatNumber(e.nees->mean, 3) + " (translation " +
+                        urban_nav_core::formatNumber(e.nees->mean_translation, 3) + " of 3, rotation " +
+                        urban_nav_core::formatNumber(e.nees->mean_rotation, 3) + " of 3)"});
+  rows.push_back({"at the end", urban_nav_core::formatNumber(e.end.m, 3) + " m, " +
+                                    urban_nav_core::formatNumber(e.end.deg, 3) + " deg" +
+                                    (e.end.nees ? ", NEES " + urban_nav_core::formatNumber(*e.end.nees, 3) : "")});
   return rows;
 }
 
@@ -197,10 +201,11 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
     const Grade grade = e.ten_frames->percent < 1.0   ? Grade::Good
                         : e.ten_frames->percent < 3.0 ? Grade::Fair
                                                       : Grade::Bad;
-    verdicts.push_back({grade, "Off by " + forPerson(e.ten_frames->percent, 2) + " % of the way",
-                        "and " + forPerson(e.ten_frames->deg_per_m, 2) +
-                            " deg per metre, over spans of ten frames. After " + forPerson(e.length_m, 3) +
-                            " m the position is wrong by at most " + lengthText(e.first.max) + "."});
+    verdicts.push_back({grade, "Off by " + urban_nav_core::formatNumber(e.ten_frames->percent, 2) + " % of the way",
+                        "and " + urban_nav_core::formatNumber(e.ten_frames->deg_per_m, 2) +
+                            " deg per metre, over spans of ten frames. After " +
+                            urban_nav_core::formatNumber(e.length_m, 3) + " m the position is wrong by at most " +
+                            lengthText(e.first.max) + "."});
   } else {
     const Grade grade = e.first.rmse < 0.01 ? Grade::Good : e.first.rmse < 0.1 ? Grade::Fair : Grade::Bad;
     verdicts.push_back({grade, "Off by " + lengthText(e.first.rmse) + " while standing still,", "root mean square."});
@@ -210,23 +215,25 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
     const Grade grade = gradeOfNees(e.nees->mean);
     if (ratio > kTooSmall) {
       verdicts.push_back({grade, "The covariance is too small.",
-                          "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " +
-                              forPerson(e.nees->mean, 3) + ", expected 6)."});
+                          "Errors are " + urban_nav_core::formatNumber(std::sqrt(ratio), 2) +
+                              " times as large as it says (NEES " + urban_nav_core::formatNumber(e.nees->mean, 3) +
+                              ", expected 6)."});
     } else if (ratio < kTooLarge) {
       verdicts.push_back({grade, "The covariance is too large.",
-                          "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " +
-                              forPerson(e.nees->mean, 3) + ", expected 6)."});
+                          "Errors are " + urban_nav_core::formatNumber(std::sqrt(ratio), 2) +
+                              " times as large as it says (NEES " + urban_nav_core::formatNumber(e.nees->mean, 3) +
+                              ", expected 6)."});
     } else {
       verdicts.push_back(
           {grade, "The covariance tells the truth.",
-           "NEES " + forPerson(e.nees->mean, 3) +
+           "NEES " + urban_nav_core::formatNumber(e.nees->mean, 3) +
                ", expected 6; errors along one path are not independent, so factors of two are chance."});
     }
   }
   if (e.offset && !e.offset_applied) {
     verdicts.push_back({Grade::Fair, "Few stamps match the truth's.",
                         "Only " + std::to_string(e.matched.truth.size()) + " poses; with " +
-                            forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) +
+                            urban_nav_core::formatNumber(1e-9 * static_cast<double>(e.offset->offset), 6) +
                             " s added to the estimate's stamps " + std::to_string(e.offset->matched) +
                             " would (evaluate --find-offset)."});
   }
@@ -235,12 +242,14 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
 
 std::vector<Tile> evaluationTiles(const Evaluation& e) {
   const Length unit = lengthFor(e.first.rmse);
-  std::vector<Tile> tiles = {
-      {forPerson(unit.per_m * e.first.rmse, 3), unit.name, "absolute error (root mean square)", Grade::Plain}};
+  std::vector<Tile> tiles = {{urban_nav_core::formatNumber(unit.per_m * e.first.rmse, 3), unit.name,
+                              "absolute error (root mean square)", Grade::Plain}};
   if (e.ten_frames)
-    tiles.push_back({forPerson(e.ten_frames->percent, 3), "%", "relative error over ten frames",
+    tiles.push_back({urban_nav_core::formatNumber(e.ten_frames->percent, 3), "%", "relative error over ten frames",
                      e.ten_frames->percent < 1.0 ? Grade::Good : Grade::Fair});
-  if (e.nees) tiles.push_back({forPerson(e.nees->mean, 3), "", "NEES (6 is right)", gradeOfNees(e.nees->mean)});
+  if (e.nees)
+    tiles.push_back(
+        {urban_nav_core::formatNumber(e.nees->mean, 3), "", "NEES (6 is right)", gradeOfNees(e.nees->mean)});
   return tiles;
 }
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/page.hpp"
+#include "base/plot.hpp"
 #include "evaluation/evaluation.hpp"
-#include "report/page.hpp"
-#include "report/plot.hpp"
 
 namespace urban_nav {
 

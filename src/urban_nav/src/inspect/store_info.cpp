@@ -6,8 +6,9 @@
 #include <functional>
 #include <numeric>
 
-#include "report/plot.hpp"
-#include "stage/store_keys.hpp"
+#include "base/plot.hpp"
+#include "map/store_keys.hpp"
+#include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_store/stored_map.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_keyframe_place.hpp"
@@ -30,11 +31,11 @@ double computeLength(const std::vector<urban_nav_core::StampedPose>& poses) {
   return length;
 }
 
-std::vector<StreamInfo> listStreams(Store& store, const urban_nav_store::SessionId& id) {
-  std::map<std::string, StreamInfo> streams;
+std::vector<urban_nav_input::StreamInfo> listStreams(Store& store, const urban_nav_store::SessionId& id) {
+  std::map<std::string, urban_nav_input::StreamInfo> streams;
   std::map<std::string, std::int64_t> unused;
   store.inputs().forEach(id, [&](const urban_nav_store::InputEvent& event) {
-    StreamInfo& stream = streams[event.stream];
+    urban_nav_input::StreamInfo& stream = streams[event.stream];
     stream.name = event.stream;
     if (stream.messages++ == 0) stream.first = stream.last = event.stamp;
     if (stream.messages > 1 && event.stamp <= stream.last) ++stream.backward;
@@ -42,7 +43,7 @@ std::vector<StreamInfo> listStreams(Store& store, const urban_nav_store::Session
     stream.last = std::max(stream.last, event.stamp);
     if (!event.used) ++unused[event.stream];
   });
-  std::vector<StreamInfo> result;
+  std::vector<urban_nav_input::StreamInfo> result;
   for (auto& [name, stream] : streams) {
     const double seconds = urban_nav_core::secondsBetween(stream.first, stream.last);
     stream.rate_hz = seconds > 0.0 ? static_cast<double>(stream.messages - 1) / seconds : 0.0;
@@ -70,7 +71,8 @@ std::string toId(const std::vector<StoredSession>& sessions, std::size_t i) {
 /// "31.4 kB", "14.2 MB".
 std::string printBytes(std::int64_t bytes) {
   const auto value = static_cast<double>(bytes);
-  return bytes < 1'000'000 ? forPerson(value / 1e3, 3) + " kB" : forPerson(value / 1e6, 3) + " MB";
+  return bytes < 1'000'000 ? urban_nav_core::formatNumber(value / 1e3, 3) + " kB"
+                           : urban_nav_core::formatNumber(value / 1e6, 3) + " MB";
 }
 
 std::string toText(const StoredSession& each) {
@@ -80,9 +82,12 @@ std::string toText(const StoredSession& each) {
   if (!each.session.robot.empty()) text += "    robot " + each.session.robot + "\n";
   if (each.nodes > 0) {
     text += "    " + urban_nav_core::printStamp(each.first) + " ... " + urban_nav_core::printStamp(each.last) +
-            " s: " + forPerson(seconds, 4) + " s, " + forPerson(each.length_m, 4) + " m" +
-            (each.relaxed ? "" : " (as odometry says)") + "\n    nodes " + std::to_string(each.nodes) +
-            (seconds > 0.0 ? ", " + forPerson(static_cast<double>(each.nodes - 1) / seconds, 3) + " a second" : "");
+            " s: " + urban_nav_core::formatNumber(seconds, 4) + " s, " +
+            urban_nav_core::formatNumber(each.length_m, 4) + " m" + (each.relaxed ? "" : " (as odometry says)") +
+            "\n    nodes " + std::to_string(each.nodes) +
+            (seconds > 0.0
+                 ? ", " + urban_nav_core::formatNumber(static_cast<double>(each.nodes - 1) / seconds, 3) + " a second"
+                 : "");
     for (const auto& [status, count] : each.status_counts)
       if (status != "OK") text += ", " + std::to_string(count) + " " + status;
     text += "\n";
@@ -94,9 +99,10 @@ std::string toText(const StoredSession& each) {
       counts += (counts.empty() ? " " : ", ") + std::to_string(count) + " " + verdict;
     text += counts + "\n";
   }
-  for (const StreamInfo& stream : each.streams)
+  for (const urban_nav_input::StreamInfo& stream : each.streams)
     text += "    stream " + stream.name + ": " + std::to_string(stream.messages) + " at " +
-            forPerson(stream.rate_hz, 4) + " Hz, longest gap " + forPerson(stream.longest_gap_s, 3) + " s" +
+            urban_nav_core::formatNumber(stream.rate_hz, 4) + " Hz, longest gap " +
+            urban_nav_core::formatNumber(stream.longest_gap_s, 3) + " s" +
             (stream.type.empty() ? "" : ", " + stream.type) + "\n";
   for (const auto& [model, places] : each.places)
     text += "    places: " + std::to_string(places) + ", words of model " + model + "\n";
@@ -213,7 +219,7 @@ Json toJson(const StoreInfo& info) {
     for (const auto& [kind, verdicts] : each.edges)
       for (const auto& [verdict, count] : verdicts) edges[kind][verdict] = count;
     Json& streams = entry["streams"] = Json::array();
-    for (const StreamInfo& stream : each.streams) {
+    for (const urban_nav_input::StreamInfo& stream : each.streams) {
       Json of_stream = Json::object();
       of_stream["name"] = stream.name;
       of_stream["messages"] = stream.messages;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "command_line/json.hpp"
-#include "inspect/input_info.hpp"
+#include "base/json.hpp"
+#include "urban_nav_input/examination/input_info.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
@@ -20,7 +20,8 @@ struct StoredSession {
   std::map<std::string, std::int64_t> status_counts;
   /// Edges from nodes of this session, by kind and verdict.
   std::map<std::string, std::map<std::string, std::int64_t>> edges;
-  std::vector<StreamInfo> streams;             ///< what the stages saw, by the order of inputs; `type`: "n not used"
+  std::vector<urban_nav_input::StreamInfo>
+      streams;                                 ///< what the stages saw, by the order of inputs; `type`: "n not used"
   std::map<std::string, std::int64_t> scans;   ///< kept, by laser
   std::map<std::string, std::int64_t> places;  ///< observations of places by the hash of the model of their words
   std::map<std::string, std::int64_t> keyframe_places;  ///< keyframes beside panoramas, by the hash of the model

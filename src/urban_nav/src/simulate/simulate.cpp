@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "command_line/console.hpp"
-#include "command_line/held_signals.hpp"
+#include "base/console.hpp"
+#include "base/held_signals.hpp"
 #include "simulate/session_bags.hpp"
 #include "simulate/stereo_folder_writer.hpp"
 #include "simulate/view_writer.hpp"

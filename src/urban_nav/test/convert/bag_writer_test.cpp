@@ -6,15 +6,15 @@
 
 #include <filesystem>
 
-#include "support/folders.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/testing/folders.hpp"
 
 namespace urban_nav {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::TemporaryFolder;
 using urban_nav_core::UserError;
+using urban_nav_input::testing::TemporaryFolder;
 
 constexpr urban_nav_core::StampNs kSecond = 1'000'000'000;
 

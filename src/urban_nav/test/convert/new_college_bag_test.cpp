@@ -10,16 +10,16 @@
 
 #include "convert/convert.hpp"
 #include "convert/row_check.hpp"
-#include "input/new_college_files.hpp"
-#include "support/folders.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/folder/new_college_files.hpp"
+#include "urban_nav_input/testing/folders.hpp"
 
 namespace urban_nav {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::TemporaryFolder;
-using testing::writeFile;
+using urban_nav_input::testing::TemporaryFolder;
+using urban_nav_input::testing::writeFile;
 
 TEST(NewCollegeFiles, FindsPartsByTheirNames) {
   const TemporaryFolder folder;
@@ -30,7 +30,7 @@ TEST(NewCollegeFiles, FindsPartsByTheirNames) {
   writeFile(folder.file("a/StereoImages/StereoImage__1225719884.662058-left.pnm"), "");
   writeFile(folder.file("a/StereoImages/StereoImage__1225719884.662058-right.pnm"), "");
   writeFile(folder.file("a/StereoImages/StereoImage__rectified__1225719884.712048-left.pgm"), "");
-  const NewCollegeFiles files = findNewCollege(folder.file("a"));
+  const urban_nav_input::NewCollegeFiles files = urban_nav_input::findNewCollege(folder.file("a"));
   EXPECT_EQ(files.panorama.size(), 2U) << "a Ladybug has five cameras";
   EXPECT_EQ(files.panorama[1].camera, 4);
   EXPECT_EQ(files.panorama[0].stamp, 1225719872892000000);
@@ -38,9 +38,9 @@ TEST(NewCollegeFiles, FindsPartsByTheirNames) {
   EXPECT_EQ(files.stereo[0].stamp, 1225719884662058000);
   EXPECT_FALSE(files.stereo[0].right.empty());
   EXPECT_TRUE(files.stereo[1].right.empty());
-  EXPECT_THROW(findNewCollege(folder.file("nowhere")), urban_nav_core::UserError);
+  EXPECT_THROW(urban_nav_input::findNewCollege(folder.file("nowhere")), urban_nav_core::UserError);
   fs::create_directories(folder.file("empty"));
-  EXPECT_THROW(findNewCollege(folder.file("empty")), urban_nav_core::UserError);
+  EXPECT_THROW(urban_nav_input::findNewCollege(folder.file("empty")), urban_nav_core::UserError);
 }
 
 TEST(NewCollegeBag, HoldsTheRealCut) {

@@ -7,19 +7,19 @@
 #include <fstream>
 #include <random>
 
-#include "support/folders.hpp"
 #include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/testing/folders.hpp"
 
 namespace urban_nav {
 namespace {
 
-using testing::TemporaryFolder;
 using urban_nav_core::Pose;
 using urban_nav_core::Trajectory;
 using urban_nav_core::Vector6d;
+using urban_nav_input::testing::TemporaryFolder;
 
 Pose onCurve(int i) {
   Vector6d twist;
@@ -39,7 +39,7 @@ Trajectory curve(std::int64_t shift_ns, double scale) {
 TEST(Evaluation, FindsNoErrorWhereThereIsNone) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
-  const TrajectoryFile file = readTrajectory(folder.file("a.tum"));
+  const urban_nav_input::TrajectoryFile file = urban_nav_input::readTrajectory(folder.file("a.tum"));
   const Evaluation evaluation = evaluate(file, file, {}, {parseSpans({"10f", "1m"}), false});
   EXPECT_EQ(evaluation.matched.truth.size(), 60U);
   EXPECT_LT(evaluation.first.rmse, 1e-12);
@@ -60,9 +60,9 @@ TEST(Evaluation, TurnsAnEstimateOfOpticalAxes) {
   urban_nav_core::writeTum(folder.file("body.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("optical.tum"), optical);
   urban_nav_core::writeKitti(folder.file("truth.kitti"), camera);
-  const TrajectoryFile body = readTrajectory(folder.file("body.tum")),
-                       other = readTrajectory(folder.file("optical.tum")),
-                       kitti = readTrajectory(folder.file("truth.kitti"));
+  const urban_nav_input::TrajectoryFile body = urban_nav_input::readTrajectory(folder.file("body.tum")),
+                                        other = urban_nav_input::readTrajectory(folder.file("optical.tum")),
+                                        kitti = urban_nav_input::readTrajectory(folder.file("truth.kitti"));
   std::vector<urban_nav_core::CovarianceRow> rows;
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
   covariance(2, 2) = 9.0;  // forward, of optical axes
@@ -88,7 +88,7 @@ TEST(Evaluation, NeesAllowsForTheTruthsOwnError) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   const double m = 0.05, deg = 0.4, rad = deg * M_PI / 180.0;
-  const TrajectoryFile estimate{"e", true, truth, {}, {}};
+  const urban_nav_input::TrajectoryFile estimate{"e", true, truth, {}, {}};
   double sum = 0.0;
   constexpr int kDraws = 400;
   for (int draw = 0; draw < kDraws; ++draw) {
@@ -99,7 +99,7 @@ TEST(Evaluation, NeesAllowsForTheTruthsOwnError) {
       };
       noisy.append(each.stamp, Pose(urban_nav_core::expSo3(vector(rad)) * each.pose.q(), each.pose.t() + vector(m)));
     }
-    TrajectoryFile file{"t", true, noisy, {}, {}}, exact = estimate;
+    urban_nav_input::TrajectoryFile file{"t", true, noisy, {}, {}}, exact = estimate;
     for (const auto& each : noisy) file.poses.push_back(each.pose);
     for (const auto& each : truth) exact.poses.push_back(each.pose);
     sum += *evaluate(file, exact, rows, {{}, false, {m, deg}}).end.nees;
@@ -112,7 +112,7 @@ TEST(Evaluation, ReadsEurocsGroundTruth) {
   std::ofstream(folder.file("data.csv"))
       << "#timestamp,p_RS_R_x [m],y,z,q_RS_w [],x,y,z,v_x\n"
       << "1403636580838555648,1,2,3,1,0,0,0,9\n1403636580838555648,1,2,3,1,0,0,0,9\n";
-  const TrajectoryFile file = readTrajectory(folder.file("data.csv"));
+  const urban_nav_input::TrajectoryFile file = urban_nav_input::readTrajectory(folder.file("data.csv"));
   ASSERT_EQ(file.poses.size(), 1U);
   EXPECT_EQ(file.trajectory[0].stamp, 1403636580838555648);
   EXPECT_EQ(file.poses[0].t(), urban_nav_core::Vector3d(1.0, 2.0, 3.0));
@@ -124,8 +124,8 @@ TEST(Evaluation, SeesAScale) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(0, 1.02));
-  const Evaluation evaluation =
-      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), {}, {});
+  const Evaluation evaluation = evaluate(urban_nav_input::readTrajectory(folder.file("a.tum")),
+                                         urban_nav_input::readTrajectory(folder.file("b.tum")), {}, {});
   EXPECT_NEAR(evaluation.ten_frames->percent, 2.0, 0.05);
   EXPECT_NEAR(evaluation.ten_frames->step_ratio, 1.02, 1e-6);
   EXPECT_LT(evaluation.sim3.rmse, 1e-9);
@@ -149,8 +149,8 @@ TEST(Evaluation, OfTheEndIsOfTheLastPoseAloneSeenFromTheFirst) {
   }
   urban_nav_core::writeTum(folder.file("a.tum"), truth);
   urban_nav_core::writeTum(folder.file("b.tum"), estimate);
-  const Evaluation evaluation =
-      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
+  const Evaluation evaluation = evaluate(urban_nav_input::readTrajectory(folder.file("a.tum")),
+                                         urban_nav_input::readTrajectory(folder.file("b.tum")), rows, {});
   EXPECT_NEAR(evaluation.end.m, 0.3, 1e-3);
   EXPECT_NEAR(evaluation.end.deg, 2.0, 1e-5);
   ASSERT_TRUE(evaluation.end.nees);
@@ -164,7 +164,8 @@ TEST(Evaluation, NamesTheOffsetAndAppliesItIfAsked) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(1'000'000'000'000, 1.0));
-  const TrajectoryFile truth = readTrajectory(folder.file("a.tum")), estimate = readTrajectory(folder.file("b.tum"));
+  const urban_nav_input::TrajectoryFile truth = urban_nav_input::readTrajectory(folder.file("a.tum")),
+                                        estimate = urban_nav_input::readTrajectory(folder.file("b.tum"));
   try {
     evaluate(truth, estimate, {}, {});
     FAIL() << "no stamp matches";
@@ -182,13 +183,16 @@ TEST(Evaluation, ReadsKittiLinesWithoutStamps) {
   for (int i = 0; i < 20; ++i) poses.push_back(onCurve(i));
   urban_nav_core::writeKitti(folder.file("a.txt"), poses);
   urban_nav_core::writeKitti(folder.file("b.kitti"), poses);
-  EXPECT_LT(evaluate(readTrajectory(folder.file("a.txt")), readTrajectory(folder.file("b.kitti")), {}, {}).first.rmse,
+  EXPECT_LT(evaluate(urban_nav_input::readTrajectory(folder.file("a.txt")),
+                     urban_nav_input::readTrajectory(folder.file("b.kitti")), {}, {})
+                .first.rmse,
             1e-12);
   poses.pop_back();
   urban_nav_core::writeKitti(folder.file("c.kitti"), poses);
-  EXPECT_THROW(evaluate(readTrajectory(folder.file("a.txt")), readTrajectory(folder.file("c.kitti")), {}, {}),
+  EXPECT_THROW(evaluate(urban_nav_input::readTrajectory(folder.file("a.txt")),
+                        urban_nav_input::readTrajectory(folder.file("c.kitti")), {}, {}),
                urban_nav_core::DataError);
-  EXPECT_THROW(readTrajectory(folder.file("d.bin")), urban_nav_core::UserError);
+  EXPECT_THROW(urban_nav_input::readTrajectory(folder.file("d.bin")), urban_nav_core::UserError);
   EXPECT_THROW(parseSpans({"10"}), urban_nav_core::UserError);
 }
 
@@ -199,11 +203,11 @@ TEST(Evaluation, WeighsErrorsByTheCovariance) {
   std::vector<urban_nav_core::CovarianceRow> rows;
   for (const urban_nav_core::StampedPose& pose : curve(0, 1.01))
     rows.push_back({pose.stamp, urban_nav_core::Health::Ok, 1e-4 * urban_nav_core::Matrix6d::Identity()});
-  const Evaluation small =
-      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
+  const Evaluation small = evaluate(urban_nav_input::readTrajectory(folder.file("a.tum")),
+                                    urban_nav_input::readTrajectory(folder.file("b.tum")), rows, {});
   for (urban_nav_core::CovarianceRow& row : rows) row.covariance *= 4.0;
-  const Evaluation large =
-      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
+  const Evaluation large = evaluate(urban_nav_input::readTrajectory(folder.file("a.tum")),
+                                    urban_nav_input::readTrajectory(folder.file("b.tum")), rows, {});
   ASSERT_TRUE(small.nees && large.nees);
   EXPECT_NEAR(small.nees->mean, 4.0 * large.nees->mean, 1e-9 * small.nees->mean);
 }

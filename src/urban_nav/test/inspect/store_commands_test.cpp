@@ -3,18 +3,20 @@
 
 #include <algorithm>
 
-#include "commands/commands.hpp"
+#include "commands/stages.hpp"
 #include "convert/convert.hpp"
-#include "inspect/place_export.hpp"
+#include "inspect/inspect.hpp"
 #include "inspect/store_export.hpp"
 #include "inspect/store_info.hpp"
-#include "stage/closures_file.hpp"
-#include "support/folders.hpp"
+#include "map/closures_file.hpp"
+#include "map/map_command.hpp"
+#include "topics/places/place_export.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/g2o.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_store/dump.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -24,10 +26,10 @@
 namespace urban_nav {
 namespace {
 
-using testing::readFile;
-using testing::TemporaryFolder;
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Pose;
+using urban_nav_input::testing::readFile;
+using urban_nav_input::testing::TemporaryFolder;
 using urban_nav_store::Access;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
@@ -36,8 +38,8 @@ using urban_nav_store::Store;
 int call(std::vector<std::string> words) {
   std::vector<const char*> argv = {"urban_nav"};
   for (const std::string& word : words) argv.push_back(word.c_str());
-  return runCommandLine({mapCommand(), infoCommand(), exportCommand(), mergeCommand()}, static_cast<int>(argv.size()),
-                        argv.data());
+  return runCommandLine({mapCommand(makeStages), infoCommand(), exportCommand(), mergeCommand()}, addStageTables,
+                        static_cast<int>(argv.size()), argv.data());
 }
 
 /// Two folders, each mapped into a store of its own, and both into one.
@@ -46,9 +48,9 @@ class StoreCommands : public ::testing::Test {
   static void SetUpTestSuite() {
     shared_ = std::make_unique<TemporaryFolder>();
     for (const int frames : {16, 12}) {
-      testing::KittiStyle style;
+      urban_nav_input::testing::KittiStyle style;
       style.frames = frames;
-      testing::makeKittiFolder(file("in" + std::to_string(frames)), style);
+      urban_nav_input::testing::makeKittiFolder(file("in" + std::to_string(frames)), style);
     }
     ASSERT_EQ(call({"map", file("in16"), "--out", file("a"), "--stages", "vo"}), 0);
     ASSERT_EQ(call({"map", file("in12"), "--out", file("b"), "--stages", "vo"}), 0);
@@ -140,9 +142,9 @@ TEST_F(StoreCommands, MapRelaxesTheSessionsOfAStoreWithNewOnes) {
   };
   const std::string within = toRow("in16", 0, "in16", 12) + toRow("in16", 2, "in16", 15) + toRow("in16", 1, "in16", 14);
   const std::string between = toRow("in16", 3, "in12", 1) + toRow("in16", 9, "in12", 7) + toRow("in16", 14, "in12", 11);
-  testing::writeFile(file("within.csv"), header + within);
-  testing::writeFile(file("between.csv"), header + between);
-  testing::writeFile(file("all.csv"), header + between + within);
+  urban_nav_input::testing::writeFile(file("within.csv"), header + within);
+  urban_nav_input::testing::writeFile(file("between.csv"), header + between);
+  urban_nav_input::testing::writeFile(file("all.csv"), header + between + within);
   ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("at_once"), "--stages", "vo,graph", "--closures",
                   file("all.csv")}),
             0);
@@ -192,7 +194,7 @@ TEST_F(StoreCommands, ExportRefusesByName) {
   EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "unknown"}), 2);
   EXPECT_EQ(call({"export", file("in16/times.txt"), "--tum", file("x.tum")}), 2);
   EXPECT_EQ(call({"export", file("nothing.db"), "--tum", file("x.tum")}), 2);
-  testing::writeFile(file("damaged.db"), readFile(store).substr(0, 9000));
+  urban_nav_input::testing::writeFile(file("damaged.db"), readFile(store).substr(0, 9000));
   EXPECT_EQ(call({"export", file("damaged.db"), "--tum", file("x.tum")}), 1);
   EXPECT_EQ(call({"info", file("damaged.db")}), 1);
 }

@@ -17,23 +17,24 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "command_line/console.hpp"
-#include "commands/commands.hpp"
-#include "input/open.hpp"
-#include "support/folders.hpp"
+#include "base/console.hpp"
+#include "commands/stages.hpp"
+#include "simulate/simulate_command.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/session/open.hpp"
+#include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_ros/pose.hpp"
 
 namespace urban_nav {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::readFile;
-using testing::TemporaryFolder;
+using urban_nav_input::testing::readFile;
+using urban_nav_input::testing::TemporaryFolder;
 
 SimulateJob shortJob(const TemporaryFolder& folder) {
   SimulateJob job;
@@ -47,7 +48,7 @@ int runSimulate(std::vector<std::string> words) {
   words.insert(words.begin(), {"urban_nav", "simulate"});
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
-  return runCommandLine({simulateCommand()}, static_cast<int>(argv.size()), argv.data());
+  return runCommandLine({simulateCommand()}, addStageTables, static_cast<int>(argv.size()), argv.data());
 }
 
 template <typename Message>
@@ -295,9 +296,9 @@ TEST(Simulate, ABagGivesSpecificForce) {
   Console console;
   simulate(job, console);
   for (const char* motion : {"none", "gyroscope"}) {
-    SourceOptions options;
+    urban_nav_input::SourceOptions options;
     options.motion_input = motion;
-    const std::unique_ptr<Source> source = openSource({job.bag}, options);
+    const std::unique_ptr<urban_nav_input::Source> source = urban_nav_input::openSource({job.bag}, options);
     std::size_t inputs = 0;
     while (const auto pair = source->next()) inputs += pair->assembled.inputs.size();
     EXPECT_EQ(inputs > 0, std::string(motion) == "gyroscope");
@@ -364,11 +365,11 @@ TEST(Simulate, BeginsAFolderAnewThatWasCutOff) {
   job.session.sensors = {urban_nav_sim::Sensor::Stereo};
   job.folder = folder.file("kitti");
   fs::create_directories(job.folder + "/image_0");
-  testing::writeFile(job.folder + "/image_0/000007.png", "of a longer run");
+  urban_nav_input::testing::writeFile(job.folder + "/image_0/000007.png", "of a longer run");
   Console console;
   EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder of another program";
   EXPECT_FALSE(fs::exists(job.bag));
-  testing::writeFile(job.folder + "/simulate.unfinished", "");
+  urban_nav_input::testing::writeFile(job.folder + "/simulate.unfinished", "");
   simulate(job, console);
   EXPECT_FALSE(fs::exists(job.folder + "/image_0/000007.png"));
   EXPECT_FALSE(fs::exists(job.folder + "/simulate.unfinished"));

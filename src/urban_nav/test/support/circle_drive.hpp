@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "stage/closures_file.hpp"
-#include "stage/vo_run.hpp"
+#include "map/closures_file.hpp"
+#include "map/session_odometry.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav::testing {
@@ -20,11 +20,11 @@ inline urban_nav_core::Pose truthAt(double step) {
 }
 
 /// Odometry that turns a little too far at each step.
-inline VoRun driveCircle(int first, int last, double turn) {
-  VoRun run;
+inline SessionOdometry driveCircle(int first, int last, double turn) {
+  SessionOdometry run;
   urban_nav_core::Pose odom;
   for (int i = first; i <= last; ++i) {
-    swf_vo::Settled settled;
+    SmoothedFrame settled;
     settled.stamp = i * kStep;
     settled.from_previous.from = (i == first ? i : i - 1) * kStep;
     settled.from_previous.to = i * kStep;
@@ -38,9 +38,9 @@ inline VoRun driveCircle(int first, int last, double turn) {
     settled.T_odom_base.pose = odom;
     settled.T_odom_base.covariance = 1e-5 * (i - first) * urban_nav_core::Matrix6d::Identity();
     run.settled.push_back(settled);
-    VoRow row;
+    OdometryFrame row;
     row.stamp = settled.stamp;
-    run.rows.push_back(row);
+    run.frames.push_back(row);
   }
   return run;
 }

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "base/console.hpp"
+#include "base/version.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::DataError;
+using urban_nav_core::UserError;
+
+namespace {
+
+/// "out" of "-o,--out", "INPUT" of "INPUT".
+std::string toKey(const Option& option) {
+  const std::size_t dashes = option.name.rfind("--");
+  return dashes == std::string::npos ? option.name : option.name.substr(dashes + 2);
+}
+
+bool isPositional(const Option& option) { return option.name.empty() || option.name.front() != '-'; }
+
+std::string signature(const Option& option) {
+  std::string text = option.name;
+  std::replace(text.begin(), text.end(), ',', ' ');
+  if (isPositional(option)) return text + (option.repeatable ? "..." : "");
+  return text + (option.value.empty() ? "" : " " + option.value);
+}
+
+std::string makeUsage(const Command& command) {
+  std::string text = "urban_nav " + command.name;
+  for (const Option& option : command.options) {
+    if (isPositional(option)) text += " " + signature(option);
+  }
+  for (const Option& option : command.options) {
+    if (!isPositional(option) && option.required) text += " --" + toKey(option) + " " + option.value;
+  }
+  return text + " [options]";
+}
+
+std::string makeHelp(const Command& command, const Arguments& arguments) {
+  std::string text = command.summary + "\n\nusage: " + makeUsage(command) + "\n\n";
+  std::size_t width = 0;
+  for (const Option& option : command.options) width = std::max(width, signature(option).size());
+  for (const Option& option : command.options) {
+    const std::string left = signature(option);
+    text += "  " + left + std::string(width - left.size() + 2, ' ') + option.sentence;
+    if (!option.words.empty()) text += ": " + urban_nav_core::joined(option.words);
+    if (option.repeatable) text += " (repeatable)";
+    text += "\n";
+  }
+  if (!command.examples.empty()) text += "\nexamples:\n";
+  for (const std::string& example : command.examples) text += "  " + example + "\n";
+  if (command.more_help) text += "\n" + command.more_help(arguments);
+  return text;
+}
+
+/// One line per command: its name and summary.
+std::string summaryLines(const std::vector<Command>& commands) {
+  std::string text;
+  for (const Command& command : commands)
+    text += "  " + command.name + std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ') +
+            command.summary + "\n";
+  return text;
+}
+
+std::string generalHelp(const std::vector<Command>& commands) {
+  std::string text =
+      "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
+      "trust both.\n\n"
+      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more; urban_nav --version)\n\n";
+  return text + summaryLines(commands) +
+         "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
+}
+
+void checkRequired(const Command& command, const Arguments& arguments) {
+  for (const Option& option : command.options) {
+    if (option.required && !arguments.has(toKey(option))) {
+      throw UserError(
+          "urban_nav " + command.name,
+          (isPositional(option) ? option.name : "--" + toKey(option)) + " is missing; usage: " + makeUsage(command),
+          "");
+    }
+    if (option.words.empty()) continue;
+    for (const std::string& value : arguments.all(toKey(option))) {
+      if (std::find(option.words.begin(), option.words.end(), value) == option.words.end()) {
+        throw UserError("urban_nav " + command.name,
+                        (isPositional(option) ? option.name : "--" + toKey(option)) + " = " + value,
+                        urban_nav_core::joined(option.words));
+      }
+    }
+  }
+}
+
+/// CLI11 splits the words; what they mean is checked here, so that --help works beside anything else.
+Arguments parse(const Command& command, const ParameterTables& tables, int argc, const char* const* argv) {
+  CLI::App app(command.summary, "urban_nav " + command.name);
+  app.set_help_flag();
+  std::map<std::string, std::vector<std::string>> values;
+  std::map<std::string, bool> flags;
+  for (const Option& option : command.options) {
+    const std::string key = toKey(option);
+    if (option.value.empty() && !isPositional(option)) {
+      app.add_flag(option.name, flags[key]);
+      continue;
+    }
+    CLI::Option* added = app.add_option(option.name, values[key]);
+    if (isPositional(option)) {
+      if (!option.repeatable) added->expected(1)->allow_extra_args(false);
+    } else {
+      added->expected(1)->allow_extra_args(false);
+      added->multi_option_policy(option.repeatable ? CLI::MultiOptionPolicy::TakeAll
+                                                   : CLI::MultiOptionPolicy::TakeLast);
+    }
+  }
+  bool help = false;
+  app.add_flag("-h,--help", help);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    throw UserError("urban_nav " + command.name, std::string(error.what()) + " (--help lists the options)", "");
+  }
+  for (const auto& [key, given] : flags) {
+    if (given) values[key] = {"true"};
+  }
+  if (help) values["help"] = {"true"};
+  for (auto entry = values.begin(); entry != values.end();)
+    entry = entry->second.empty() ? values.erase(entry) : std::next(entry);
+  return Arguments(std::move(values), tables);
+}
+
+int runCommand(const Command& command, const ParameterTables& tables, int argc, const char* const* argv,
+               Console& console) {
+  const Arguments arguments = parse(command, tables, argc, argv);
+  if (arguments.has("help")) {
+    console.print(makeHelp(command, arguments));
+    return 0;
+  }
+  checkRequired(command, arguments);
+  return command.run(arguments, console);
+}
+
+bool isHelpWord(const std::string& word) { return word == "--help" || word == "-h" || word == "help"; }
+
+const Command& findCommand(const std::vector<Command>& commands, const std::string& name, const std::string& where,
+                           const std::string& noun) {
+  const auto command = std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; });
+  if (command != commands.end()) return *command;
+  std::vector<std::string> names;
+  names.reserve(commands.size());
+  for (const Command& c : commands) names.push_back(c.name);
+  throw UserError(where, name.empty() ? noun + " is missing" : "no " + noun + " \"" + name + "\"",
+                  urban_nav_core::joined(names));
+}
+
+/// A command with actions: the word after it names one.
+int runAction(const Command& group, const ParameterTables& tables, int argc, const char* const* argv,
+              Console& console) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  if (isHelpWord(name)) {
+    console.print(group.summary + "\n\nusage: urban_nav " + group.name + " ACTION [options]      (urban_nav " +
+                  group.name + " ACTION --help says more)\n\n" + summaryLines(group.actions));
+    return 0;
+  }
+  Command action = findCommand(group.actions, name, "urban_nav " + group.name, "action");
+  action.name = group.name + " " + action.name;
+  return runCommand(action, tables, argc - 1, argv + 1, console);
+}
+
+}  // namespace
+
+std::optional<std::string> Arguments::find(const std::string& name) const {
+  const auto found = values_.find(name);
+  return found == values_.end() || found->second.empty() ? std::nullopt
+                                                         : std::optional<std::string>(found->second.back());
+}
+
+std::string Arguments::get(const std::string& name, const std::string& otherwise) const {
+  return find(name).value_or(otherwise);
+}
+
+std::vector<std::string> Arguments::all(const std::string& name) const {
+  const auto found = values_.find(name);
+  return found == values_.end() ? std::vector<std::string>() : found->second;
+}
+
+std::vector<std::string> Arguments::list(const std::string& name) const {
+  std::vector<std::string> words;
+  for (const std::string& value : all(name)) {
+    for (const std::string_view word : urban_nav_core::splitAt(value, ',')) {
+      if (!word.empty()) words.emplace_back(word);
+    }
+  }
+  return words;
+}
+
+std::int64_t Arguments::integer(const std::string& name, std::int64_t otherwise, std::int64_t low,
+                                std::int64_t high) const {
+  const std::optional<std::string> text = find(name);
+  if (!text) return otherwise;
+  const std::optional<std::int64_t> value = urban_nav_core::parseInteger(*text);
+  if (!value || *value < low || *value > high) {
+    throw UserError("--" + name, name + " = " + *text,
+                    "a whole number, " + std::to_string(low) + "..." + std::to_string(high));
+  }
+  return *value;
+}
+
+double Arguments::number(const std::string& name, double otherwise, double low, double high) const {
+  const std::optional<std::string> text = find(name);
+  if (!text) return otherwise;
+  const std::optional<double> value = urban_nav_core::parseNumber(*text);
+  if (!value || !(*value >= low && *value <= high)) {
+    throw UserError("--" + name, name + " = " + *text,
+                    "a number, " + urban_nav_core::printNumber(low) + "..." + urban_nav_core::printNumber(high));
+  }
+  return *value;
+}
+
+int runCommandLine(const std::vector<Command>& commands, const ParameterTables& tables, int argc,
+                   const char* const* argv) {
+  Console console;
+  const std::string name = argc > 1 ? argv[1] : "";
+  try {
+    if (name.empty() || isHelpWord(name)) {
+      console.print(generalHelp(commands));
+      return name.empty() ? 2 : 0;
+    }
+    if (name == "--version") {
+      console.print("urban_nav " + suiteVersion() + "\n");
+      return 0;
+    }
+    const Command& command = findCommand(commands, name, "urban_nav", "command");
+    const int status = command.actions.empty() ? runCommand(command, tables, argc - 1, argv + 1, console)
+                                               : runAction(command, tables, argc - 1, argv + 1, console);
+    if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "a disk with room");
+    return status;
+  } catch (const DataError& error) {
+    console.error(error.what());
+    return 1;
+  } catch (const UserError& error) {
+    console.error(error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    console.error(std::string("could not go on: ") + error.what());
+    return 1;
+  }
+}
+
+Option jsonOption() { return {"--json", "FILE", "a machine-readable summary", false, false, {}}; }
+Option setOption() { return {"--set", "STAGE.KEY=VALUE", "one parameter; stands above --config", false, true, {}}; }
+Option configOption() { return {"--config", "FILE", "parameters as YAML: stage, then key: value", false, true, {}}; }
+Option threadsOption() {
+  return {"--threads", "N", "threads to use (default: one per core); the results are the same", false, false, {}};
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/command_parameters.hpp"
+
+namespace urban_nav {
+
+CommandParameters::CommandParameters() { commandTable().setDefaults(*this); }
+
+const urban_nav_core::Table<CommandParameters>& commandTable() {
+  static const urban_nav_core::Table<CommandParameters> table(
+      "", {{"memory_mb",
+            &CommandParameters::memory_mb,
+            "MB",
+            4000,
+            200,
+            10000000,
+            {},
+            "Bounds the memory for what is read ahead; the result does not depend on it.",
+            ""}});
+  return table;
+}
+
+}  // namespace urban_nav

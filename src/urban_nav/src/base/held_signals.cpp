@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/held_signals.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace urban_nav {
+
+namespace {
+
+constexpr std::array<int, 3> all_signals = {SIGINT, SIGTERM, SIGHUP};
+
+bool isIgnored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+HeldSignals::HeldSignals() {
+  sigemptyset(&held_);
+  for (const int signal : all_signals)
+    if (!isIgnored(signal)) sigaddset(&held_, signal);  // a held one would wait even so, and nohup be of no use
+  pthread_sigmask(SIG_BLOCK, &held_, &before_);
+}
+
+HeldSignals::~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+void HeldSignals::check() const {
+  sigset_t waiting;
+  sigpending(&waiting);
+  for (const int signal : all_signals)
+    if (sigismember(&held_, signal) == 1 && sigismember(&waiting, signal) == 1) throw std::runtime_error("interrupted");
+}
+
+}  // namespace urban_nav

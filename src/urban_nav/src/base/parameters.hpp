@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/command.hpp"
+#include "base/parameter_set.hpp"
+
+namespace urban_nav {
+
+/// Returns the parameters of the command and of all stages, from --config and --set. Throws UserError for unknown or
+/// bad ones.
+ParameterSet loadParameters(const Arguments& arguments);
+
+/// Returns sentences for the user: old names that were used, and properties of the camera that two stages have
+/// differently.
+std::vector<std::string> parameterWarnings(const ParameterSet& parameters);
+
+/// Checks --config, --set and --threads of a command that runs no stage, so that one file and one set of options serve
+/// every command. Throws UserError.
+void checkCommonOptions(const Arguments& arguments);
+
+/// Return the parameters for --help with their values, --config and --set of the same call included: those that belong
+/// to no stage, those of one stage, and those of all.
+std::string commonHelp(const Arguments& arguments);
+std::string stageHelp(const Arguments& arguments, const std::string& stage);
+std::string parametersHelp(const Arguments& arguments);
+
+}  // namespace urban_nav

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "command_line/version.hpp"
-
-namespace urban_nav {
-
-std::string suiteVersion() { return URBAN_NAV_VERSION; }
-
-}  // namespace urban_nav

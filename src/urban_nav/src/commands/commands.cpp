@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands/commands.hpp"
+
+#include "commands/stages.hpp"
+#include "convert/convert_command.hpp"
+#include "device/device_command.hpp"
+#include "evaluation/evaluate_command.hpp"
+#include "inspect/inspect.hpp"
+#include "map/map_command.hpp"
+#include "simulate/simulate_command.hpp"
+#include "topics/graph/graph.hpp"
+#include "topics/labels/labels.hpp"
+#include "topics/loops/loops.hpp"
+#include "topics/places/places.hpp"
+#include "topics/stereo/stereo.hpp"
+#include "topics/vo/vo.hpp"
+
+namespace urban_nav {
+
+std::vector<Command> allCommands() {
+  return {mapCommand(makeStages), convertCommand(), evaluateCommand(), infoCommand(),
+          exportCommand(),        mergeCommand(),   relaxCommand(),    icpCommand(),
+          disparityCommand(),     doctorCommand(),  placesCommand(),   labelsCommand(runOdometry),
+          simulateCommand(),      deviceCommand(),  whyCommand()};
+}
+
+}  // namespace urban_nav

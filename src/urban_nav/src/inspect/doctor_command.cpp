@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "base/parameters.hpp"
+#include "base/plot.hpp"
+#include "inspect/inspect.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_input/examination/diagnosis.hpp"
+#include "urban_nav_input/session/input_parameters.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
+  ParameterSet parameters = loadParameters(arguments);
+  urban_nav_input::SourceOptions options;
+  options.topics = arguments.all("topic");
+  options.calibration = arguments.get("calibration");
+  options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
+  options.right_delay = parameters.get(urban_nav_input::inputTable()).right_delay;
+  return options;
+}
+
+std::string toText(const urban_nav_input::Diagnosis& diagnosis) {
+  std::string text = diagnosis.name + (diagnosis.kind.empty() ? "" : ": " + diagnosis.kind) + "\n";
+  for (const std::string& line : diagnosis.contents) text += "  " + line + "\n";
+  if (diagnosis.pairs > 0)
+    text += "  " + std::to_string(diagnosis.pairs) + " stereo pairs, " + std::to_string(diagnosis.complete) +
+            " complete, " + urban_nav_core::formatNumber(diagnosis.duration_s, 4) + " s at " +
+            urban_nav_core::formatNumber(diagnosis.rate_hz, 3) + " Hz\n";
+  for (const urban_nav_input::Finding& finding : diagnosis.findings)
+    text += std::string("  ") + (finding.unusable ? "UNUSABLE " : "") + toString(finding.kind) + ": " + finding.text +
+            "\n    -> " + finding.remedy + "\n";
+  if (diagnosis.findings.empty()) text += "  no defect found\n";
+  return text;
+}
+
+Json toJson(const std::vector<urban_nav_input::Diagnosis>& all) {
+  Json json = Json::object();
+  Json sessions = Json::array();
+  Json findings = Json::array();
+  bool usable = true;
+  for (const urban_nav_input::Diagnosis& diagnosis : all) {
+    Json session = Json::object();
+    session["name"] = diagnosis.name;
+    session["kind"] = diagnosis.kind;
+    session["pairs"] = diagnosis.pairs;
+    session["complete"] = diagnosis.complete;
+    session["duration_s"] = diagnosis.duration_s;
+    session["rate_hz"] = diagnosis.rate_hz;
+    session["usable"] = diagnosis.isUsable();
+    sessions.append(session);
+    usable = usable && diagnosis.isUsable();
+    for (const urban_nav_input::Finding& finding : diagnosis.findings) {
+      Json entry = Json::object();
+      entry["session"] = diagnosis.name;
+      entry["kind"] = toString(finding.kind);
+      entry["text"] = finding.text;
+      entry["remedy"] = finding.remedy;
+      entry["unusable"] = finding.unusable;
+      findings.append(entry);
+    }
+  }
+  json["usable"] = usable;
+  json["sessions"] = sessions;
+  json["findings"] = findings;
+  return json;
+}
+
+int runDoctor(const Arguments& arguments, Console& console) {
+  const urban_nav_input::SourceOptions options = readSourceOptions(arguments);
+  std::vector<urban_nav_input::Diagnosis> all;
+  const std::vector<std::string> readable = urban_nav_input::separateUnreadable(arguments.all("INPUT"), all);
+  bool usable = all.empty();
+  for (const urban_nav_input::Diagnosis& diagnosis : all) console.print(toText(diagnosis));
+  for (const urban_nav_input::InputSession& session : urban_nav_input::findSessions(readable, options.topics)) {
+    std::optional<Progress> bar;
+    std::int64_t done = 0;
+    all.push_back(urban_nav_input::examine(session, options, [&](std::int64_t pairs, std::int64_t total) {
+      if (!bar) bar.emplace(console, "doctor", "pairs", total);
+      bar->update(done = pairs);
+    }));
+    if (bar) bar->finish(done);
+    console.print(toText(all.back()));
+    usable = usable && all.back().isUsable();
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(all).print());
+  return usable ? 0 : 1;
+}
+
+}  // namespace
+
+Command doctorCommand() {
+  Command command;
+  command.name = "doctor";
+  command.summary =
+      "Reports what is wrong with bags or folders before they are mapped, each defect with what repairs it; exit status "
+      "1 if they cannot be used.";
+  command.options = {
+      {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
+      {"--topic",
+       "ROLE:=NAME",
+       "topic of a bag: left, right, left_info, right_info, imu (default: guessed and printed)",
+       false,
+       true,
+       {}},
+      {"--calibration", "FILE", "as of map: calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)", false, false, {}},
+      {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav doctor robot.bag", "urban_nav doctor sequences/06 --json doctor.json"};
+  command.more_help = commonHelp;
+  command.run = runDoctor;
+  return command;
+}
+
+}  // namespace urban_nav

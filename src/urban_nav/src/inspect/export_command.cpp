@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "base/command_parameters.hpp"
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "base/parameters.hpp"
+#include "inspect/inspect.hpp"
+#include "inspect/store_export.hpp"
+#include "topics/labels/labelled_map.hpp"
+#include "topics/lasers/map_crs.hpp"
+#include "topics/lasers/map_export.hpp"
+#include "topics/places/place_export.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
+
+namespace {
+
+constexpr double kMapImageShare = 0.1;  // of memory_mb, for decoded images
+
+using Maps = std::vector<std::vector<StoredTrajectory>>;
+
+/// "out.tum", "out_2.tum" and so on.
+std::string numbered(const std::string& path, std::size_t number) {
+  if (number == 0) return path;
+  const std::filesystem::path given(path);
+  return (given.parent_path() / (given.stem().string() + "_" + std::to_string(number + 1) + given.extension().string()))
+      .string();
+}
+
+MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
+  const auto path = [&](const char* option) {
+    return arguments.has(option) ? numbered(arguments.get(option), number) : std::string();
+  };
+  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho"), path("mesh"), arguments.get("crs")};
+}
+
+void checkFormats(const Arguments& arguments) {
+  const bool any = mapFilePaths(arguments, 0).any() || arguments.has("tum") || arguments.has("kitti") ||
+                   arguments.has("g2o") || arguments.has("places");
+  if (!any)
+    throw UserError("urban_nav export", "no format is asked for",
+                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE, or --places DIR");
+  if (arguments.has("crs")) {
+    parseCrs(arguments.get("crs"));
+    if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
+  }
+  const std::string ortho = arguments.get("ortho");
+  if (!ortho.empty() && std::filesystem::path(ortho).extension() != ".png")
+    throw UserError("--ortho", ortho, "a name that ends in .png");
+  const std::string mesh = arguments.get("mesh");
+  if (!mesh.empty() && std::filesystem::path(mesh).extension() != ".ply")
+    throw UserError("--mesh", mesh, "a name that ends in .ply");
+  const std::string grid = arguments.get("grid");
+  if (!grid.empty() && std::filesystem::path(grid).extension() != ".yaml")
+    throw UserError("--grid", grid, "a name that ends in .yaml");
+}
+
+/// What is written, for the user and for --json.
+class Written {
+ public:
+  explicit Written(Console& console) : console_(console) { json_["files"] = Json::array(); }
+
+  void write(const std::string& path, const std::string& text, const std::string& what) {
+    urban_nav_core::writeAtomically(path, text);
+    note(path, what);
+  }
+  void note(const std::string& path, const std::string& what) {
+    console_.info(what);
+    console_.print(path + "\n");
+    Json file = Json::object();
+    file["path"] = path;
+    file["content"] = what;
+    json_["files"].append(file);
+  }
+  /// Where a map lies on the earth.
+  void noteReference(const ExportedMap& made) {
+    console_.info(made.crs);
+    Json reference = Json::object();
+    reference["epsg"] = made.epsg;
+    reference["fixes"] = made.reference->fixes;
+    reference["residual_m_median"] = made.reference->residual;
+    reference["position_sigma_m"] = made.reference->position_sigma;
+    reference["height_sigma_m"] = made.reference->height_sigma;
+    reference["heading_sigma_deg"] = made.reference->heading_sigma * 180.0 / M_PI;
+    json_["crs"] = std::move(reference);
+  }
+  const Json& json() const { return json_; }
+
+ private:
+  Console& console_;
+  Json json_ = Json::object();
+};
+
+std::string describe(const std::vector<StoredTrajectory>& map) {
+  std::size_t poses = 0;
+  bool relaxed = true;
+  for (const StoredTrajectory& each : map) {
+    poses += each.T_map_base.size();
+    relaxed = relaxed && each.relaxed;
+  }
+  return std::to_string(poses) + " poses of " + std::to_string(map.size()) +
+         (map.size() == 1 ? " session" : " sessions") + (relaxed ? "" : ", as odometry says");
+}
+
+void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Written& written) {
+  const double memory_mb = kMapImageShare * loadParameters(arguments).get(commandTable()).memory_mb;
+  std::size_t number = 0;
+  for (const std::vector<StoredTrajectory>& map : maps) {
+    const MapFilePaths paths = mapFilePaths(arguments, number);
+    if (!holdsMap(store, map) && (number > 0 || &map != &maps.back())) continue;  // the last one reports the lack
+    const ExportedMap made = exportMap(store, map, paths, memory_mb, labelAttributes);
+    if (made.reference) written.noteReference(made);
+    const std::string points = made.points > 0 ? std::to_string(made.points) + " points of " : "";
+    for (const std::string& path : made.files) written.note(path, points + describe(map));
+    ++number;
+  }
+}
+
+int runExport(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
+  checkFormats(arguments);
+  Store store(arguments.get("STORE"), Access::Read);
+  const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
+  if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
+  Written written(console);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    if (arguments.has("tum"))
+      written.write(numbered(arguments.get("tum"), i), exportTum(store, maps[i]), describe(maps[i]));
+    if (arguments.has("kitti"))
+      written.write(numbered(arguments.get("kitti"), i), exportKitti(store, maps[i]), describe(maps[i]));
+  }
+  if (arguments.has("g2o")) {
+    const ExportedGraph graph = exportG2o(store, maps);
+    written.write(
+        arguments.get("g2o"), graph.text,
+        std::to_string(graph.vertices) + " vertices, " + std::to_string(graph.edges) + " edges" +
+            (graph.left_out > 0 ? "; " + std::to_string(graph.left_out) + " that are not accepted left out" : "") +
+            (graph.outside > 0 ? "; " + std::to_string(graph.outside) + " to poses that are not exported left out"
+                               : ""));
+  }
+  if (arguments.has("places")) {
+    const ExportedPlaces places = exportPlaces(store, maps, arguments.get("places"));
+    for (const std::string& path : places.files)
+      written.note(path,
+                   std::to_string(places.places) + " places, " + std::to_string(places.thumbnails) + " thumbnails");
+  }
+  if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());
+  return 0;
+}
+
+}  // namespace
+
+Command exportCommand() {
+  Command command;
+  command.name = "export";
+  command.summary = "Writes what a session store holds in other programs' formats.";
+  command.options = {
+      {"STORE", "", "session.db of a map; it is only read", true, false, {}},
+      {"--tum",
+       "FILE",
+       "base_link in map, a line per pose; maps that did not join go to FILE_2 and so on",
+       false,
+       false,
+       {}},
+      {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
+      {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
+      {"--ply", "FILE", "the map of laser points, with the bytes of map.ply", false, false, {}},
+      {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
+      {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
+      {"--crs",
+       "auto,EPSG:N",
+       "coordinate system of --las; needs GPS fixes (default: the frame map)",
+       false,
+       false,
+       {}},
+      {"--grid",
+       "FILE.yaml",
+       "obstacles and free ground for map_server; the PGM is written beside it",
+       false,
+       false,
+       {}},
+      {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
+      {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
+      {"--places",
+       "DIR",
+       "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
+       false,
+       false,
+       {}},
+      {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav export out/session.db --tum trajectory.tum --g2o graph.g2o",
+                      "urban_nav export out/session.db --las map.las --grid map.yaml --ortho map.png"};
+  command.more_help = commonHelp;
+  command.run = runExport;
+  return command;
+}
+
+}  // namespace urban_nav

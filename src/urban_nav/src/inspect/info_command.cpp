@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <filesystem>
+
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "base/parameters.hpp"
+#include "base/plot.hpp"
+#include "inspect/inspect.hpp"
+#include "inspect/store_info.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_input/examination/input_info.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
+
+std::string toText(const urban_nav_input::InputInfo& info) {
+  std::string text = info.name + ": " + info.kind + "\n";
+  for (const std::string& note : info.notes) text += "  " + note + "\n";
+  std::size_t width = 20, type_width = 12;
+  for (const urban_nav_input::StreamInfo& stream : info.streams) {
+    width = std::max(width, stream.name.size() + 2);
+    type_width = std::max(type_width, stream.type.size() + 2);
+  }
+  text += "  " + padded("topic", width) + padded("type", type_width) + padded("messages", 10) +
+          padded("rate (Hz)", 11) + padded("longest gap (s)", 17) + "from ... to (s)\n";
+  for (const urban_nav_input::StreamInfo& stream : info.streams) {
+    text += "  " + padded(stream.name, width) + padded(stream.type, type_width) +
+            padded(std::to_string(stream.messages), 10);
+    if (stream.messages > 0) {
+      text += padded(urban_nav_core::formatNumber(stream.rate_hz, 4), 11) +
+              padded(urban_nav_core::formatNumber(stream.longest_gap_s, 3), 17) +
+              urban_nav_core::printStamp(stream.first) + " ... " + urban_nav_core::printStamp(stream.last);
+    }
+    if (stream.backward > 0) text += "  " + std::to_string(stream.backward) + " stamps not later than the one before";
+    text += "\n";
+  }
+  if (info.distance_m)
+    text += "  distance " + urban_nav_core::formatNumber(*info.distance_m, 4) + " m (" + info.distance_of + ")\n";
+  return text;
+}
+
+Json toJson(const urban_nav_input::InputInfo& info) {
+  Json json = Json::object();
+  json["name"] = info.name;
+  json["kind"] = info.kind;
+  Json& streams = json["streams"] = Json::array();
+  for (const urban_nav_input::StreamInfo& stream : info.streams) {
+    Json entry = Json::object();
+    entry["name"] = stream.name;
+    entry["type"] = stream.type;
+    entry["messages"] = stream.messages;
+    entry["rate_hz"] = stream.rate_hz;
+    entry["longest_gap_s"] = stream.longest_gap_s;
+    entry["backward"] = stream.backward;
+    entry["first_ns"] = stream.first;
+    entry["last_ns"] = stream.last;
+    streams.append(entry);
+  }
+  if (info.distance_m) json["distance_m"] = *info.distance_m;
+  return json;
+}
+
+int runInfo(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
+  Json all = Json::array();
+  for (const std::string& input : arguments.all("INPUT")) {
+    if (urban_nav_store::isStore(input) || fs::path(input).extension() == ".db") {
+      const StoreInfo info = lookIntoStore(input);
+      console.print(toText(info));
+      all.append(toJson(info));
+      continue;
+    }
+    const urban_nav_input::InputInfo info = urban_nav_input::lookInto(input);
+    console.print(toText(info));
+    all.append(toJson(info));
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), all.print());
+  return 0;
+}
+
+}  // namespace
+
+Command infoCommand() {
+  Command command;
+  command.name = "info";
+  command.summary = "Says what is in a bag, folder or session store: sessions, topics, rates, gaps, distance.";
+  command.options = {{"INPUT", "", "bags, folders or session stores", true, true, {}},
+                     jsonOption(),
+                     configOption(),
+                     setOption(),
+                     threadsOption()};
+  command.examples = {"urban_nav info robot.bag out/session.db"};
+  command.more_help = commonHelp;
+  command.run = runInfo;
+  return command;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/closure_notes.hpp"
+
+#include "map/previous_sessions.hpp"
+
+namespace urban_nav {
+
+std::vector<std::string> closureNotes(const MapOptions& options, bool measured) {
+  const bool has_places = measured && isRequested(options, "places");
+  if (!options.closures.empty())
+    return {"closures: " + options.closures +
+            (measured ? "; the stage loops measures their transforms, those in the file are not used"
+                      : ", with the transforms in the file (no stage loops)") +
+            (has_places ? "; and those that places proposes" : "")};
+  if (has_places) return {"closures: those that places proposes"};
+  if (options.store.empty()) return {"closures: none (--closures FILE); the map is that of odometry"};
+  urban_nav_store::Store store(options.store, urban_nav_store::Access::Read);
+  if (holdsClosures(store)) return {"closures: those of " + options.store};
+  return {};
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/console.hpp"
+#include "evaluation/evaluation.hpp"
+#include "map/closures_file.hpp"
+#include "map/map_options.hpp"
+#include "map/previous_sessions.hpp"
+#include "map/session_trajectory.hpp"
+#include "urban_nav_input/session/sessions.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav {
+
+/// A session of this run.
+struct MapSession {
+  urban_nav_input::InputSession input;
+  urban_nav_input::SourceInfo info;  ///< set when its source is open
+  urban_nav_store::SessionId id;
+  bool continued = false;  ///< its bags continue a session of the store given by --store
+  std::shared_ptr<SessionOdometry> odometry = std::make_shared<SessionOdometry>();  ///< so far, while it is read
+};
+
+/// Comparison of a session with ground truth; nullopt where there is none.
+struct SessionEvaluations {
+  std::optional<Evaluation> odometry;  ///< only in a run that relaxes
+  std::optional<Evaluation> map;       ///< of the poses that are written
+};
+
+/// What the stages of one run share: its options, its sessions, its store, and the results that earlier stages hand to
+/// later ones. Not thread-safe.
+///
+/// Vectors "over all sessions" hold the previous sessions first (previous.runs), then those of this run.
+struct MapContext {
+  MapContext(const MapOptions& of_run, Console& of_user) : options(of_run), console(of_user) {}
+
+  const MapOptions& options;
+  Console& console;
+  urban_nav_store::Store* store = nullptr;  ///< session.db of the run; set before the first session
+  std::vector<MapSession> sessions;
+  PreviousSessions previous;       ///< of the store given by --store, if a stage uses them
+  std::vector<std::string> names;  ///< over all sessions, as closures.csv names them
+
+  std::vector<ClosureRow> closures;             ///< candidates, then with transforms, then with verdicts
+  std::vector<SessionTrajectory> trajectories;  ///< over all sessions; by stage vo, then by graph and localization
+  bool relaxed = false;                         ///< the trajectories are those of the pose graph
+  std::vector<urban_nav_core::Trajectory>
+      stereo_only;                              ///< over all sessions, relaxed without ICP; empty: no difference
+  std::vector<SessionEvaluations> evaluations;  ///< over all sessions; empty until all stages have run
+
+  /// Return odometry and store keys over all sessions.
+  std::vector<const SessionOdometry*> runs() const;
+  std::vector<urban_nav_store::SessionId> ids() const;
+};
+
+}  // namespace urban_nav

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/map_command.hpp"
+#include "base/parameters.hpp"
+#include "map/map_pipeline.hpp"
+#include "map/stage_list.hpp"
+#include "urban_nav_input/session/input_parameters.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+std::vector<std::string> topicsReadByStages(const AllStages& stages, const ParameterSet& parameters) {
+  std::vector<std::string> topics;
+  for (const std::unique_ptr<Stage>& stage : stages)
+    for (const std::string& topic : stage->topicsRead(parameters)) topics.push_back(topic);
+  return topics;
+}
+
+MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
+  ParameterSet parameters = loadParameters(arguments);
+  const urban_nav_input::InputParameters& input = parameters.get(urban_nav_input::inputTable());
+  const urban_nav_input::SourceOptions source{arguments.all("topic"),
+                                              arguments.get("calibration"),
+                                              arguments.number("rate", 0.0, 0.01, 10000.0),
+                                              input.motion_input,
+                                              input.wheel_noise,
+                                              input.gyro_noise,
+                                              input.right_delay,
+                                              topicsReadByStages(stages, parameters)};
+  const std::optional<double> so_far =
+      arguments.has("so-far") ? std::optional(arguments.number("so-far", 1.0, 0.0, 1.0)) : std::nullopt;
+  return {arguments.all("INPUT"),
+          arguments.get("out"),
+          arguments.list("stages"),
+          arguments.get("truth"),
+          arguments.get("closures"),
+          arguments.get("json"),
+          source,
+          std::move(parameters),
+          static_cast<int>(arguments.integer("threads", 0, 1, 1024)),
+          so_far,
+          arguments.get("store"),
+          arguments.has("overwrite"),
+          arguments.get("localise"),
+          arguments.has("calibrate")};
+}
+
+std::string stagesSentence(const AllStages& stages) {
+  std::string names;
+  for (const std::string& name : stageNames(stages)) names += (names.empty() ? "" : ", ") + name;
+  return "of " + names + " (default: all whose inputs exist)";
+}
+
+Option calibrateOption() {
+  return {
+      "--calibrate",
+      "",
+      "estimate delay and mounting of the lasers against the trajectory; adopted where places that were left out of "
+      "the estimate agree better, and reported in every case",
+      false,
+      false,
+      {}};
+}
+
+std::vector<Option> mapOptions(const AllStages& stages) {
+  return {
+      {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
+      {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
+      {"--overwrite",
+       "",
+       "replaces the map of other inputs that DIR holds (otherwise it is refused)",
+       false,
+       false,
+       {}},
+      {"--stages", "LIST", stagesSentence(stages), false, true, {}},
+      {"--closures",
+       "FILE",
+       "closures.csv: pairs of stamps at one place; the stage loops measures their transforms (without it, those in the "
+       "file are used)",
+       false,
+       false,
+       {}},
+      {"--topic",
+       "ROLE:=NAME",
+       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and printed)",
+       false,
+       true,
+       {}},
+      {"--calibration",
+       "FILE",
+       "if the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
+       false,
+       false,
+       {}},
+      {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
+      {"--store",
+       "FILE",
+       "continue from the sessions of this store: session.db of DIR holds all of them, relaxed together with the new ones "
+       "if there are closures (FILE is only read, unless it is that of DIR)",
+       false,
+       false,
+       {}},
+      {"--localise",
+       "FILE",
+       "localise the inputs in the map of this store, which is only read: localisation.csv holds poses, and whether they "
+       "are KNOWN",
+       false,
+       false,
+       {}},
+      calibrateOption(),
+      {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
+      {"--so-far",
+       "SHARE",
+       "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked so and refreshes itself",
+       false,
+       false,
+       {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+}
+
+}  // namespace
+
+Command mapCommand(StageFactory make_stages) {
+  Command command;
+  command.name = "map";
+  command.summary = "Turns recordings into a trajectory with covariance, and a report.";
+  command.options = mapOptions(make_stages());
+  command.examples = {"urban_nav map sequences/06 --out out",
+                      "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
+  command.more_help = parametersHelp;
+  command.run = [make_stages = std::move(make_stages)](const Arguments& arguments, Console& console) {
+    AllStages stages = make_stages();
+    const MapOptions options = readOptions(arguments, stages);
+    for (const std::string& warning : parameterWarnings(options.parameters)) console.warn(warning);
+    runMap(options, std::move(stages), console);
+    return 0;
+  };
+  return command;
+}
+
+}  // namespace urban_nav

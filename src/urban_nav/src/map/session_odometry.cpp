@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/session_odometry.hpp"
+
+namespace urban_nav {
+
+urban_nav_core::Trajectory smoothedTrajectory(const SessionOdometry& run) {
+  urban_nav_core::Trajectory trajectory;
+  for (const SmoothedFrame& settled : run.settled) trajectory.append(settled.stamp, settled.T_odom_base.pose);
+  return trajectory;
+}
+
+urban_nav_core::OdometryChain odometryChain(const SessionOdometry& run) {
+  urban_nav_core::OdometryChain odometry;
+  for (std::size_t i = 1; i < run.settled.size(); ++i) odometry.append(run.settled[i].from_previous);
+  return odometry;
+}
+
+}  // namespace urban_nav

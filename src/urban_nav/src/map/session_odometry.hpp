@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_core/types/specific_force.hpp"
+#include "urban_nav_core/types/status.hpp"
+
+namespace urban_nav {
+
+/// Odometry of one frame when it came.
+struct OdometryFrame {
+  std::int64_t frame = 0;  ///< counts frames from 0, dropped ones included
+  urban_nav_core::StampNs stamp = 0;
+  bool accepted = true;  ///< false: dropped because of its stamp
+  urban_nav_core::Status status;
+  urban_nav_core::Pose T_odom_base;  ///< filtered, as live odometry publishes it
+};
+
+/// Odometry of one frame as files and later stages use it.
+struct SmoothedFrame {
+  std::int64_t frame = 0;
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::PoseWithCovariance T_odom_base;  ///< covariance: of T_first_base in the axes of the first pose
+  urban_nav_core::RelativePose from_previous;      ///< from == to for the first frame
+  urban_nav_core::Status status;                   ///< as it was when the frame came
+};
+
+/// Odometry of one session, whichever sensor it comes from.
+struct SessionOdometry {
+  std::string input;
+  urban_nav_core::StereoCamera camera;
+  urban_nav_core::Pose T_base_camera;
+  std::vector<OdometryFrame> frames;   ///< one per frame
+  std::vector<SmoothedFrame> settled;  ///< smoothed poses, one per accepted frame that has left the window
+  /// Standard deviation of a relative error that all lengths have in common.
+  double scale_sigma = 0.0;
+  std::vector<urban_nav_core::SpecificForce>
+      forces;                       ///< specific forces around smoothed frames; empty without an accelerometer
+  std::vector<std::string> faults;  ///< of the data, each with its file or topic; at most kMaxFaults
+  std::int64_t faults_total = 0;
+};
+constexpr std::size_t kMaxFaults = 100;
+
+/// Returns the smoothed poses of base_link in `odom`.
+urban_nav_core::Trajectory smoothedTrajectory(const SessionOdometry& odometry);
+/// Returns the smoothed steps between them.
+urban_nav_core::OdometryChain odometryChain(const SessionOdometry& odometry);
+
+}  // namespace urban_nav

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "map/session_odometry.hpp"
+
+namespace urban_nav {
+
+/// One item of the reading pass.
+struct PassItem {
+  const urban_nav_input::SourceItem& input;  ///< rectified pair, motion, scans, faults of its data
+  const OdometryFrame* odometry = nullptr;   ///< of this frame, set by stage vo, which comes first
+};
+
+/// What the end of an input says about it as a whole.
+struct PassEnd {
+  std::vector<std::string> faults;
+  std::vector<urban_nav_core::SpecificForce> forces;  ///< specific forces; empty without an accelerometer
+};
+
+/// A stage's part of the single pass in which all images of a session are read. Calls come from one thread.
+class SessionPass {
+ public:
+  virtual ~SessionPass() = default;
+  /// Observes the next item.
+  virtual void process(PassItem& item) = 0;
+  /// Observes a panorama whose images follow SourceInfo::panorama. Panoramas come in order of stamps, each before the
+  /// first pair that was recorded after it was complete; its own stamp may be later or earlier than that of this pair.
+  virtual void process(const urban_nav_ros::Panorama&) {}
+  /// Writes what is new to the store. Called before each commit, about once a second.
+  virtual void flush() {}
+  /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must
+  /// be in the store.
+  virtual std::string checkpoint() { return {}; }
+  /// Called once, after the last item. Throws DataError if nothing of the session is usable.
+  virtual void finish(const PassEnd&) {}
+  /// Returns the finished pass for Stage::restoreSession(), after finish().
+  virtual std::string finished() { return {}; }
+};
+
+}  // namespace urban_nav

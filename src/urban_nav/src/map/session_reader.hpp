@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "map/run_checkpoint.hpp"
+#include "map/stage_list.hpp"
+
+namespace urban_nav {
+
+/// Reads one session once, with the parts that all stages have in that pass, and stores its progress. Not thread-safe.
+class SessionReader {
+ public:
+  /// `progress`: called for each frame with the share of the session that is read, 0...1; 0 if it is unknown.
+  using ProgressCallback = std::function<void(double share)>;
+
+  SessionReader(MapContext& context, const StageList& stages, RunCheckpoint& checkpoint, std::size_t session);
+
+  /// Opens source and stages at the session's resume point. If that fails, warns and makes it a session of its own.
+  void openResumed();
+  /// Opens source and stages at the beginning, unless openResumed() has; restores a session that is finished. Sets
+  /// MapSession::info. Throws UserError or DataError if the inputs cannot be read.
+  void open();
+  /// Reads the session to its end; does nothing if it is finished.
+  void read(const ProgressCallback& progress);
+
+ private:
+  using StagePass = std::pair<std::string, std::unique_ptr<SessionPass>>;  // Stage::Description::key
+
+  std::unique_ptr<urban_nav_input::Source> openSource(const urban_nav_input::BagEnd* after = nullptr);
+  std::vector<std::string> calibrationFaults() const;
+  void openPasses(const BagCheckpoint* checkpoint);
+  bool restoreFinished();
+  void flush();
+  void processPanoramas(const std::vector<urban_nav_ros::Panorama>& panoramas);
+  void saveBagEnd(const urban_nav_input::BagEnd& end);
+
+  MapContext& context_;
+  const StageList& stages_;
+  RunCheckpoint& checkpoint_;
+  const std::size_t session_;
+  std::unique_ptr<urban_nav_input::Source> source_;
+  std::vector<StagePass> passes_;  // in the order of the stages
+  bool finished_ = false;          // restored
+};
+
+}  // namespace urban_nav

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/json.hpp"
+#include "base/page.hpp"
+
+namespace urban_nav {
+
+/// A file of the output folder. Its content is computed when it is written.
+struct OutputFile {
+  std::string name;
+  std::function<std::string()> content;  ///< empty: the file is removed
+};
+
+/// Returns "" for session 0, "_2" for session 1: what names of a session's files have before the extension.
+std::string fileSuffix(std::size_t session);
+
+/// Order of sections in the report, lowest first. Sections of equal place keep the order of their stages.
+namespace report_place {
+constexpr int map = 100, closures = 200, truth = 300, localization = 400, odometry = 500, method = 900;
+}
+
+struct PlacedSection {
+  int place = report_place::odometry;
+  Section section;
+};
+
+/// What a stage has made, as plain data.
+struct StageResult {
+  std::string method;  ///< word of the report's subtitle: "visual odometry"
+  std::vector<Tile> tiles;
+  std::vector<Verdict> verdicts;
+  std::vector<PlacedSection> sections;
+  std::vector<std::string> data_faults;  ///< what is wrong with the data, for the report's table of warnings
+  std::vector<OutputFile> files;         ///< besides the trajectories, which the pipeline writes
+  std::vector<std::string>
+      written_files;            ///< that run() has written into the output folder itself, too large for memory
+  std::optional<Json> summary;  ///< object of summary.json under Stage::Description::key
+};
+
+}  // namespace urban_nav

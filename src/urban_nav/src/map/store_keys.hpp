@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_store/forces_state.hpp"
+
+namespace urban_nav {
+
+/// Keys of visual odometry in a session store: the source of its edges and of its finished state, its stream.
+constexpr const char* kVoStage = "swf_vo";
+constexpr const char* kVoStream = "stereo";
+/// Key of the state at the end of a bag (bag_checkpoint.hpp).
+constexpr const char* kBagStage = "bag";
+using urban_nav_store::kForcesStage;
+using urban_nav_store::packForces;
+using urban_nav_store::unpackForces;
+
+}  // namespace urban_nav

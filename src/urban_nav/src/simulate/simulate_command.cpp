@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/simulate.hpp"
+
+#include <filesystem>
+
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "base/parameters.hpp"
+#include "simulate/simulate_command.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr double longest = 86400.0;  // s
+
+/// Words of a comma-separated list; each named with its option where it is not known.
+std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Arguments& arguments) {
+  std::set<urban_nav_sim::Sensor> sensors;
+  for (const std::string& word : arguments.list(option))
+    sensors.insert(urban_nav_sim::parseSensor(word, "--" + option));
+  return sensors;
+}
+
+std::set<urban_nav_sim::Sensor> parseSensors(const Arguments& arguments) {
+  if (!arguments.has("sensors")) return {urban_nav_sim::all_sensors.begin(), urban_nav_sim::all_sensors.end()};
+  std::set<urban_nav_sim::Sensor> sensors = makeList("sensors", arguments);
+  if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
+  return sensors;
+}
+
+SimulateJob makeJob(const Arguments& arguments) {
+  SimulateJob job;
+  job.session.world = arguments.get("world", job.session.world);
+  job.session.route = arguments.get("route", job.session.route);
+  job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
+  job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
+  job.session.duration = arguments.number("duration", job.session.duration, 0.1, longest);
+  job.session.sensors = parseSensors(arguments);
+  job.session.views = makeList("views", arguments);
+  for (const std::string& word : arguments.list("without")) job.session.defects.switchOff(word);
+  for (const std::string& word : arguments.list("with")) job.session.defects.switchOn(word);
+  for (const std::string& fault : arguments.all("fault"))
+    job.session.faults.push_back(urban_nav_sim::parseFault(fault));
+  job.lags = arguments.all("lag");
+  job.misplaced = arguments.all("misplace");
+  job.bag = arguments.get("output");
+  if (std::filesystem::path(job.bag).extension() != ".bag")
+    throw UserError("--output", job.bag, "a name that ends in .bag; the truth goes beside it");
+  job.part = arguments.number("split", 0.0, 0.1, longest);
+  job.folder = arguments.get("folder");
+  job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
+  if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)
+    throw UserError("--folder", "needs the stereo camera, which --sensors leaves out", "--sensors stereo,...");
+  if (!job.folder.empty() && job.session.defects.has(urban_nav_sim::Sensor::Stereo, urban_nav_sim::Defect::Lens))
+    throw UserError("--folder", "holds rectified pairs, and --with stereo:lens makes raw ones", "one of the two");
+  return job;
+}
+
+int runSimulate(const Arguments& arguments, Console& console) {
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
+  loadParameters(arguments);  // none is the simulator's own, but errors in them are reported
+  const SimulateJob job = makeJob(arguments);
+  const Simulated made = simulate(job, console);
+  Json json = Json::object();
+  json["bag"] = job.bag;
+  Json& bags = json["bags"] = Json::array();
+  for (const std::string& bag : made.bags) bags.append(bag);
+  json["truth"] = made.truth_folder;
+  json["distance_m"] = made.distance_m;
+  Json& counts = json["messages"] = Json::object();
+  for (const auto& [topic, count] : made.counts) {
+    console.info("  " + topic + ": " + std::to_string(count));
+    counts[topic] = count;
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+  for (const std::string& bag : made.bags) console.print(bag + "\n");
+  return 0;
+}
+
+}  // namespace
+
+Command simulateCommand() {
+  Command command;
+  command.name = "simulate";
+  command.summary = "Drives the simulated robot through a world and writes what its sensors say, and the truth.";
+  command.options = {
+      {"--world", "W", "which world (default quad; below)", false, false, {}},
+      {"--seed", "N", "of the world and of all chance (default 1)", false, false, {}},
+      {"--route", "R", "which way through it (default loops; below)", false, false, {}},
+      {"--duration", "S", "how long (default 60)", false, false, {}},
+      {"--day",
+       "D",
+       "1, 2, ...: the same world in other weather, with other vehicles and people (default 1)",
+       false,
+       false,
+       {}},
+      {"-o,--output",
+       "BAG",
+       "bag to write; it appears when it is complete, the truth beside it in BAG_STEM.truth/",
+       true,
+       false,
+       {}},
+      {"--split",
+       "S",
+       "a bag for every S seconds, BAG_STEM_0.bag and so on, each there as soon as it is complete",
+       false,
+       false,
+       {}},
+      {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},
+      {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all)", false, true, {}},
+      {"--without",
+       "LIST",
+       "SENSOR:DEFECT,... that sensors do not have; all for either: imu:noise, gps:all, all:jitter (below)",
+       false,
+       true,
+       {}},
+      {"--with",
+       "LIST",
+       "SENSOR:DEFECT,... that they have besides: stereo:lens (raw pairs), lasers:offset, all:clock (below)",
+       false,
+       true,
+       {}},
+      {"--views",
+       "LIST",
+       "of stereo, ladybug, lasers: depth and class of each pixel and beam too, in BAG_STEM.truth/",
+       false,
+       true,
+       {}},
+      {"--fault",
+       "FAULT",
+       "KIND:SENSOR:START_S:DURATION_S[:VALUE], KIND one of " + urban_nav_sim::faultList() +
+           "; VALUE: share of drop and corrupt, seconds of jump",
+       false,
+       true,
+       {}},
+      {"--lag",
+       "DEVICE:S",
+       "stamps of laser_left, laser_right or panorama that are late by a constant time, in s",
+       false,
+       true,
+       {}},
+      {"--misplace",
+       "FRAME:ROLL,PITCH,YAW",
+       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0; FRAME ladybug: of the whole head",
+       false,
+       true,
+       {}},
+      {"--false-closures",
+       "PERCENT",
+       "of the true closures: as many false ones in closures_false.csv",
+       false,
+       false,
+       {}},
+      threadsOption(),
+      configOption(),
+      setOption(),
+      jsonOption()};
+  command.more_help = [](const Arguments& arguments) {
+    return urban_nav_sim::worldHelp() + "\n" + urban_nav_sim::defectHelp() + "\n" + commonHelp(arguments);
+  };
+  command.examples = {"urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
+                      "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
+                      "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",
+                      "urban_nav simulate --fault unplug:lasers:20:5 --fault drop:stereo:30:10:0.3 -o faults.bag"};
+  command.run = runSimulate;
+  return command;
+}
+
+}  // namespace urban_nav

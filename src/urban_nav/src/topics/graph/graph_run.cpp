@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/graph/graph_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+
+#include "base/plot.hpp"
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/map_levels.hpp"
+#include "topics/graph/closure_import.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+
+namespace urban_nav {
+
+using pose_graph::Closure;
+using pose_graph::Level;
+using pose_graph::PoseGraph;
+using pose_graph::Track;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
+
+constexpr std::size_t kPlaneRounds = 2;
+constexpr double kSettled = 0.005;  // m: less does not change which planes are found, nor where
+
+constexpr double kManyRejected = 3.0;  // one fix of so many: said to the user
+constexpr double kOptimistic = 2.0;    // times the stated deviation: likewise
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+void judge(GraphRun& run, const ClosureIds& ids, std::size_t known) {
+  std::size_t refused = 0;
+  std::string first;
+  std::vector<ClosureRow> judged;
+  for (std::size_t i = 0; i < run.closures.size(); ++i) {
+    ClosureRow row = run.closures[i];
+    const auto id = ids.find(i);
+    if (id != ids.end()) {
+      const Closure& closure = run.graph.closures().at(id->second);
+      row.verdict = closure.verdict == urban_nav_core::ClosureVerdict::Accepted ? "accepted" : "rejected";
+      row.reason = closure.reason;
+      row.weight = closure.weight;
+      row.id = id->second;
+    } else if (row.reason.empty() && i < known) {
+      continue;  // the file has it too
+    } else {
+      row.verdict = "rejected";
+      if (refused++ == 0) first = row.reason;
+    }
+    judged.push_back(row);
+  }
+  run.closures = std::move(judged);
+  if (refused > 0) run.warnings.push_back(std::to_string(refused) + " closures could not be used; the first: " + first);
+}
+
+/// Relaxes with the measured specific forces. The maps stay in the frame of their first poses; GraphRun::levels has the
+/// direction of gravity.
+pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const SessionOdometry*>& runs) {
+  pose_graph::Batch batch = graph.batch();
+  for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;
+  pose_graph::run(batch);
+  return graph.take(batch);
+}
+
+std::vector<pose_graph::ClosureId> planeIds(const PoseGraph& graph) {
+  std::vector<pose_graph::ClosureId> ids;
+  for (const auto& [id, closure] : graph.closures())
+    if (closure.kind == pose_graph::EdgeKind::Plane) ids.push_back(id);
+  return ids;
+}
+
+/// Returns the largest distance between poses before and after, each in the frame of its map's first pose.
+double largestMove(const std::vector<Track>& before, const std::vector<Track>& after) {
+  double largest = 0.0;
+  for (std::size_t t = 0; t < before.size(); ++t)
+    for (std::size_t i = 0; i < before[t].map.size(); ++i)
+      largest = std::max(largest, distanceBetween(before[t].map[i], after[t].map[i]));
+  return largest;
+}
+
+/// Relaxes again with what the planes of the relaxed map tell, until that no longer moves it.
+void relaxWithPlanes(GraphRun& run, const std::vector<const SessionOdometry*>& runs, const PlaneFinder& find_planes) {
+  const auto begin = Clock::now();
+  const std::vector<Track> without_planes = run.graph.tracks();
+  run.planes.searched = true;
+  double moved = kSettled;
+  while (run.planes.rounds < kPlaneRounds && moved >= kSettled) {
+    const PlaneClosures found = find_planes(run);
+    const std::vector<pose_graph::ClosureId> earlier = planeIds(run.graph);
+    run.planes.shared = found.shared;
+    if (found.closures.empty() && earlier.empty()) break;
+    for (const pose_graph::ClosureId id : earlier) run.graph.removeClosure(id);
+    for (const Closure& closure : found.closures) run.graph.addClosure(closure);
+    const std::vector<Track> before = run.graph.tracks();
+    run.relaxed = relax(run.graph, runs);
+    moved = largestMove(before, run.graph.tracks());
+    ++run.planes.rounds;
+  }
+  run.planes.moved = largestMove(without_planes, run.graph.tracks());
+  run.planes.ms = millisecondsSince(begin);
+}
+
+VerdictCounts countVerdicts(const PoseGraph& graph, bool of_planes) {
+  VerdictCounts counts;
+  for (const auto& [id, closure] : graph.closures()) {
+    if ((closure.kind == pose_graph::EdgeKind::Plane) != of_planes) continue;
+    if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted) ++counts.accepted;
+    else ++(closure.verdict == urban_nav_core::ClosureVerdict::Waiting ? counts.waiting : counts.rejected);
+  }
+  return counts;
+}
+
+// All sessions from one factorisation.
+std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
+                                                      const std::vector<std::string>& sessions) {
+  std::vector<pose_graph::Rigid<3>> poses;
+  std::vector<pose_graph::NodeRef> refs;
+  for (const Track& track : graph.tracks())
+    for (std::size_t i = 0; i < track.map.size(); ++i) {
+      poses.push_back(pose_graph::toRigid<3>(track.map[i]));
+      refs.push_back({track.session, track.stamps[i]});
+    }
+  const auto at = [](int pose) { return static_cast<std::size_t>(pose); };
+  const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights());
+  std::vector<std::vector<Matrix6d>> made(sessions.size());
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    const Track* track = graph.track(sessions[s]);
+    if (track == nullptr || track->stamps.empty()) continue;
+    const int first = *graph.poseNumber({track->session, track->stamps.front()});
+    for (std::size_t i = 0; i < track->stamps.size(); ++i) {
+      const int pose = first + static_cast<int>(i), origin = marginals.first(pose);
+      Matrix6d covariance = displayed(marginals.ofPose(pose), kMetresPerRadian);
+      if (pose != origin)
+        covariance += pose_graph::relativeNoise(toPose(poses[at(origin)]).inverse() * track->map[i],
+                                                graph.ownNoise(refs[at(origin)]), graph.ownNoise(refs[at(pose)]));
+      made[s].push_back(covariance);
+    }
+  }
+  return made;
+}
+
+/// Errors that all lengths have in common, those of the rig's scale and of the disparity offset, are in no edge, and
+/// closures do not find them: measured by the same cameras, they are as much too long or too short. The map is known
+/// but for its scale (Schmidt's consider state). GPS fixes would show it.
+void addScale(GraphRun& run, const std::vector<const SessionOdometry*>& runs) {
+  double sigma = 0.0;
+  for (const SessionOdometry* each : runs) sigma = std::max(sigma, each->scale_sigma);
+  if (run.graph.fixUse().used > 0) return;
+  for (std::size_t s = 0; s < run.covariances.size(); ++s) {
+    const Track* track = run.graph.track(run.sessions[s]);
+    const Track* map = run.graph.track(run.sessions[run.findMap(s)]);
+    if (track == nullptr || map == nullptr || map->map.empty()) continue;
+    if (track->map.size() != run.covariances[s].size()) continue;
+    const Pose T_first_map = map->map.front().inverse();
+    for (std::size_t i = 0; i < track->map.size(); ++i) {
+      const Eigen::Vector3d path = sigma * (T_first_map * track->map[i]).t();
+      run.covariances[s][i].topLeftCorner<3, 3>() += path * path.transpose();
+    }
+  }
+}
+
+/// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a
+/// scale, is in odometry's own covariance alone.
+void leaveToOdometry(GraphRun& run, const std::vector<const SessionOdometry*>& runs) {
+  std::set<std::string> touched;
+  for (const auto& [id, closure] : run.graph.closures())
+    if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted)
+      touched.insert({closure.a.session, closure.b.session});
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    if (touched.count(run.sessions[s]) != 0 || run.covariances[s].size() != runs[s]->settled.size()) continue;
+    for (std::size_t i = 0; i < runs[s]->settled.size(); ++i)
+      run.covariances[s][i] = runs[s]->settled[i].T_odom_base.covariance;
+  }
+}
+
+/// What a user who asked for GPS should know of it.
+void addFixWarnings(const pose_graph::Parameters& parameters, GraphRun& run) {
+  if (!parameters.gps) return;
+  const pose_graph::FixUse& use = run.graph.fixUse();
+  const std::size_t all = use.used + use.rejected;
+  if (all == 0) {
+    run.warnings.emplace_back("pose_graph.gps: no GPS fix at the time of a pose; nothing was made of it");
+    return;
+  }
+  if (use.unplaced > 0)
+    run.warnings.push_back("pose_graph.gps: " + std::to_string(use.unplaced) + " of " +
+                           std::to_string(all + use.unplaced) +
+                           " GPS fixes are not used: there is no pose at their time");
+  if (kManyRejected * static_cast<double>(use.rejected) > static_cast<double>(all))
+    run.warnings.push_back("pose_graph.gps: " + std::to_string(use.rejected) + " of " + std::to_string(all) +
+                           " GPS fixes contradict odometry and closures; not used");
+  if (use.sigma_factor > kOptimistic)
+    run.warnings.push_back("pose_graph.gps: the receiver's standard deviations are too small by a factor of " +
+                           urban_nav_core::formatNumber(use.sigma_factor, 2));
+}
+
+/// As the graph has it: the first pose of a map is the identity there.
+Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
+  Trajectory made;
+  if (const Track* track = run.graph.track(run.sessions[session]))
+    for (std::size_t i = 0; i < track->stamps.size(); ++i) made.append(track->stamps[i], track->map[i]);
+  return made;
+}
+
+/// Mean covariance of the rotations of a session: as if all of them erred alike.
+Matrix3d meanRotationCovariance(const GraphRun& run, std::size_t session) {
+  Matrix3d rotations = Matrix3d::Zero();
+  for (const Matrix6d& covariance : run.covariances[session]) rotations += covariance.bottomRightCorner<3, 3>();
+  return rotations / static_cast<double>(std::max<std::size_t>(1, run.covariances[session].size()));
+}
+
+/// Sets the levels of maps that are not known yet, by the first session of each map whose `measured` direction is.
+template <typename Measured>
+void addLevels(const GraphRun& run, const std::vector<std::vector<Measured>>& measured, std::vector<Level>& levels) {
+  for (std::size_t s = 0; s < measured.size(); ++s) {
+    const std::size_t map = run.findMap(s);
+    const Track* track = run.graph.track(run.sessions[map]);
+    if (levels[map].known() || measured[s].empty() || track == nullptr || track->map.empty()) continue;
+    const Level level =
+        pose_graph::withRotations(pose_graph::estimateLevel(relaxedTrack(run, s), measured[s], track->map.front()),
+                                  meanRotationCovariance(run, s));
+    if (level.known() || s == map) levels[map] = level;
+  }
+}
+
+std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const SessionOdometry*>& runs,
+                                  const SessionGrounds& grounds) {
+  std::vector<Level> levels(runs.size());
+  std::vector<std::vector<urban_nav_core::SpecificForce>> forces;
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    forces.push_back(runs[s]->forces);
+    levels[s].sentence = relaxedTrack(run, s).empty() ? "the session has no two poses"
+                                                      : "no accelerometer was recorded, nor the ground seen";
+  }
+  addLevels(run, forces, levels);
+  addLevels(run, grounds, levels);
+  return levels;
+}
+
+}  // namespace
+
+std::size_t GraphRun::findMap(std::size_t session) const {
+  const Track* track = graph.track(sessions[session]);
+  if (track == nullptr) return session;
+  const std::size_t map = pose_graph::findMap(graph.tracks(), static_cast<std::size_t>(track - graph.tracks().data()));
+  return static_cast<std::size_t>(std::find(sessions.begin(), sessions.end(), graph.tracks()[map].session) -
+                                  sessions.begin());
+}
+
+std::size_t GraphRun::sessionsJoined() const {
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < sessions.size(); ++s) count += joined(s) ? 1 : 0;
+  return count;
+}
+
+VerdictCounts GraphRun::closureVerdicts() const { return countVerdicts(graph, false); }
+VerdictCounts GraphRun::planeVerdicts() const { return countVerdicts(graph, true); }
+
+Trajectory GraphRun::trajectory(std::size_t session) const {
+  const Trajectory track = relaxedTrack(*this, session);
+  const std::size_t map = findMap(session);
+  if (map >= levels.size() || !levels[map].known()) return track;
+  return transformed(pose_graph::levelling(levels[map], graph.track(sessions[map])->map.front()), track);
+}
+
+GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const SessionOdometry*>& runs,
+                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
+                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds, const SessionFixes& fixes,
+                  const PlaneFinder& find_planes) {
+  GraphRun made;
+  made.graph = PoseGraph(parameters);
+  made.sessions = sessions;
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    made.graph.beginSession(sessions[s]);
+    for (std::size_t i = 1; i < runs[s]->settled.size(); ++i)
+      made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
+    if (s < fixes.size()) made.graph.putFixes(sessions[s], fixes[s]);
+  }
+  const ClosureIds ids = importClosures(made, runs, closures, known);
+  const auto begin = Clock::now();
+  made.relaxed = relax(made.graph, runs);
+  made.ms = millisecondsSince(begin);
+  if (find_planes) relaxWithPlanes(made, runs, find_planes);
+  judge(made, ids, known.size());
+  addFixWarnings(parameters, made);
+  const auto relaxed = Clock::now();
+  made.covariances = computeCovariances(made.graph, sessions);
+  addScale(made, runs);
+  leaveToOdometry(made, runs);
+  made.ms_covariances = millisecondsSince(relaxed);
+  made.levels = estimateLevels(made, runs, grounds);
+  for (std::size_t s = 1; s < sessions.size(); ++s)
+    if (made.findMap(s) == s)
+      made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +
+                              (s == 1 ? sessions[0] : "one before it"));
+  const urban_nav_core::Status status = made.graph.status();
+  if (status.reason == static_cast<int>(pose_graph::Trouble::BrokenChain)) made.warnings.push_back(status.sentence);
+  return made;
+}
+
+}  // namespace urban_nav

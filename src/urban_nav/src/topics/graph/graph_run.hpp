@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "map/closures_file.hpp"
+#include "map/previous_sessions.hpp"
+#include "map/session_odometry.hpp"
+#include "pose_graph/ground_level.hpp"
+#include "pose_graph/marginals.hpp"
+#include "pose_graph/pose_graph.hpp"
+#include "topics/graph/previous_closures.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+
+namespace urban_nav {
+
+/// Verdicts on some of the edges that close loops.
+struct VerdictCounts {
+  std::size_t accepted = 0, rejected = 0, waiting = 0;
+  std::size_t all() const { return accepted + rejected + waiting; }
+};
+
+/// What planes that several passes measured added to the graph.
+struct PlaneUse {
+  bool searched = false;
+  std::size_t rounds = 0;  ///< relaxations with planes
+  std::size_t shared = 0;  ///< constraints that count for less: an accepted ICP closure rests on the same beams
+  double moved = 0.0;      ///< m, the largest distance by which they moved a pose within its map
+  double ms = 0.0;         ///< duration of the search and of the relaxations with what it found
+};
+
+/// Result of relaxing all sessions. Sessions are named as closures.csv names them.
+struct GraphRun {
+  pose_graph::PoseGraph graph{pose_graph::Parameters()};
+  pose_graph::Relaxed relaxed;
+  std::vector<std::string> sessions;  ///< names, in the order of the runs
+  std::vector<ClosureRow> closures;   ///< with their verdicts: those of previous runs, then those of the file
+  std::vector<std::string> warnings;
+  double ms = 0.0, ms_covariances = 0.0;  ///< durations of the relaxation and of the marginal covariances
+  PlaneUse planes;
+  /// Marginal covariances of T_first_base of each session's poses, as far as they are known; those of odometry where no
+  /// closure was accepted.
+  std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
+
+  /// Returns the first session in whose map a whole session lies; the session itself if it is joined to none before it.
+  std::size_t findMap(std::size_t session) const;
+  /// Returns whether a session lies in the map of the first session.
+  bool joined(std::size_t session) const { return findMap(session) == 0; }
+  std::size_t sessionsJoined() const;
+  /// Return the verdicts on closures; on constraints from planes, which are not among `closures`.
+  VerdictCounts closureVerdicts() const;
+  VerdictCounts planeVerdicts() const;
+  /// Gravity direction of the map that starts with a session, in the frame of its first pose: by the first of its
+  /// sessions with an accelerometer that tells it, otherwise by the ground that the first of them has seen. Default
+  /// values for sessions in the map of another one.
+  std::vector<pose_graph::Level> levels;
+  /// Returns the poses of a session in its map: origin and heading of the map's first pose, aligned with gravity where
+  /// its direction is known.
+  urban_nav_core::Trajectory trajectory(std::size_t session) const;
+};
+
+/// Normals of the ground of each session, in the order of the runs; empty: none.
+using SessionGrounds = std::vector<std::vector<pose_graph::GroundNormal>>;
+
+/// Fixes of satellite navigation of each session, in the order of the runs; empty: none.
+using SessionFixes = std::vector<std::vector<pose_graph::PositionFix>>;
+
+/// Constraints from planes of the lasers between poses of a relaxed graph.
+struct PlaneClosures {
+  std::vector<pose_graph::Closure> closures;  ///< of kind Plane; sessions as GraphRun::sessions names them
+  std::size_t shared = 0;  ///< found with less information: an accepted ICP closure rests on some of their beams
+};
+using PlaneFinder = std::function<PlaneClosures(const GraphRun&)>;
+
+/// Relaxes the smoothed odometry chains of the runs with the closures. A closure between two frames is carried to the
+/// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A closure in
+/// the file replaces a previous one between the same poses and of the same kind. The poses do not depend on the order
+/// of the closures, bit by bit. `find_planes`: called with the relaxed graph; what it finds takes part in a second
+/// relaxation, and, if that has moved the poses, what it finds then in a third one, in place of the first.
+GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const SessionOdometry*>& runs,
+                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
+                  const std::vector<PreviousClosure>& previous = {}, const SessionGrounds& grounds = {},
+                  const SessionFixes& fixes = {}, const PlaneFinder& find_planes = {});
+
+}  // namespace urban_nav

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/graph/graph.hpp"
+
+#include <algorithm>
+
+#include "base/plot.hpp"
+#include "laser_mapper/parameters.hpp"
+#include "map/closure_notes.hpp"
+#include "map/session_fixes.hpp"
+#include "pose_graph/ground_views.hpp"
+#include "topics/graph/graph_g2o.hpp"
+#include "topics/graph/graph_report.hpp"
+#include "topics/graph/graph_run.hpp"
+#include "topics/graph/graph_store_export.hpp"
+#include "topics/graph/graph_trajectories.hpp"
+#include "topics/graph/plane_closures.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_store/stored_fixes.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
+/// Returns the closures that the store holds between previous sessions and continued ones.
+std::vector<PreviousClosure> previousClosures(const MapContext& context) {
+  std::vector<urban_nav_store::SessionId> ids = context.previous.ids;
+  std::vector<std::string> names = context.previous.names;
+  for (std::size_t i = 0; i < context.sessions.size(); ++i) {
+    if (!context.sessions[i].continued) continue;
+    ids.push_back(context.sessions[i].id);
+    names.push_back(context.names[context.previous.names.size() + i]);
+  }
+  return closuresBetween(*context.store, ids, names);
+}
+
+/// Takes the constraints from planes out of closures of earlier runs.
+std::vector<pose_graph::Closure> takePlanes(std::vector<PreviousClosure>& closures) {
+  const auto is_other = [](const PreviousClosure& each) { return each.closure.kind != pose_graph::EdgeKind::Plane; };
+  const auto first = std::stable_partition(closures.begin(), closures.end(), is_other);
+  std::vector<pose_graph::Closure> planes;
+  for (auto each = first; each != closures.end(); ++each) planes.push_back(each->closure);
+  closures.erase(first, closures.end());
+  return planes;
+}
+
+/// Returns whether the stage loops has accepted a closure by ICP.
+bool anyMeasuredByIcp(const std::vector<ClosureRow>& closures) {
+  return std::any_of(closures.begin(), closures.end(),
+                     [](const ClosureRow& row) { return row.measured && row.kind == "icp"; });
+}
+
+/// Returns the normals of the ground that dense stereo has stored, over all sessions.
+SessionGrounds readGrounds(const MapContext& context) {
+  SessionGrounds grounds;
+  for (const urban_nav_store::SessionId& id : context.ids())
+    grounds.push_back(pose_graph::readGround(*context.store, id));
+  return grounds;
+}
+
+/// Returns the GPS fixes of all sessions that the store holds.
+SessionFixes readFixes(const MapContext& context) {
+  SessionFixes fixes;
+  for (const urban_nav_store::SessionId& id : context.ids())
+    fixes.push_back(urban_nav_store::readFixes(*context.store, id));
+  return fixes;
+}
+
+class GraphStage final : public Stage {
+ public:
+  Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(pose_graph::table());
+    parameters.add(urban_nav_registration::table());
+    parameters.add(laser_mapper::table());
+  }
+  Selection select(const MapOptions& options) const override {
+    if (!options.localise.empty()) return {false, "not with --localise", {}};
+    if (!isRequested(options, "graph")) return {false, "not in --stages", {}};
+    const bool measured = isRequested(options, "loops");  // which then describes them
+    return {true, "", measured ? std::vector<std::string>() : closureNotes(options, false)};
+  }
+
+  std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (usesGps(context)) storeFixes(context, start.session);
+    return nullptr;
+  }
+
+  Messages run(MapContext& context) override {
+    const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
+    const std::vector<const SessionOdometry*> runs = context.runs();
+    std::vector<PreviousClosure> previous = previousClosures(context);
+    const PlaneFinder find_planes = makePlaneFinder(context, takePlanes(previous));
+    const SessionGrounds grounds = readGrounds(context);
+    const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
+    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes);
+    if (anyMeasuredByIcp(context.closures)) {
+      std::vector<ClosureRow> by_stereo;
+      for (const ClosureRow& row : context.closures)
+        if (row.kind != "icp") by_stereo.push_back(row);
+      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous, grounds, fixes);
+      for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
+    }
+    exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
+    context.closures = run_->closures;
+    context.trajectories = relaxedTrajectories(*run_, std::move(context.trajectories));
+    context.relaxed = true;
+    return {describeRun(), run_->warnings};
+  }
+
+  StageResult result(const MapContext& context) const override {
+    StageResult made;
+    if (!run_) return made;
+    if (run_->relaxed.accepted > 0) made.method = "relaxed";
+    made.verdicts = graphVerdicts(*run_);
+    if (!run_->closures.empty() || run_->sessions.size() > 1)  // else the section repeats that of odometry
+      made.sections.push_back({report_place::map, graphSection(*run_, context.runs(), context.evaluations)});
+    made.files.push_back({"graph.g2o", [this] { return graphG2o(*run_); }});
+    for (std::size_t s = 1; s < context.names.size(); ++s) made.files.push_back({"graph" + fileSuffix(s) + ".g2o", {}});
+    made.summary = toJson(*run_, context.evaluations);
+    return made;
+  }
+
+ private:
+  static bool usesGps(const MapContext& context) { return context.options.parameters.get(pose_graph::table()).gps; }
+
+  /// Returns how to find constraints from planes: in the scans, or, without stage lasers, those that `earlier` runs
+  /// have found; empty: there are none.
+  static PlaneFinder makePlaneFinder(MapContext& context, std::vector<pose_graph::Closure> earlier) {
+    const laser_mapper::Parameters& parameters = context.options.parameters.get(laser_mapper::table());
+    if (!isRequested(context.options, "lasers")) {
+      if (earlier.empty()) return {};
+      return [earlier = std::move(earlier)](const GraphRun&) { return PlaneClosures{earlier, 0}; };
+    }
+    if (!parameters.constraints) return {};
+    const double half_length = context.options.parameters.get(urban_nav_registration::table()).cloud_half_length;
+    return [&parameters, &context, half_length](const GraphRun& run) {
+      return findPlaneClosures(parameters, *context.store, context.ids(), run, half_length);
+    };
+  }
+
+  std::vector<std::string> describeRun() const {
+    const pose_graph::Relaxed& relaxed = run_->relaxed;
+    const VerdictCounts closures = run_->closureVerdicts(), planes = run_->planeVerdicts();
+    const pose_graph::Level& level = run_->levels.front();
+    const pose_graph::FixUse& fixes = run_->graph.fixUse();
+    std::vector<std::string> lines = {
+        "graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(closures.all()) + " closures, " +
+            std::to_string(closures.accepted) + " accepted; cost " +
+            urban_nav_core::formatNumber(relaxed.cost_before, 5) + " -> " +
+            urban_nav_core::formatNumber(relaxed.cost_after, 5) + " in " + urban_nav_core::formatNumber(run_->ms, 3) +
+            " ms",
+        level.known()
+            ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
+                  " (sigma " + urban_nav_core::formatNumber(kDegreesPerRadian * level.sigma, 2) + " deg)"
+            : "map not aligned with gravity: " + level.sentence};
+    if (planes.all() + run_->planes.shared > 0)
+      lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
+                      std::to_string(planes.accepted) + " accepted" +
+                      (run_->planes.shared > 0 ? ", " + std::to_string(run_->planes.shared) +
+                                                     " discounted for ICP closures by the same beams"
+                                               : "") +
+                      "; poses moved by up to " + urban_nav_core::formatNumber(run_->planes.moved, 3) + " m in " +
+                      urban_nav_core::formatNumber(1e-3 * run_->planes.ms, 3) + " s");
+    if (fixes.used > 0)
+      lines.push_back("GPS: " + std::to_string(fixes.used) + " of " +
+                      std::to_string(fixes.used + fixes.rejected + fixes.unplaced) +
+                      " fixes used, poses moved by up to " + urban_nav_core::formatNumber(fixes.moved, 3) + " m");
+    return lines;
+  }
+
+  std::optional<GraphRun> run_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> makeGraphStage() { return std::make_unique<GraphStage>(); }
+
+}  // namespace urban_nav

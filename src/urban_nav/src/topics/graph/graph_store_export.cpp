@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/graph/graph_store_export.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "pose_graph/stored_graph.hpp"
+
+namespace urban_nav {
+
+using pose_graph::Track;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+using urban_nav_store::SessionId;
+using urban_nav_store::Store;
+
+namespace {
+
+SessionId toId(const GraphRun& run, const std::vector<SessionId>& ids, const std::string& name) {
+  const auto place = std::find(run.sessions.begin(), run.sessions.end(), name);
+  return ids[static_cast<std::size_t>(place - run.sessions.begin())];
+}
+
+/// The row as it was offered, and what its stage says of it.
+std::string toEvidence(const ClosureRow& row) {
+  return printClosures({row}) + (row.measured ? row.measured->evidence : "");
+}
+
+/// A candidate without a transform: there for its evidence alone.
+void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const ClosureRow& row) {
+  const auto known = [&](const std::string& name) {
+    return std::find(run.sessions.begin(), run.sessions.end(), name) != run.sessions.end();
+  };
+  if (!known(row.session_a) || !known(row.session_b)) return;
+  Edge edge;
+  edge.a = {toId(run, ids, row.session_a), row.stamp_a};
+  edge.b = {toId(run, ids, row.session_b), row.stamp_b};
+  edge.kind = row.measured->method == urban_nav_core::ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
+  edge.source = row.where;
+  edge.measured.T_a_b = row.measured->measured.T_a_b;
+  edge.weight = 0.0;
+  edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
+  edge.reason = row.reason;
+  store.graph().put(edge);
+  store.graph().putEvidence(edge, toEvidence(row));
+}
+
+void removeClosures(Store& store, const SessionId& id) {
+  std::vector<Edge> earlier;
+  store.graph().forEachEdge(id, [&](const Edge& edge) {
+    if (edge.kind != EdgeKind::Odometry && edge.kind != EdgeKind::Asserted) earlier.push_back(edge);
+  });
+  for (const Edge& edge : earlier) store.graph().remove(edge);
+}
+
+}  // namespace
+
+void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
+  revision += run.relaxed.revision;
+  for (std::size_t s = 0; s < ids.size(); ++s) {
+    removeClosures(store, ids[s]);
+    const Track* track = run.graph.track(run.sessions[s]);
+    if (track == nullptr || track->stamps.empty()) continue;
+    const urban_nav_core::Trajectory trajectory = run.trajectory(s);
+    for (const urban_nav_core::StampedPose& pose : trajectory)
+      store.graph().put(ids[s], urban_nav_store::RelaxedPose{pose.stamp, pose.pose, revision});
+    store.sessions().put(urban_nav_store::Anchor{ids[s], ids[run.findMap(s)], revision,
+                                                 trajectory.front().pose * track->odom.front().inverse()});
+  }
+  std::map<pose_graph::ClosureId, const ClosureRow*> rows;
+  for (const ClosureRow& row : run.closures) rows[row.id] = &row;
+  for (const auto& [id, closure] : run.graph.closures()) {
+    Edge edge = pose_graph::toEdge(closure);
+    edge.a.session = toId(run, ids, closure.a.session);
+    edge.b.session = toId(run, ids, closure.b.session);
+    store.graph().put(edge);
+    const auto row = rows.find(id);
+    if (row != rows.end()) store.graph().putEvidence(edge, toEvidence(*row->second));
+  }
+  for (const ClosureRow& row : run.closures)
+    if (row.id == 0 && row.measured) putRejected(store, run, ids, row);
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/labels/class_colours.hpp"
+
+#include <array>
+
+namespace urban_nav {
+namespace {
+
+struct NamedColour {
+  ClassColour colour;
+  const char* name;
+};
+
+// By the number of the class; apart in lightness as well, for readers who do not see red and green apart.
+constexpr std::array<NamedColour, scene_labeler::class_count> class_colours = {{{{110, 90, 140}, "violet"},
+                                                                                {{150, 220, 90}, "light green"},
+                                                                                {{190, 190, 190}, "light grey"},
+                                                                                {{200, 140, 60}, "brown"},
+                                                                                {{220, 70, 50}, "red"},
+                                                                                {{250, 190, 170}, "pink"},
+                                                                                {{20, 110, 50}, "dark green"},
+                                                                                {{40, 100, 230}, "blue"},
+                                                                                {{220, 70, 50}, "red"}}};
+
+}  // namespace
+
+ClassColour classColour(scene_labeler::SceneClass label) {
+  return label == scene_labeler::SceneClass::None ? ClassColour{60, 60, 60} : class_colours[toIndex(label)].colour;
+}
+
+std::string classColourNames() {
+  std::string names;
+  for (std::size_t k = 0; k < class_colours.size(); ++k)
+    names += std::string(k == 0 ? "" : ", ") + toString(static_cast<scene_labeler::SceneClass>(k)) + " " +
+             class_colours[k].name;
+  return names;
+}
+
+}  // namespace urban_nav

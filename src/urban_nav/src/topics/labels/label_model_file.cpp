@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/labels/label_model_file.hpp"
+
+#include "urban_nav_core/io/text_file.hpp"
+
+namespace urban_nav {
+
+NamedLabelModel readLabelModel(const std::string& path) {
+  if (path == "default")
+    return {scene_labeler::defaultModel(), scene_labeler::modelDigest(scene_labeler::defaultModelBytes())};
+  const std::string bytes = urban_nav_core::readTextFile(path);
+  return {scene_labeler::parseModel(bytes, path), scene_labeler::modelDigest(bytes)};
+}
+
+}  // namespace urban_nav

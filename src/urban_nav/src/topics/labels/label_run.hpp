@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "scene_labeler/labelling/labeler.hpp"
+#include "topics/labels/scene_files.hpp"
+
+namespace urban_nav {
+
+/// What labelling some scenes took and gave.
+struct LabelRun {
+  std::size_t frames = 0, points = 0, labelled = 0, unsure = 0;
+  std::size_t new_place_frames = 0;  ///< of a kind of place that the model was not trained in
+  double seconds = 0.0;              ///< of labelling, without files
+  std::vector<double> milliseconds;  ///< of each scene
+  bool has_look = false;             ///< whether any scene has an image
+
+  /// `frames`, `points`, `ms_per_frame_median`, `us_per_point`, `modalities`, `unsure_share`,
+  /// `new_place_frames`.
+  Json toJson() const;
+};
+
+/// Labels scenes one after another, calls take(index, labels), and adds what that took to `run`.
+void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
+                 Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take,
+                 LabelRun& run);
+
+/// Returns the names of the columns of probabilities: ",p_grass,p_paved".
+std::string printClassColumns(const std::vector<scene_labeler::SceneClass>& classes);
+/// Appends ",label,probability,p_...,unsure" of a return and ends the line.
+void appendLabelCells(const scene_labeler::SceneLabels& labels, std::size_t i, std::string& text);
+
+/// Returns NAME_labels.csv: `index,label,probability,p_CLASS...,unsure`, one row per return.
+std::string printSceneLabels(const scene_labeler::SceneLabels& labels);
+
+}  // namespace urban_nav

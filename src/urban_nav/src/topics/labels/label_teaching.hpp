@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/console.hpp"
+#include "scene_labeler/class_map.hpp"
+#include "scene_labeler/training/teaching.hpp"
+#include "topics/labels/label_sources.hpp"
+
+namespace urban_nav {
+
+/// What `labels train` takes from a model and from corrections by hand.
+class LabelTeaching {
+ public:
+  /// Reads the options --add, --corrections and --features. Throws UserError for a file that is no model, a model
+  /// without samples or of other features, corrections without a model, and a command with nothing to learn.
+  explicit LabelTeaching(const Arguments& arguments);
+
+  /// Returns the model that training continues from; nullptr without --add.
+  const scene_labeler::LabelModel* base() const { return base_ ? &*base_ : nullptr; }
+  scene_labeler::FeatureSet features() const { return features_; }
+  /// Returns the device of the reflectance in the model and the sources together.
+  std::string device(const LabelSources& sources) const;
+  /// Returns the samples of the model; empty without --add.
+  std::vector<scene_labeler::TrainingFold> folds() const;
+  /// Adds the corrections to `folds`: an edited scene, or clicks in bags (LabelClicks). Throws UserError for a file
+  /// without labels or with an unknown one, DataError if nothing is corrected.
+  void addCorrections(const scene_labeler::ClassMap& map, const DriveOptions& options, Console& console,
+                      std::vector<scene_labeler::TrainingFold>& folds) const;
+
+ private:
+  void addClicks(const DriveOptions& options, Console& console, std::vector<scene_labeler::TrainingFold>& folds) const;
+
+  std::optional<scene_labeler::LabelModel> base_;
+  scene_labeler::FeatureSet features_ = scene_labeler::FeatureSet::All;
+  std::string corrections_;
+};
+
+}  // namespace urban_nav

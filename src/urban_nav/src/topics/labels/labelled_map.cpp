@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/labels/labelled_map.hpp"
+
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "laser_mapper/map_files.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using scene_labeler::PointLabel;
+using scene_labeler::SceneClass;
+using urban_nav_core::PlyType;
+
+namespace {
+
+constexpr const char* labels_state = "scene_labeler/map";
+constexpr const char* labels_seal = "labels of a map";
+constexpr std::uint32_t labels_version = 1;
+constexpr std::size_t label_bytes = 3;  // class, probability, unsure
+
+/// Returns the class of a label in LAS files: those of the ASPRS, and 64 for vehicles.
+std::uint8_t lasClassification(SceneClass label) {
+  switch (label) {
+    case SceneClass::Paved: return 11;    // road surface
+    case SceneClass::Grass: return 3;     // low vegetation
+    case SceneClass::DirtPath: return 2;  // ground
+    case SceneClass::TexturedWall:
+    case SceneClass::SmoothWall:
+    case SceneClass::Wall: return 6;      // building
+    case SceneClass::Foliage: return 5;   // high vegetation
+    case SceneClass::Vehicle: return 64;  // first of the user's own
+    default: return 1;                    // unclassified
+  }
+}
+
+/// Properties and comments that labels add to the layout of a map.
+urban_nav_core::PlyLayout labelLayout() {
+  urban_nav_core::PlyLayout layout;
+  layout.properties.push_back({"label", PlyType::UChar});
+  layout.properties.push_back({"label_probability", PlyType::Float});
+  layout.properties.push_back({"unsure", PlyType::UChar});
+  std::string classes = "label";
+  for (std::size_t k = 0; k < scene_labeler::class_count; ++k)
+    classes += " " + std::to_string(k) + " " + toString(static_cast<SceneClass>(k)) + ",";
+  layout.comments.push_back(classes + " 255 none");
+  return layout;
+}
+
+}  // namespace
+
+urban_nav_core::PlyLayout labelledMapLayout() {
+  urban_nav_core::PlyLayout layout = laser_mapper::mapLayout();
+  const urban_nav_core::PlyLayout labels = labelLayout();
+  layout.properties.insert(layout.properties.end(), labels.properties.begin(), labels.properties.end());
+  layout.comments.insert(layout.comments.end(), labels.comments.begin(), labels.comments.end());
+  return layout;
+}
+
+void appendPointLabel(std::string& bytes, const PointLabel& label) {
+  urban_nav_core::appendLittleEndian(bytes, static_cast<std::uint8_t>(label.label));
+  urban_nav_core::appendLittleEndian(bytes, static_cast<float>(label.probability) / 255.0F);
+  urban_nav_core::appendLittleEndian(bytes, static_cast<std::uint8_t>(label.is_unsure ? 1 : 0));
+}
+
+void MapPointsDigest::add(const std::vector<laser_mapper::MapPoint>& points) {
+  for (const laser_mapper::MapPoint& point : points)
+    for (const float value : {point.p.x(), point.p.y(), point.p.z()}) {
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, &value, sizeof bits);
+      hash_ = (hash_ ^ bits) * 0x100000001b3U;
+    }
+}
+
+void storeMapLabels(urban_nav_store::Store& store, const urban_nav_store::SessionId& first,
+                    const MapPointsDigest& digest, const std::vector<PointLabel>& labels) {
+  urban_nav_core::Archive archive;
+  std::int64_t hash = digest.value();
+  std::string bytes;
+  bytes.reserve(label_bytes * labels.size());
+  for (const PointLabel& label : labels) {
+    bytes += static_cast<char>(label.label);
+    bytes += static_cast<char>(label.probability);
+    bytes += static_cast<char>(label.is_unsure ? 1 : 0);
+  }
+  archive(hash, bytes);
+  store.states().put(first, labels_state, urban_nav_core::seal(labels_seal, labels_version, archive.take()));
+  store.commit();
+}
+
+std::optional<std::vector<PointLabel>> storedMapLabels(urban_nav_store::Store& store,
+                                                       const urban_nav_store::SessionId& first,
+                                                       const laser_mapper::LaserMap& map) {
+  const auto state = store.states().get(first, labels_state);
+  if (!state) return std::nullopt;
+  std::int64_t hash = 0;
+  std::string bytes;
+  try {
+    urban_nav_core::Archive archive(urban_nav_core::unseal(labels_seal, labels_version, *state), labels_seal);
+    archive(hash, bytes);
+    archive.finish();
+  } catch (const urban_nav_core::DataError&) {  // of another version
+    return std::nullopt;
+  }
+  MapPointsDigest digest;
+  std::size_t points = 0;
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<laser_mapper::MapPoint>& tile) {
+    digest.add(tile);
+    points += tile.size();
+  });
+  if (digest.value() != hash || bytes.size() != label_bytes * points) return std::nullopt;
+  std::vector<PointLabel> labels(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes[label_bytes * i + k]); };
+    const bool is_class = byte(0) < scene_labeler::class_count;
+    labels[i] = {is_class ? static_cast<SceneClass>(byte(0)) : SceneClass::None, byte(1), byte(2) != 0};
+  }
+  return labels;
+}
+
+std::optional<PointAttributes> labelAttributes(urban_nav_store::Store& store, const urban_nav_store::SessionId& first,
+                                               const laser_mapper::LaserMap& map) {
+  std::optional<std::vector<PointLabel>> stored = storedMapLabels(store, first, map);
+  if (!stored) return std::nullopt;
+  const auto labels = std::make_shared<const std::vector<PointLabel>>(std::move(*stored));
+  PointAttributes attributes;
+  attributes.ply = labelLayout();
+  attributes.las = {"label", urban_nav_core::LasAttribute::Type::UChar, "class of scene_labeler"};
+  attributes.append_ply = [labels](std::size_t point, std::string& bytes) {
+    appendPointLabel(bytes, labels->at(point));
+  };
+  attributes.append_las = [labels](std::size_t point, std::string& bytes) {
+    bytes += static_cast<char>(labels->at(point).label);
+  };
+  attributes.las_classification = [labels](std::size_t point) { return lasClassification(labels->at(point).label); };
+  return attributes;
+}
+
+}  // namespace urban_nav

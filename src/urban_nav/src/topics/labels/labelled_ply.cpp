@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/labels/labelled_ply.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include "laser_mapper/map_files.hpp"
+#include "topics/labels/labelled_map.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+constexpr std::size_t vertices_at_once = 65536;
+
+/// Reads up to the line end_header; fewer bytes if there is no such line among the first 64.
+std::string readHeader(std::istream& file) {
+  std::string header, line;
+  for (int i = 0; i < 64 && std::getline(file, line); ++i) {
+    header += line + "\n";
+    if (line == "end_header") break;
+  }
+  return header;
+}
+
+std::string withoutComments(const std::string& header) {
+  std::string kept;
+  urban_nav_core::forEachLine(header, [&](std::string_view line, int) {
+    if (line.substr(0, 7) != "comment") kept += std::string(line) + "\n";
+  });
+  return kept;
+}
+
+}  // namespace
+
+void addLabelsToPly(const std::string& path, const std::vector<scene_labeler::PointLabel>& labels) {
+  const urban_nav_core::PlyLayout layout = laser_mapper::mapLayout();
+  const std::size_t vertex = layout.vertexBytes();
+  std::ifstream file(path, std::ios::binary);
+  if (withoutComments(readHeader(file)) != withoutComments(urban_nav_core::plyHeader(layout, labels.size())))
+    throw urban_nav_core::DataError(path, "is not the map of this run", "map.ply of stage lasers");
+  urban_nav_core::PlyWriter writer(path, labelledMapLayout());
+  for (std::size_t begin = 0; begin < labels.size(); begin += vertices_at_once) {
+    const std::size_t count = std::min(vertices_at_once, labels.size() - begin);
+    std::string block(count * vertex, '\0'), made;
+    if (!file.read(block.data(), static_cast<std::streamsize>(block.size())))
+      throw urban_nav_core::DataError(path, "ends too early", "a whole map.ply");
+    for (std::size_t i = 0; i < count; ++i) {
+      made.append(block, i * vertex, vertex);
+      appendPointLabel(made, labels[begin + i]);
+    }
+    writer.append(made);
+  }
+  writer.commit();
+}
+
+}  // namespace urban_nav

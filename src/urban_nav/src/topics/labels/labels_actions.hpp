@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "topics/labels/labels.hpp"
+
+namespace urban_nav {
+
+/// Actions of `urban_nav labels` beside train.
+Command labelsApplyAction(const OdometryRunner& run_odometry);
+Command labelsEvaluateAction(const OdometryRunner& run_odometry);
+
+}  // namespace urban_nav

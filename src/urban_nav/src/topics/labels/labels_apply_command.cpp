@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "base/parameters.hpp"
+#include "scene_labeler/class_map.hpp"
+#include "scene_labeler/parameters.hpp"
+#include "topics/labels/label_drive.hpp"
+#include "topics/labels/label_model_file.hpp"
+#include "topics/labels/label_score.hpp"
+#include "topics/labels/label_sources.hpp"
+#include "topics/labels/labels_actions.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using scene_labeler::ClassMap;
+
+namespace {
+
+std::string labelsHelp(const Arguments& arguments) { return stageHelp(arguments, scene_labeler::table().stage()); }
+
+void writeLabelImage(const cv::Mat& image, const std::string& path) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", image, bytes);
+  urban_nav_core::writeAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void warnOfNewPlace(const LabelRun& run, Console& console) {
+  const std::string warning = scene_labeler::newPlaceWarning(run.new_place_frames, run.frames);
+  if (!warning.empty()) console.warn(warning);
+}
+
+/// Labels a bag into two files, which appear when both are complete.
+void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
+                const std::filesystem::path& folder, Console& console, LabelRun& run) {
+  std::filesystem::create_directories(folder);
+  urban_nav_core::AtomicFile left((folder / "laser_left_labels.csv").string()),
+      right((folder / "laser_right_labels.csv").string());
+  for (urban_nav_core::AtomicFile* file : {&left, &right}) file->write(printDriveHeader(model.classes));
+  labelDrive(
+      model, bag, options, console,
+      [&](DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
+          const scene_labeler::SceneLabels& labels) {
+        (side == DriveSide::Left ? left : right).write(printDriveLabels(returns, labels));
+      },
+      run);
+  left.commit();
+  right.commit();
+}
+
+int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
+  const ParameterSet parameters = loadParameters(arguments);
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL")).model;
+  const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
+  const std::vector<SceneFiles>& scenes = sources.scenes;
+  for (std::size_t i = 1; i < scenes.size(); ++i)
+    if (scenes[i].name == scenes[i - 1].name)
+      throw urban_nav_core::UserError(scenes[i].points, "has the name of " + scenes[i - 1].points,
+                                      "one scene of each name, since DIR holds NAME_labels.csv");
+  const std::filesystem::path folder(arguments.get("output"));
+  std::filesystem::create_directories(folder);
+  LabelRun run;
+  for (std::size_t i = 0; i < sources.bags.size(); ++i)
+    applyToBag(model, sources.bags[i], sources.drives[i],
+               sources.bags.size() == 1 ? folder : folder / std::filesystem::path(sources.bags[i]).stem(), console,
+               run);
+  labelScenes(
+      model, scenes, parameters.get(scene_labeler::table()).superpixel, console,
+      [&](std::size_t i, const scene_labeler::SceneLabels& labels) {
+        const std::string base = (folder / (scenes[i].name + "_labels")).string();
+        urban_nav_core::writeAtomically(base + ".csv", printSceneLabels(labels));
+        if (!labels.image.empty()) writeLabelImage(labels.image, base + ".png");
+      },
+      run);
+  console.info(std::to_string(run.labelled) + " of " + std::to_string(run.points) + " points in " +
+               std::to_string(run.frames) + " scenes are labelled, " + std::to_string(run.unsure) + " of them unsure" +
+               (run.has_look ? "" : "; without images: by shape only"));
+  warnOfNewPlace(run, console);
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), run.toJson().print());
+  return 0;
+}
+
+/// Truth of the sources, read before anything is labelled.
+struct SourceTruth {
+  std::vector<std::array<DriveTruth, 2>> drives;
+  std::vector<std::vector<scene_labeler::SceneClass>> scenes;
+};
+
+SourceTruth readSourceTruth(const LabelSources& sources, const ClassMap& map) {
+  SourceTruth truth;
+  for (const std::string& bag : sources.bags)
+    truth.drives.push_back({DriveTruth(DriveTruth::path(bag, DriveSide::Left), map),
+                            DriveTruth(DriveTruth::path(bag, DriveSide::Right), map)});
+  for (const SceneFiles& files : sources.scenes)
+    truth.scenes.push_back(map.toClasses(readSceneLabels(files), files.points));
+  return truth;
+}
+
+/// Returns whether kinds of wall are not told apart, by the model or by a scene.
+bool hasOneWall(const scene_labeler::LabelModel& model, const SourceTruth& truth) {
+  const auto holds = [](const std::vector<scene_labeler::SceneClass>& classes) {
+    return std::find(classes.begin(), classes.end(), scene_labeler::SceneClass::Wall) != classes.end();
+  };
+  return holds(model.classes) || std::any_of(truth.scenes.begin(), truth.scenes.end(), holds);
+}
+
+int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
+  const ParameterSet parameters = loadParameters(arguments);
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL")).model;
+  const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
+  const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
+  const SourceTruth truth = readSourceTruth(sources, map);
+  LabelScore score(hasOneWall(model, truth));
+  LabelRun run;
+  for (std::size_t i = 0; i < sources.bags.size(); ++i)
+    labelDrive(
+        model, sources.bags[i], sources.drives[i], console,
+        [&](DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
+            const scene_labeler::SceneLabels& labels) {
+          std::vector<scene_labeler::SceneClass> expected;
+          for (const scene_labeler::DriveReturn& one : returns)
+            expected.push_back(truth.drives[i][static_cast<std::size_t>(side)].at(one.scan, one.beam));
+          score.add(labels, expected);
+        },
+        run);
+  labelScenes(
+      model, sources.scenes, parameters.get(scene_labeler::table()).superpixel, console,
+      [&](std::size_t i, const scene_labeler::SceneLabels& labels) { score.add(labels, truth.scenes[i]); }, run);
+  if (score.points() == 0)
+    throw urban_nav_core::DataError("SRC", "no point has a label to compare with", "labelled scenes");
+  console.print(score.print());
+  warnOfNewPlace(run, console);
+  if (arguments.has("json")) {
+    Json json = run.toJson();
+    score.addTo(json);
+    urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+  }
+  return 0;
+}
+
+std::vector<Option> modelAndScenes() {
+  return {{"MODEL", "", "model of labels train", true, false, {}},
+          {"SRC", "", "bags, folders of scenes NAME_points.{csv,ply}[.gz], or such files", true, true, {}}};
+}
+
+void addCommonLabelOptions(Command& action) {
+  for (const Option& option : {jsonOption(), configOption(), setOption(), threadsOption()})
+    action.options.push_back(option);
+  for (const Option& option : driveCommandOptions()) action.options.push_back(option);
+  action.more_help = labelsHelp;
+}
+
+}  // namespace
+
+Command labelsApplyAction(const OdometryRunner& run_odometry) {
+  Command action;
+  action.name = "apply";
+  action.summary = "Labels every laser return of scenes with a class, its probability, and whether that is unsure.";
+  action.options = modelAndScenes();
+  action.options.push_back({"-o,--output",
+                            "DIR",
+                            "folder for NAME_labels.csv and, for scenes with an image, NAME_labels.png; of a bag "
+                            "laser_{left,right}_labels.csv",
+                            true,
+                            false,
+                            {}});
+  addCommonLabelOptions(action);
+  action.examples = {"urban_nav labels apply street.labels scenes -o labelled"};
+  action.run = [run_odometry](const Arguments& arguments, Console& console) {
+    return runLabelsApply(run_odometry, arguments, console);
+  };
+  return action;
+}
+
+Command labelsEvaluateAction(const OdometryRunner& run_odometry) {
+  Command action;
+  action.name = "evaluate";
+  action.summary = "Compares the labels of a model with those in scenes.";
+  action.options = modelAndScenes();
+  action.options.push_back(
+      {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}});
+  addCommonLabelOptions(action);
+  action.examples = {"urban_nav labels evaluate street.labels scenes --classes classes.csv"};
+  action.run = [run_odometry](const Arguments& arguments, Console& console) {
+    return runLabelsEvaluate(run_odometry, arguments, console);
+  };
+  return action;
+}
+
+}  // namespace urban_nav

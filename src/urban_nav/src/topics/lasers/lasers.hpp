@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "map/stage.hpp"
+#include "topics/lasers/session_calibration.hpp"
+
+namespace urban_nav {
+
+/// Calibrations of the sessions of a run along odometry, which stage calibration finds and stage lasers uses.
+using SharedCalibrations = std::shared_ptr<std::vector<SessionCalibration>>;
+
+/// Returns the stage calibration, with --calibrate: calibrates the lasers of each session along its odometry, before
+/// closures are measured with them. Stage lasers does so once more along the relaxed trajectory. Appends to
+/// `calibrations`.
+std::unique_ptr<Stage> makeCalibrationStage(SharedCalibrations calibrations);
+
+/// Returns the stage that renders the laser scans of all sessions along their trajectories into map.ply.
+/// `along_odometry`: what stage calibration of the same run appends to.
+std::unique_ptr<Stage> makeLasersStage(SharedCalibrations along_odometry);
+
+}  // namespace urban_nav

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/lasers/lasers_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "base/command_parameters.hpp"
+#include "laser_mapper/map_files.hpp"
+#include "laser_mapper/map_picture.hpp"
+#include "map/stage_result.hpp"
+#include "topics/lasers/map_colour.hpp"
+#include "topics/lasers/map_viewer.hpp"
+
+namespace urban_nav {
+
+using laser_mapper::LaserMap;
+using laser_mapper::MapPicture;
+using laser_mapper::MapPoint;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr double kShownMargin = 25.0;  // m around the path in the view from above, before it is cut to what it shows
+constexpr int kLongestPicture = 2000, kPictureWidth = 1400, kPictureHeight = 800;  // px
+constexpr double kPathStep = 0.25;                                                 // m
+constexpr double kImageMemoryShare = 0.1;                                          // of memory_mb
+constexpr std::size_t kSigmaBins = 4096;
+constexpr float kSigmaBin = 1e-4F;  // m
+
+std::vector<urban_nav_core::Vector3d> thinnedPath(const Trajectory& trajectory) {
+  std::vector<urban_nav_core::Vector3d> path;
+  for (const urban_nav_core::StampedPose& pose : trajectory)
+    if (path.empty() || (pose.pose.t() - path.back()).norm() > kPathStep) path.push_back(pose.pose.t());
+  return path;
+}
+
+PagePicture pagePicture(const MapPicture& drawn, const std::string& caption) {
+  const urban_nav_registration::Picture picture = drawn.finish(drawn.shownBox());
+  return {caption, urban_nav_registration::encodeJpeg(picture), picture.width, picture.height};
+}
+
+/// Histogram of the points' sigmas.
+class SigmaHistogram {
+ public:
+  void add(float sigma) {
+    ++bins_[std::min(kSigmaBins - 1, static_cast<std::size_t>(sigma / kSigmaBin))];
+    ++all_;
+  }
+  double median() const {
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < kSigmaBins; ++i) {
+      below += bins_[i];
+      if (2 * below >= all_ && all_ > 0) return (static_cast<double>(i) + 0.5) * static_cast<double>(kSigmaBin);
+    }
+    return 0.0;
+  }
+
+ private:
+  std::vector<std::size_t> bins_ = std::vector<std::size_t>(kSigmaBins, 0);
+  std::size_t all_ = 0;
+};
+
+/// Shows the surface of a map to its colouriser; returns the number of views.
+std::size_t prepareColours(const LaserMap& map, laser_mapper::Colouriser& colouriser) {
+  map.forEachTile(
+      [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser.addSurface(points); });
+  colouriser.equalise();
+  return colouriser.views();
+}
+
+/// `make_colouriser`: called when the map is rendered.
+LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_mapper::Colouriser>()>& make_colouriser,
+                      std::size_t first_session, const std::vector<const Trajectory*>& trajectories,
+                      const MapContext& context) {
+  LaserMapRun run;
+  run.map = first_session;
+  run.file = "map" + fileSuffix(first_session) + ".ply";
+  Progress bar(context.console, "lasers", "chunks", 0);
+  run.rendered = map.render([&](std::size_t done, std::size_t) { bar.update(static_cast<std::int64_t>(done)); });
+  bar.finish(static_cast<std::int64_t>(run.rendered.chunks));
+  const std::unique_ptr<laser_mapper::Colouriser> colouriser = make_colouriser();
+  if (colouriser != nullptr) run.views = prepareColours(map, *colouriser);
+  std::vector<std::vector<urban_nav_core::Vector3d>> paths;
+  std::vector<urban_nav_core::Vector3d> all;
+  for (const Trajectory* trajectory : trajectories) {
+    paths.push_back(thinnedPath(*trajectory));
+    all.insert(all.end(), paths.back().begin(), paths.back().end());
+  }
+  const laser_mapper::MapQuality quality(map);
+  run.walls = quality.walls();
+  run.ground = quality.ground();
+  if (!quality.places().empty()) run.quality_csv = quality.printCsv();
+  MapPicture above(laser_mapper::viewFromAbove(all, kShownMargin, kLongestPicture));
+  MapPicture perspective(laser_mapper::viewInPerspective(all, kPictureWidth, kPictureHeight));
+  urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
+                                 laser_mapper::mapLayout());
+  SigmaHistogram sigmas;
+  MapViewer viewer(first_session);
+  run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
+    if (colouriser != nullptr) run.coloured += colouriser->colour(points);
+    std::string bytes;
+    for (const MapPoint& point : points) {
+      appendVertex(bytes, point);
+      if (point.laser == 255) ++run.stereo;
+      else sigmas.add(point.sigma);
+    }
+    file.append(bytes);
+    above.draw(points);
+    perspective.draw(points);
+    for (MapPoint& point : points) point.displacement = quality.displacementAt(point.p).value_or(-1.0F);
+    viewer.add(points);
+  });
+  run.points = file.vertices();
+  run.sigma_median = sigmas.median();
+  file.commit();
+  for (const auto& path : paths) {
+    above.drawPath(path);
+    viewer.addPath(path);
+  }
+  run.viewer = viewer.render();
+  if (run.points > 0) {
+    run.pictures.push_back(pagePicture(above, "The map from above, the path of the robot in red."));
+    run.pictures.push_back(pagePicture(perspective, "The map in perspective."));
+  }
+  for (const laser_mapper::SessionPasses& passes : map.passes()) run.passes += passes.begins.size();
+  return run;
+}
+
+/// Calibrates the lasers of a session of this run if that is asked for. Previous sessions keep what their own runs have
+/// adopted. What stage calibration has found stands where no relaxation has changed the trajectory since.
+void calibrateForMap(const laser_mapper::Parameters& parameters, std::size_t session, const MapContext& context,
+                     const std::vector<SessionCalibration>& along_odometry, LasersRun& run) {
+  if (!context.options.calibrate || session < context.previous.runs.size()) return;
+  const auto found = std::find_if(along_odometry.begin(), along_odometry.end(),
+                                  [&](const SessionCalibration& each) { return each.number == session; });
+  if (found != along_odometry.end() && !context.relaxed) run.calibrations.push_back(*found);
+  else run.calibrations.push_back(calibrateSession(parameters, session, context));
+}
+
+/// Calibrates the panoramas of sessions whose lasers have been calibrated, by the map that these have made.
+void calibrateViews(const std::vector<std::size_t>& sessions, const LaserMap& map,
+                    const std::vector<laser_mapper::MappedSession>& mapped, MapContext& context, LasersRun& run) {
+  for (SessionCalibration& calibration : run.calibrations) {
+    if (std::find(sessions.begin(), sessions.end(), calibration.number) == sessions.end()) continue;
+    for (const laser_mapper::MappedSession& session : mapped) {
+      if (session.id != context.ids()[calibration.number]) continue;
+      const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[calibration.number]);
+      calibration.panorama = calibratePanoramas(*context.store, session, odometry, map);
+      if (calibration.panorama) laser_mapper::storeViewCalibration(*context.store, session.id, *calibration.panorama);
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t LasersRun::points() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.points;
+  return all;
+}
+
+std::size_t LasersRun::coloured() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.coloured;
+  return all;
+}
+
+std::size_t LasersRun::stereo() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.stereo;
+  return all;
+}
+
+std::size_t LasersRun::chunksRendered() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.rendered.chunks_rendered;
+  return all;
+}
+
+std::size_t LasersRun::ghostBeams() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.ghost_beams;
+  return all;
+}
+
+laser_mapper::QualityFigures LasersRun::walls() const {
+  laser_mapper::QualityFigures all;
+  for (const LaserMapRun& map : maps) all = all + map.walls;
+  return all;
+}
+
+laser_mapper::QualityFigures LasersRun::ground() const {
+  laser_mapper::QualityFigures all;
+  for (const LaserMapRun& map : maps) all = all + map.ground;
+  return all;
+}
+
+laser_mapper::BeamCounts LasersRun::beams() const {
+  laser_mapper::BeamCounts all;
+  for (const LaserMapRun& map : maps) all = all + map.rendered.beams;
+  return all;
+}
+
+SessionCalibration calibrateSession(const laser_mapper::Parameters& parameters, std::size_t session,
+                                    const MapContext& context) {
+  const urban_nav_store::SessionId id = context.ids()[session];
+  const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[session]);
+  SessionCalibration calibration;
+  calibration.number = session;
+  calibration.session = context.names[session];
+  calibration.found = laser_mapper::calibrateLasers(parameters, *context.store, id,
+                                                    context.trajectories[session].T_map_base, &odometry);
+  laser_mapper::storeCalibration(*context.store, id, calibration.found);
+  return calibration;
+}
+
+LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& context,
+                    const std::vector<SessionCalibration>& along_odometry) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<urban_nav_store::SessionId> ids = context.ids();
+  std::map<std::size_t, std::vector<std::size_t>> sessions_of_map;
+  for (std::size_t s = 0; s < context.trajectories.size(); ++s)
+    if (context.trajectories[s].written) sessions_of_map[context.trajectories[s].map].push_back(s);
+  LasersRun run;
+  for (const auto& [map, sessions] : sessions_of_map) {
+    std::vector<laser_mapper::MappedSession> mapped;
+    std::vector<const Trajectory*> trajectories;
+    for (const std::size_t s : sessions) {
+      const SessionTrajectory& session = context.trajectories[s];
+      if (context.store->scans().lasers(ids[s]).empty()) continue;
+      calibrateForMap(parameters, s, context, along_odometry, run);
+      mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
+      trajectories.push_back(&session.T_map_base);
+    }
+    if (mapped.empty()) continue;
+    LaserMap laser_map(parameters, *context.store, mapped);
+    const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;
+    const auto make_colouriser = [&, &sessions_of_this_map = sessions] {
+      calibrateViews(sessions_of_this_map, laser_map, mapped, context, run);
+      return makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
+    };
+    run.maps.push_back(renderMap(laser_map, make_colouriser, map, trajectories, context));
+  }
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return run;
+}
+
+}  // namespace urban_nav

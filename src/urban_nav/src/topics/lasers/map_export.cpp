@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/lasers/map_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+
+#include "laser_mapper/laser_map.hpp"
+#include "laser_mapper/map_files.hpp"
+#include "laser_mapper/map_picture.hpp"
+#include "laser_mapper/mesh/surface_mesh.hpp"
+#include "laser_mapper/occupancy_grid.hpp"
+#include "topics/lasers/map_colour.hpp"
+#include "topics/lasers/map_crs.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_registration/session/session_lasers.hpp"
+
+namespace urban_nav {
+
+using laser_mapper::LaserMap;
+using laser_mapper::MapPoint;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_core::Vector3d;
+using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
+
+namespace {
+
+constexpr double kOrthoMargin = 30.0;  // m around the path, before it is cut to what it shows
+constexpr int kLongestOrtho = 16000;   // px
+constexpr StampNs kLongestPoseGap = 500'000'000;
+constexpr const char* kLocalSystem =
+    R"(LOCAL_CS["map of urban_nav",LOCAL_DATUM["first pose",0],UNIT["metre",1],AXIS["x",OTHER],AXIS["y",OTHER],AXIS["z",UP]])";
+
+/// Sessions of a map that have laser points.
+struct MappedSessions {
+  std::vector<std::unique_ptr<Trajectory>> trajectories;
+  std::vector<laser_mapper::MappedSession> sessions;
+  std::vector<std::vector<urban_nav_registration::LaserAt>> lasers;
+  std::vector<Vector3d> path;
+  std::optional<laser_mapper::Parameters> parameters;
+};
+
+MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>& map) {
+  MappedSessions made;
+  for (const StoredTrajectory& each : map) {
+    const auto parameters = laser_mapper::storedMapParameters(store, each.session.id);
+    if (!parameters || each.T_map_base.empty()) continue;
+    made.parameters = parameters;
+    made.trajectories.push_back(std::make_unique<Trajectory>(each.T_map_base));
+    made.sessions.push_back({each.session.id, made.trajectories.back().get(), nullptr});
+    made.lasers.push_back(urban_nav_registration::storedLasers(store, each.session.id));
+    for (const urban_nav_core::StampedPose& pose : each.T_map_base) made.path.push_back(pose.pose.t());
+  }
+  return made;
+}
+
+std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
+  if (point.laser == 255) return std::nullopt;  // of dense stereo
+  const char* frame = point.laser == 0 ? urban_nav_core::frames::laser_left : urban_nav_core::frames::laser_right;
+  for (std::size_t s = 0; s < mapped.sessions.size(); ++s) {
+    const auto T_map_base = mapped.trajectories[s]->at(point.stamp, kLongestPoseGap);
+    if (!T_map_base) continue;
+    for (const urban_nav_registration::LaserAt& laser : mapped.lasers[s])
+      if (laser.frame == frame) return *T_map_base * laser.T_base_laser.t();
+  }
+  return std::nullopt;
+}
+
+/// The formats with a record for each point.
+class PointFiles {
+ public:
+  /// `crs`: of the LAS file; null: the frame map. Must outlive it. `more`: attributes of all points; nullopt: none.
+  PointFiles(const MapFilePaths& paths, const MapCrs* crs, std::optional<PointAttributes> more)
+      : crs_(crs), more_(std::move(more)) {
+    std::vector<urban_nav_core::LasAttribute> attributes = laser_mapper::mapLasAttributes();
+    if (more_) attributes.push_back(more_->las);
+    if (!paths.ply.empty()) ply_.emplace(paths.ply, plyLayout());
+    if (!paths.pcd.empty()) pcd_.emplace(paths.pcd, laser_mapper::mapPcdFields());
+    if (!paths.las.empty()) las_.emplace(paths.las, attributes, crs ? crs->wkt() : kLocalSystem);
+  }
+  void append(const std::vector<MapPoint>& points) {
+    for (const MapPoint& point : points) {
+      if (ply_) appendPly(point);
+      if (pcd_) appendBytes(*pcd_, laser_mapper::appendPcdPoint, point);
+      bytes_.clear();
+      if (las_) laser_mapper::appendLasAttributes(bytes_, point);
+      if (las_) appendLas(point);
+      ++next_;
+    }
+  }
+  void commit() {
+    if (ply_) ply_->commit();
+    if (pcd_) pcd_->commit();
+    if (las_) las_->commit();
+  }
+
+ private:
+  template <typename Writer>
+  void appendBytes(Writer& writer, void (*print)(std::string&, const MapPoint&), const MapPoint& point) {
+    bytes_.clear();
+    print(bytes_, point);
+    writer.append(bytes_);
+  }
+
+  urban_nav_core::PlyLayout plyLayout() const {
+    urban_nav_core::PlyLayout layout = laser_mapper::mapLayout();
+    if (!more_) return layout;
+    layout.properties.insert(layout.properties.end(), more_->ply.properties.begin(), more_->ply.properties.end());
+    layout.comments.insert(layout.comments.end(), more_->ply.comments.begin(), more_->ply.comments.end());
+    return layout;
+  }
+
+  void appendPly(const MapPoint& point) {
+    bytes_.clear();
+    laser_mapper::appendVertex(bytes_, point);
+    if (more_) more_->append_ply(next_, bytes_);
+    ply_->append(bytes_);
+  }
+
+  void appendLas(const MapPoint& point) {
+    urban_nav_core::LasPoint made = laser_mapper::lasPoint(point);
+    if (more_) {
+      made.classification = more_->las_classification(next_);
+      more_->append_las(next_, bytes_);
+    }
+    if (crs_ != nullptr) made.p = crs_->project(made.p);
+    las_->append(made, bytes_);
+  }
+
+  const MapCrs* crs_;
+  const std::optional<PointAttributes> more_;
+  std::size_t next_ = 0;  // number of the next point
+  std::optional<urban_nav_core::PlyWriter> ply_;
+  std::optional<urban_nav_core::PcdWriter> pcd_;
+  std::optional<urban_nav_core::LasWriter> las_;
+  std::string bytes_;
+};
+
+/// Writes the picture and its world file: pixel size, and the centre of the first pixel (ESRI world file).
+void writeOrtho(const std::string& path, const laser_mapper::MapView& view, const laser_mapper::MapPicture& drawn) {
+  const laser_mapper::PictureBox box = drawn.shownBox();
+  const urban_nav_registration::Picture picture = drawn.finish(box);
+  const cv::Mat image(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", image, bytes)) throw urban_nav_core::DataError(path, "cannot be encoded", "");
+  const Vector3d first =
+      view.T_camera_map.inverse() * Vector3d((0.5 + box.u0 - 0.5 * view.width) / view.px_per_m,
+                                             (0.5 + box.v0 - 0.5 * view.height) / view.px_per_m, 0.0);
+  std::string world;
+  for (const double value : {1.0 / view.px_per_m, 0.0, 0.0, -1.0 / view.px_per_m, first.x(), first.y()})
+    world += urban_nav_core::printNumber(value) + "\n";
+  urban_nav_core::writeAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  urban_nav_core::writeAtomically(withExtension(path, ".pgw"), world);
+}
+
+void writeGrid(const std::string& path, const LaserMap& map, const MappedSessions& mapped) {
+  const laser_mapper::GridModel model;
+  laser_mapper::OccupancyGrid grid(model, mapped.path);
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { grid.addSurface(points); });
+  grid.findGround();
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) {
+    grid.addBeams(points, [&](const MapPoint& point) { return beamOrigin(mapped, point); });
+  });
+  const std::string pgm = withExtension(path, ".pgm");
+  urban_nav_core::writeAtomically(pgm, laser_mapper::printPgm(grid.image(), grid.width(), grid.height()));
+  urban_nav_core::writeAtomically(
+      path, laser_mapper::printGridYaml(grid, model, std::filesystem::path(pgm).filename().string()));
+}
+
+/// Writes the formats that show points in their colours.
+std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
+                          const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
+  const auto colouriser = makeColouriser(store, mapped.sessions, mapped.parameters->voxel, memory_mb);
+  if (colouriser) {
+    map.forEachTile(
+        [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser->addSurface(points); });
+    colouriser->equalise();
+  }
+  const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
+  std::optional<laser_mapper::MapPicture> ortho;
+  if (!paths.ortho.empty()) ortho.emplace(view);
+  std::optional<laser_mapper::SurfaceMesher> mesher;
+  if (!paths.mesh.empty()) mesher.emplace(mapped.parameters->voxel);
+  PointFiles files(paths, crs, attributes ? attributes(store, mapped.sessions.front().id, map) : std::nullopt);
+  std::size_t written = 0;
+  map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
+    if (colouriser) colouriser->colour(points);
+    files.append(points);
+    if (ortho) ortho->draw(points);
+    if (mesher) mesher->add(tile, points);
+    written += points.size();
+  });
+  files.commit();
+  if (ortho) writeOrtho(paths.ortho, view, *ortho);
+  if (mesher) urban_nav_core::writeAtomically(paths.mesh, printMeshPly(mesher->finish()));
+  return written;
+}
+
+}  // namespace
+
+std::string withExtension(const std::string& path, const std::string& extension) {
+  return std::filesystem::path(path).replace_extension(extension).string();
+}
+
+bool holdsMap(Store& store, const std::vector<StoredTrajectory>& map) {
+  return std::any_of(map.begin(), map.end(), [&](const StoredTrajectory& each) {
+    return laser_mapper::storedMapParameters(store, each.session.id).has_value();
+  });
+}
+
+ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, const MapFilePaths& paths,
+                      double memory_mb, const AttributeSource& attributes) {
+  const MappedSessions mapped = mappedSessions(store, map);
+  if (mapped.sessions.empty())
+    throw urban_nav_core::DataError(store.path(), "holds no map of laser points", "a store of map --stages vo,lasers");
+  LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
+  laser_map.load();
+  ExportedMap made;
+  std::optional<MapCrs> crs;
+  if (!paths.crs.empty()) {
+    crs.emplace(paths.crs, store, map);
+    made.reference = crs->reference();
+    made.epsg = crs->epsg();
+    made.crs = crs->describe();
+  }
+  if (!(paths.ply + paths.pcd + paths.las + paths.ortho + paths.mesh).empty())
+    made.points = writeColoured(paths, store, laser_map, mapped, crs ? &*crs : nullptr, memory_mb, attributes);
+  if (!paths.grid.empty()) writeGrid(paths.grid, laser_map, mapped);
+  for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho, paths.mesh})
+    if (!path.empty()) made.files.push_back(path);
+  return made;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/georeference/georeference.hpp"
+#include "laser_mapper/laser_map.hpp"
+#include "map/point_attributes.hpp"
+#include "urban_nav_store/stored_map.hpp"
+
+namespace urban_nav {
+
+/// Files of a map of points, by their formats; those without a path are not written.
+struct MapFilePaths {
+  std::string ply, pcd, las;
+  std::string grid;       ///< YAML of map_server; the PGM is written beside it
+  std::string ortho;      ///< PNG; its world file is written beside it
+  std::string mesh = {};  ///< PLY with vertices and faces
+  std::string crs = {};   ///< coordinate system of the LAS file, as MapCrs takes it; empty: the frame map
+
+  bool any() const { return !(ply + pcd + las + grid + ortho + mesh).empty(); }
+};
+
+/// Returns what another stage adds to the points of a map; nullopt: nothing. `first`: the first session of the map.
+using AttributeSource = std::function<std::optional<PointAttributes>(
+    urban_nav_store::Store& store, const urban_nav_store::SessionId& first, const laser_mapper::LaserMap& map)>;
+
+/// What exportMap() wrote.
+struct ExportedMap {
+  std::size_t points = 0;
+  std::vector<std::string> files;
+  std::optional<laser_mapper::GeoReference> reference;  ///< of the LAS file, with MapFilePaths::crs
+  int epsg = 0;
+  std::string crs;  ///< for the user
+};
+
+/// Returns whether a store holds a map of laser points of one of these sessions.
+bool holdsMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map);
+
+/// Writes the map of laser points of sessions that lie in one map, as the store holds it; the PLY file has the bytes
+/// that `map` wrote. `memory_mb`: for decoded images. `attributes`: of further stages. Throws DataError if the store
+/// holds no such map.
+ExportedMap exportMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
+                      const MapFilePaths& paths, double memory_mb, const AttributeSource& attributes = {});
+
+/// Returns `path` with another extension, which begins with a point.
+std::string withExtension(const std::string& path, const std::string& extension);
+
+}  // namespace urban_nav

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/map_layer.hpp"
+#include "laser_mapper/map_point.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/sequence/even_thinning.hpp"
+
+namespace urban_nav {
+
+/// The map as a view in three dimensions inside the report: points of a map, evenly thinned to at most 500 000, and the
+/// path, drawn by WebGL. Colours by picture, reflectance, height, pass, laser, sigma or agreement of passes; a click
+/// names a point, the next one its distance from the first. Other stages add ways of colouring (renderMapLayer()).
+/// Without WebGL nothing is shown. The result depends on the order of the points. Not thread-safe.
+class MapViewer {
+ public:
+  /// `number`: makes the element's id unique on the page.
+  explicit MapViewer(std::size_t number) : number_(number) {}
+
+  void add(const std::vector<laser_mapper::MapPoint>& points);
+  void addPath(const std::vector<urban_nav_core::Vector3d>& path) { paths_.push_back(path); }
+  /// Returns the markup with data and script, which needs nothing outside it; empty without points.
+  std::string render() const;
+  /// Returns the number of points that are shown.
+  std::size_t points() const { return points_.items().size(); }
+
+ private:
+  const std::size_t number_;
+  urban_nav_core::EvenThinning<laser_mapper::MapPoint> points_{most_shown_points};
+  std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
+};
+
+/// Returns the script that draws the views of a page.
+const char* mapViewerScript();
+
+}  // namespace urban_nav

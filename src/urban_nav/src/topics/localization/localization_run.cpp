@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/localization/localization_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "fabmap_node/retrieval/keyframe_places.hpp"
+#include "map/session_odometry.hpp"
+#include "map/store_keys.hpp"
+#include "urban_nav_core/io/csv.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/trajectory/statistics.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_localization/cloud_search.hpp"
+#include "urban_nav_localization/map_search.hpp"
+#include "urban_nav_registration/session/session_lasers.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_localization::LocalizationEstimate;
+using urban_nav_localization::LocalizationState;
+using urban_nav_store::Store;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Registers local clouds of a run to the map; does nothing without scans.
+class CloudLooks {
+ public:
+  CloudLooks(const urban_nav_localization::Parameters& parameters, const urban_nav_localization::FrozenMap& map,
+             Store& frozen, Store& own, const urban_nav_store::SessionId& id, const SessionOdometry& run,
+             Console& console)
+      : console_(console) {
+    if (!parameters.icp || own.scans().lasers(id).empty()) return;
+    scans_ = urban_nav_registration::storedScans(own.scans(), id, urban_nav_registration::storedLasers(own, id));
+    odometry_ = odometryChain(run);
+    search_ = std::make_unique<urban_nav_localization::CloudSearch>(parameters, map, frozen);
+  }
+
+  void lookOn(urban_nav_localization::Localiser& localiser, LocalizationRun& made) {
+    const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
+    if (!stretch) return;
+    if (search_->read() == 0) readMap();
+    ++made.cloud_looks;
+    made.cloud_sightings +=
+        search_->query(*stretch, urban_nav_registration::localCloud(odometry_, stretch->at, stretch->way, scans_),
+                       urban_nav_registration::deformationSigma(odometry_, stretch->at, stretch->way), localiser)
+            ? 1
+            : 0;
+  }
+
+ private:
+  /// Called only when a cloud is needed: keyframes may suffice all along.
+  void readMap() {
+    Progress progress(console_, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
+    while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
+    progress.finish(static_cast<std::int64_t>(search_->places()));
+  }
+
+  Console& console_;
+  urban_nav_core::OdometryChain odometry_;
+  std::vector<urban_nav_registration::LaserScans> scans_;
+  std::unique_ptr<urban_nav_localization::CloudSearch> search_;
+};
+
+}  // namespace
+
+LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, Store& frozen, Store& own,
+                                const urban_nav_store::SessionId& id, const SessionOdometry& run, Console& console) {
+  LocalizationRun made;
+  const urban_nav_localization::FrozenMap map(frozen);
+  urban_nav_localization::MapSearch search(parameters, map, frozen, {run.camera, run.T_base_camera},
+                                           std::make_shared<fabmap_node::KeyframePlaces>());
+  Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search.views()));
+  while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
+  reading.finish(static_cast<std::int64_t>(search.views()));
+  urban_nav_localization::Localiser localiser(parameters);
+  CloudLooks clouds(parameters, map, frozen, own, id, run, console);
+  const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::stereo_left);
+  Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
+  std::vector<double> ms;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < run.settled.size(); ++i) {
+    const SmoothedFrame& frame = run.settled[i];
+    if (i > 0) localiser.addOdometry(frame.from_previous);
+    if (i > 0 && std::binary_search(views.begin(), views.end(), frame.stamp)) {
+      const Clock::time_point begin = Clock::now();
+      ++made.looks;
+      if (const auto stored = own.keyframes().get(id, urban_nav_core::frames::stereo_left, frame.stamp))
+        made.sightings += search.query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
+      ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    }
+    clouds.lookOn(localiser, made);
+    LocalizationEstimate located = localiser.at(frame.stamp);
+    located.stamp = frame.stamp;
+    if (located.state == LocalizationState::Localized) {
+      ++known;
+      if (made.first_known_s < 0.0)
+        made.first_known_s = urban_nav_core::secondsBetween(run.settled.front().stamp, frame.stamp);
+    }
+    made.frames.push_back(std::move(located));
+    progress.update(static_cast<std::int64_t>(i + 1));
+  }
+  progress.finish(static_cast<std::int64_t>(run.settled.size()));
+  made.known_share = made.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(made.frames.size());
+  made.ms_median = urban_nav_core::quantile(ms, 0.5);
+  // Frames before the first known one, and later unknown ones, are placed by odometry relative to the nearest known
+  // one.
+  std::optional<Pose> T_map_odom;
+  for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
+    if (made.frames[i].state == LocalizationState::Localized)
+      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+  if (!T_map_odom) {
+    made.warnings.push_back("the session was never found in the map: trajectory.tum is that of odometry");
+    return made;
+  }
+  for (std::size_t i = 0; i < made.frames.size(); ++i) {
+    if (made.frames[i].state == LocalizationState::Localized)
+      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+    made.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
+  }
+  return made;
+}
+
+namespace {
+
+/// Returns the word of localisation.csv for a state.
+const char* csvWord(LocalizationState state) {
+  switch (state) {
+    case LocalizationState::Uncertain: return "UNSURE";
+    case LocalizationState::Localized: return "KNOWN";
+    case LocalizationState::Unmapped: break;
+  }
+  return "NEW";
+}
+
+}  // namespace
+
+std::string localizationCsv(const LocalizationRun& run) {
+  using urban_nav_core::printNumber;
+  std::vector<std::string> header = {"stamp_ns", "knowledge", "witnesses", "x", "y", "z", "qx", "qy", "qz", "qw"};
+  for (int i = 0; i < 36; ++i) header.push_back("c" + std::to_string(i / 6) + std::to_string(i % 6));
+  header.emplace_back("sentence");
+  std::string text = urban_nav_core::printCsvRow(header);
+  for (const LocalizationEstimate& frame : run.frames) {
+    std::vector<std::string> cells = {std::to_string(frame.stamp), csvWord(frame.state),
+                                      std::to_string(frame.supporting_matches)};
+    if (frame.T_map_base) {
+      const Pose& T = frame.T_map_base->pose;
+      for (const double value : {T.t().x(), T.t().y(), T.t().z(), T.q().x(), T.q().y(), T.q().z(), T.q().w()})
+        cells.push_back(printNumber(value));
+      for (int i = 0; i < 36; ++i) cells.push_back(printNumber(frame.T_map_base->covariance(i / 6, i % 6)));
+    }
+    cells.resize(header.size() - 1);
+    cells.push_back(frame.sentence);
+    text += urban_nav_core::printCsvRow(cells);
+  }
+  return text;
+}
+
+Json toJson(const LocalizationRun& run) {
+  Json json = Json::object();
+  json["frames"] = run.frames.size();
+  json["known_share"] = run.known_share;
+  json["first_known_s"] = run.first_known_s;
+  json["looks"] = run.looks;
+  json["sightings"] = run.sightings;
+  json["ms_median"] = run.ms_median;
+  json["cloud_looks"] = run.cloud_looks;
+  json["cloud_sightings"] = run.cloud_sightings;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : run.warnings) warnings.append(warning);
+  return json;
+}
+
+}  // namespace urban_nav

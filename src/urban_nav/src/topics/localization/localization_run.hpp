@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/console.hpp"
+#include "base/json.hpp"
+#include "map/session_odometry.hpp"
+#include "urban_nav_localization/localiser.hpp"
+#include "urban_nav_localization/parameters.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav {
+
+/// Localization of a session in a map that is only read.
+struct LocalizationRun {
+  std::vector<urban_nav_localization::LocalizationEstimate>
+      frames;  ///< one per smoothed frame, from what was observed by then
+  /// All frames, from what is known at the end; empty if the session was never localized.
+  urban_nav_core::Trajectory T_map_base;
+  std::size_t looks = 0, sightings = 0;              ///< keyframes that were matched, and transforms from them
+  std::size_t cloud_looks = 0, cloud_sightings = 0;  ///< local clouds that were matched, and transforms from them
+  double first_known_s = -1.0;                       ///< from the first frame to the first known one; negative: never
+  double known_share = 0.0;                          ///< of the frames
+  double ms_median = 0.0;                            ///< per keyframe
+  std::vector<std::string> warnings;
+};
+
+/// Registers the keyframes that `own` holds of the run to those of the map of `frozen`'s first session: those near its
+/// estimated pose if there is one, else all. After some metres without a match, local clouds are registered instead, if
+/// both stores have scans. Throws UserError if the map has no keyframes, or those of another camera.
+LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, urban_nav_store::Store& frozen,
+                                urban_nav_store::Store& own, const urban_nav_store::SessionId& id,
+                                const SessionOdometry& run, Console& console);
+
+/// Returns localisation.csv, a row per smoothed frame: stamp_ns, knowledge (KNOWN, NEW, UNSURE), witnesses, x...qw of
+/// T_map_base and 36 numbers of its covariance (empty if unknown), sentence.
+std::string localizationCsv(const LocalizationRun& run);
+
+/// Returns the object "localisation" of summary.json.
+Json toJson(const LocalizationRun& run);
+
+}  // namespace urban_nav

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/loops/loops.hpp"
+
+#include "base/plot.hpp"
+#include "map/closure_notes.hpp"
+#include "topics/loops/loops_report.hpp"
+#include "topics/loops/loops_run.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+class LoopsStage final : public Stage {
+ public:
+  Description describe() const override { return {"loops", "loop_metric", true, true, true, {}}; }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(urban_nav_registration::table());
+    parameters.add(loop_metric::table());
+  }
+  Selection select(const MapOptions& options) const override {
+    if (!options.localise.empty()) return {false, "not with --localise", {}};
+    if (!isRequested(options, "loops")) return {false, "not in --stages", {}};
+    return {true, "", closureNotes(options, true)};
+  }
+
+  Messages run(MapContext& context) override {
+    const std::vector<const SessionOdometry*> runs = context.runs();
+    const std::vector<urban_nav_store::SessionId> ids = context.ids();
+    std::vector<CandidateSession> sessions;
+    for (std::size_t i = 0; i < runs.size(); ++i) sessions.push_back({context.names[i], ids[i], runs[i]});
+    const urban_nav_input::SourceInfo& last = context.sessions.back().info;
+    loop_metric::Parameters parameters = context.options.parameters.get(loop_metric::table());
+    parameters.registration = context.options.parameters.get(urban_nav_registration::table());
+    run_ = runLoops(parameters, last.camera, last.T_base_camera, sessions, *context.store, context.closures,
+                    context.console);
+    context.closures = run_->closures;
+    if (run_->candidates == 0) return {};
+    return {
+        {"loops: " + std::to_string(run_->candidates) + " candidates, " + std::to_string(run_->accepted_stereo) +
+         " accepted by stereo, " + std::to_string(run_->accepted_icp) + " by ICP, " + std::to_string(run_->rejected) +
+         " rejected; " + urban_nav_core::formatNumber(run_->ms_median, 3) + " ms each"},
+        run_->warnings};
+  }
+
+  StageResult result(const MapContext& context) const override {
+    StageResult made;
+    if (!run_) return made;
+    made.summary = toJson(*run_);
+    if (run_->candidates == 0) return made;
+    made.verdicts = loopsVerdicts(*run_);
+    made.sections.push_back({report_place::closures, loopsSection(*run_, context)});
+    return made;
+  }
+
+ private:
+  std::optional<LoopsRun> run_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> makeLoopsStage() { return std::make_unique<LoopsStage>(); }
+
+}  // namespace urban_nav

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/loops/stored_closure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "map/closures_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::StampNs;
+using urban_nav_core::UserError;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+
+namespace {
+
+struct Beginning {
+  std::string name;
+  StampNs first = 0;
+};
+
+std::map<std::string, Beginning> readBeginnings(urban_nav_store::Store& store) {
+  std::map<std::string, Beginning> made;
+  for (const urban_nav_store::Session& session : store.sessions().all()) {
+    Beginning& its = made[session.id];
+    its.name = session.name.empty() ? session.id : session.name;
+    bool any = false;
+    store.graph().forEachNode(session.id, [&](const urban_nav_store::Node& node) {
+      if (!any) its.first = node.stamp;
+      any = true;
+    });
+  }
+  return made;
+}
+
+/// The probability in the row as it was offered, where the evidence begins with one.
+std::optional<double> probabilityIn(const std::string& evidence) {
+  const std::string_view row =
+      std::string_view(evidence).substr(0, evidence.size() - loop_metric::evidenceIn(evidence).size());
+  try {
+    const std::vector<ClosureRow> rows = parseClosures(row, "evidence");
+    if (rows.size() == 1) return rows.front().probability;
+  } catch (const UserError&) {
+    // in the words of another stage
+  }
+  return std::nullopt;
+}
+
+auto orderKey(const Edge& edge) {
+  return std::make_tuple(std::max(edge.a.stamp, edge.b.stamp), std::min(edge.a.stamp, edge.b.stamp), edge.a.session,
+                         edge.b.session, edge.kind, edge.source);
+}
+
+double computeDistance(const std::string& name, const std::string& id, StampNs stamp, double since,
+                       const TimeQuery& moment) {
+  if (!moment.session.empty() && name.rfind(moment.session, 0) != 0 && id.rfind(moment.session, 0) != 0)
+    return std::numeric_limits<double>::infinity();
+  return moment.since_begin ? std::abs(since - moment.seconds)
+                            : std::abs(urban_nav_core::secondsBetween(moment.stamp, stamp));
+}
+
+}  // namespace
+
+std::vector<StoredClosure> listClosures(urban_nav_store::Store& store) {
+  std::vector<Edge> edges;
+  const std::map<std::string, Beginning> beginnings = readBeginnings(store);
+  for (const auto& [id, beginning] : beginnings)
+    store.graph().forEachEdge(id, [&](const Edge& edge) {
+      if (edge.kind != EdgeKind::Odometry && beginnings.count(edge.b.session) > 0) edges.push_back(edge);
+    });
+  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return orderKey(x) < orderKey(y); });
+  std::vector<StoredClosure> closures;
+  for (const Edge& edge : edges) {
+    StoredClosure closure;
+    closure.id = static_cast<std::int64_t>(closures.size()) + 1;
+    closure.edge = edge;
+    const Beginning &a = beginnings.at(edge.a.session), &b = beginnings.at(edge.b.session);
+    closure.name_a = a.name;
+    closure.name_b = b.name;
+    closure.since_a = urban_nav_core::secondsBetween(a.first, edge.a.stamp);
+    closure.since_b = urban_nav_core::secondsBetween(b.first, edge.b.stamp);
+    if (const std::optional<std::string> evidence = store.graph().evidence(edge)) {
+      closure.probability = probabilityIn(*evidence);
+      const std::string_view its = loop_metric::evidenceIn(*evidence);
+      if (!its.empty()) closure.evidence = loop_metric::parseEvidence(its);
+    }
+    closures.push_back(std::move(closure));
+  }
+  return closures;
+}
+
+double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other) {
+  const auto at = [&](bool a, const TimeQuery& moment) {
+    const Edge& edge = closure.edge;
+    return a ? computeDistance(closure.name_a, edge.a.session, edge.a.stamp, closure.since_a, moment)
+             : computeDistance(closure.name_b, edge.b.session, edge.b.stamp, closure.since_b, moment);
+  };
+  return std::min(std::max(at(true, one), at(false, other)), std::max(at(true, other), at(false, one)));
+}
+
+}  // namespace urban_nav

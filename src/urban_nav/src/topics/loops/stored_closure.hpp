@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time_query.hpp"
+#include "loop_metric/evidence.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav {
+
+/// A closure of a store with all that is known of it.
+struct StoredClosure {
+  std::int64_t id = 0;  ///< its place, from 1, among the closures of the store in the order of their later moments
+  urban_nav_store::Edge edge;
+  std::string name_a, name_b;           ///< of the sessions, for people
+  double since_a = 0.0, since_b = 0.0;  ///< s from the first node of each session
+  std::optional<double> probability;    ///< of the places being one, where it is known
+  loop_metric::Evidence evidence;       ///< empty where there is none
+};
+
+/// All closures of a store: measured, asserted and rejected ones. DataError where evidence is damaged.
+std::vector<StoredClosure> listClosures(urban_nav_store::Store& store);
+
+/// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite
+/// where a session is another one.
+double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other);
+
+}  // namespace urban_nav

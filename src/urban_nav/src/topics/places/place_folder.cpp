@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "topics/places/place_source.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/folder/image_file.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+using urban_nav_core::StampNs;
+using urban_nav_core::UserError;
+
+namespace {
+
+/// Where stereo folders keep their left images.
+constexpr std::array<const char*, 4> left_folders = {"image_0", "image_00/data", "image_00", "mav0/cam0/data"};
+
+std::vector<std::string> imagesIn(const fs::path& folder) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (urban_nav_input::isImageName(entry.path().filename().string())) paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::vector<StampNs> readTimes(const std::string& path, std::size_t images) {
+  std::vector<StampNs> stamps;
+  const std::string text = urban_nav_core::readTextFile(path);
+  urban_nav_core::forEachLine(text, [&](std::string_view line, int number) {
+    const std::string_view word = urban_nav_core::trimmed(line);
+    if (word.empty()) return;
+    const auto seconds = urban_nav_core::parseNumber(word);
+    if (!seconds || std::abs(*seconds) > 9e9)
+      throw UserError(urban_nav_core::atLine(path, number), "\"" + std::string(word) + "\"", "a time in seconds");
+    stamps.push_back(static_cast<StampNs>(std::llround(*seconds * 1e9)));
+    if (stamps.size() > 1 && stamps.back() < stamps[stamps.size() - 2])
+      throw UserError(urban_nav_core::atLine(path, number), "a time before the previous one",
+                      "times in ascending order");
+  });
+  if (stamps.size() != images)
+    throw UserError(path, std::to_string(stamps.size()) + " times", std::to_string(images) + ", one for each image");
+  return stamps;
+}
+
+class PlaceFolder : public PlaceSource {
+ public:
+  explicit PlaceFolder(const std::string& path) : path_(path), images_(imagesIn(path)) {
+    fs::path times = fs::path(path) / "times.txt";
+    for (const char* left : left_folders) {
+      if (!images_.empty()) break;
+      images_ = imagesIn(fs::path(path) / left);
+      if (!images_.empty()) notes_.push_back(path + ": left images, " + left);
+    }
+    if (images_.empty())
+      throw UserError(path, "no images",
+                      "a folder of images (png, jpg, pgm, ppm, bmp, tif), a stereo folder, or a bag");
+    if (fs::exists(times)) stamps_ = readTimes(times.string(), images_.size());
+    for (std::size_t i = stamps_.size(); i < images_.size(); ++i)
+      stamps_.push_back(static_cast<StampNs>(i) * 1'000'000'000);
+  }
+
+  const std::string& path() const override { return path_; }
+  std::size_t expected() const override { return images_.size(); }
+  const std::vector<std::string>& notes() const override { return notes_; }
+
+  std::optional<PlaceImages> next() override {
+    if (at_ == images_.size()) return std::nullopt;
+    urban_nav_ros::GreyImage image = urban_nav_input::readGrey(images_[at_]);
+    if (!image.fault.empty()) notes_.push_back(image.fault);
+    return PlaceImages{stamps_[at_++], {std::move(image.pixels)}};
+  }
+
+ private:
+  std::string path_;
+  std::vector<std::string> images_;
+  std::vector<StampNs> stamps_;
+  std::vector<std::string> notes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PlaceSource> openPlaceFolder(const std::string& path) { return std::make_unique<PlaceFolder>(path); }
+
+std::unique_ptr<PlaceSource> openPlaceSource(const std::string& path, const std::vector<std::string>& topics) {
+  if (fs::is_directory(path)) return openPlaceFolder(path);
+  if (!fs::exists(path)) throw UserError(path, "does not exist", "a folder of images or a bag");
+  return openPlaceBag(path, topics);
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/command.hpp"
+
+namespace urban_nav {
+
+/// Actions of `urban_nav places` beside replay.
+Command placesTrainAction();
+Command placesQueryAction();
+Command placesEvaluateAction();
+
+}  // namespace urban_nav

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/places/places_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <tuple>
+
+#include "fabmap_node/decision/travelled_distance.hpp"
+#include "fabmap_node/store/place_rows.hpp"
+#include "urban_nav_store/table_store.hpp"
+
+namespace urban_nav {
+
+using fabmap_node::FabMap;
+using fabmap_node::ObservationStatus;
+using fabmap_node::TravelledDistance;
+using urban_nav_store::StoredPlace;
+using urban_nav_store::TableStore;
+
+namespace {
+
+/// By odometry as it was at each time, which live odometry publishes; of previous sessions, as the store has it.
+TravelledDistance travelledDistance(const SessionOdometry& run, bool is_previous) {
+  TravelledDistance travelled;
+  if (is_previous) {
+    for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());
+  } else {
+    for (const OdometryFrame& row : run.frames)
+      if (row.accepted) travelled.add(row.stamp, row.T_odom_base.t());
+  }
+  return travelled;
+}
+
+ClosureRow toClosureRow(const urban_nav_core::TopologicalClosure& closure) {
+  ClosureRow row;
+  row.session_a = closure.a.session;
+  row.stamp_a = closure.a.stamp;
+  row.session_b = closure.b.session;
+  row.stamp_b = closure.b.stamp;
+  row.probability = closure.probability;
+  row.where = "places";
+  return row;
+}
+
+/// One run over all sessions.
+class PlaceRecognitionRun {
+ public:
+  PlaceRecognitionRun(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
+                      const MapContext& context)
+      : model_(model),
+        context_(context),
+        ids_(context.ids()),
+        map_(model.model, parameters, [this](std::size_t session, urban_nav_core::StampNs stamp) {
+          StoredPlace key;
+          key.session = ids_[session];
+          key.stamp = stamp;
+          const auto row = TableStore<StoredPlace>(*context_.store).get(key);
+          return row ? row->descriptors : std::string();
+        }) {}
+
+  PlacesRun run() {
+    const std::vector<const SessionOdometry*> runs = context_.runs();
+    const std::size_t previous = context_.previous.runs.size();
+    result_.beliefs.resize(ids_.size());
+    for (std::size_t s = 0; s < ids_.size(); ++s) {
+      map_.beginSession(context_.names[s]);
+      addSession(s, ids_[s], travelledDistance(*runs[s], s < previous), s < previous);
+    }
+    result_.places = map_.places();
+    if (other_model_ > 0)
+      result_.warnings.push_back(std::to_string(other_model_) +
+                                 " places of previous sessions have the words of another model and are not used");
+    return std::move(result_);
+  }
+
+ private:
+  void addSession(std::size_t s, const urban_nav_store::SessionId& id, const TravelledDistance& travelled,
+                  bool is_previous) {
+    TableStore<StoredPlace>(*context_.store).forEach(id, [&](const StoredPlace& row) {
+      if (row.model != model_.hash) {
+        ++other_model_;
+        return;
+      }
+      const auto description = fabmap_node::toPlaceDescription(row, model_.model.vocabulary.size());
+      if (is_previous) return map_.addPlace(row.stamp, description, travelled.at(row.stamp));
+      const auto begin = std::chrono::steady_clock::now();
+      fabmap_node::PlaceOutput output = map_.process(row.stamp, description, travelled.at(row.stamp));
+      result_.ms_inference.push_back(
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+      count(description);
+      for (const auto& closure : output.closures) result_.closures.push_back(toClosureRow(closure));
+      result_.beliefs[s].push_back(std::move(output.belief));
+    });
+  }
+
+  void count(const fabmap_node::PlaceDescription& description) {
+    ++result_.observations;
+    result_.has_panoramas = result_.has_panoramas || description.cameras > 1;
+    result_.incomplete += description.missing > 0 ? 1u : 0u;
+    if (description.status != ObservationStatus::Used) ++result_.unused[toString(description.status)];
+  }
+
+  const LoadedPlaceModel& model_;
+  const MapContext& context_;
+  const std::vector<urban_nav_store::SessionId> ids_;
+  FabMap map_;  // with descriptors from the store
+  PlacesRun result_;
+  std::size_t other_model_ = 0;
+};
+
+}  // namespace
+
+PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
+                    const MapContext& context) {
+  return PlaceRecognitionRun(parameters, model, context).run();
+}
+
+void addProposed(const std::vector<ClosureRow>& proposed, std::vector<ClosureRow>& closures) {
+  using Moment = std::pair<std::string, urban_nav_core::StampNs>;
+  std::set<std::pair<Moment, Moment>> known;
+  for (const ClosureRow& row : closures) {
+    const Moment a{row.session_a, row.stamp_a}, b{row.session_b, row.stamp_b};
+    known.insert(std::minmax(a, b));
+  }
+  for (const ClosureRow& row : proposed) {
+    const Moment a{row.session_a, row.stamp_a}, b{row.session_b, row.stamp_b};
+    if (known.insert(std::minmax(a, b)).second) closures.push_back(row);
+  }
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/page.hpp"
+#include "fabmap_node/fab_map.hpp"
+#include "map/closures_file.hpp"
+#include "map/context.hpp"
+#include "topics/places/place_writer.hpp"
+
+namespace urban_nav {
+
+/// Place recognition over all sessions of a run.
+struct PlacesRun {
+  std::vector<std::vector<fabmap_node::PlaceBelief>> beliefs;  ///< over all sessions; empty for previous ones
+  std::vector<ClosureRow> closures;                            ///< proposed
+  std::size_t observations = 0;                                ///< panoramas, or images without them
+  std::size_t places = 0;                                      ///< in the map, those of previous sessions included
+  bool has_panoramas = false;
+  std::map<std::string, std::size_t> unused;  ///< observations by the reason why they were not used
+  std::size_t incomplete = 0;                 ///< panoramas with a camera missing
+  std::vector<double> ms_inference;           ///< per observation
+  std::vector<std::string> warnings;
+};
+
+/// Recognises the places of the sessions of this run, in order, in the rows that the store holds; those of previous
+/// sessions come first. The result does not depend on the number of threads.
+PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
+                    const MapContext& context);
+
+/// Appends the proposed closures to `closures` unless it has the pair already.
+void addProposed(const std::vector<ClosureRow>& proposed, std::vector<ClosureRow>& closures);
+
+/// Returns pairs of thumbnails of recognised places, the query below the place: a few of the surest, and a few of the
+/// least sure above the threshold for closures.
+std::vector<PagePicture> placePictures(const PlacesRun& run, const MapContext& context);
+
+}  // namespace urban_nav

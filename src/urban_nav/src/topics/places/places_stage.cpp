@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/places/places.hpp"
+
+#include "base/plot.hpp"
+#include "topics/places/places_pass.hpp"
+#include "topics/places/places_report.hpp"
+#include "topics/places/places_run.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+class PlacesStage final : public Stage {
+ public:
+  Description describe() const override { return {"places", "fabmap_node", true, false, true, {}}; }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(fabmap_node::table());
+    parameters.add(urban_nav_registration::table());
+  }
+  std::vector<urban_nav_core::Setting> passSettings(const ParameterSet& parameters) const override {
+    std::vector<urban_nav_core::Setting> used;
+    for (const urban_nav_core::Setting& setting : parameters.settings(fabmap_node::table().stage()))
+      if (setting.name == "model" || setting.name == "panorama_features" || setting.name == "image_features")
+        used.push_back(setting);
+    for (const urban_nav_core::Setting& setting : parameters.settings(urban_nav_registration::table().stage()))
+      if (setting.name == "keyframe_distance" || setting.name == "keyframe_angle") used.push_back(setting);
+    return used;
+  }
+  Selection select(const MapOptions& options) const override {
+    if (!options.localise.empty()) return {false, "not with --localise", {}};
+    if (!isRequested(options, "places")) return {false, "not in --stages", {}};
+    const fabmap_node::Parameters& parameters = options.parameters.get(fabmap_node::table());
+    if (parameters.model != "default") loadPlaceModel(parameters);  // reports a bad file before the work
+    return {true, "", {"places: model " + parameters.model}};
+  }
+
+  std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    return std::make_unique<PlacesPass>(context, start, model(context), ms_features_);
+  }
+
+  Messages run(MapContext& context) override {
+    run_ = runPlaces(context.options.parameters.get(fabmap_node::table()), *model(context), context);
+    pictures_ = placePictures(*run_, context);
+    if (isRequested(context.options, "loops")) addProposed(run_->closures, context.closures);
+    if (run_->observations == 0) return {{}, run_->warnings};
+    return {{"places: " + std::to_string(run_->observations) + (run_->has_panoramas ? " panoramas, " : " images, ") +
+             std::to_string(run_->closures.size()) + " closures proposed"},
+            run_->warnings};
+  }
+
+  StageResult result(const MapContext&) const override {
+    StageResult made;
+    if (!run_) return made;
+    made.summary = toJson(*run_, ms_features_);
+    if (run_->observations == 0) return made;
+    made.verdicts = placesVerdicts(*run_);
+    made.sections.push_back({report_place::closures + 10, placesSection(*run_, pictures_)});
+    return made;
+  }
+
+ private:
+  std::shared_ptr<const LoadedPlaceModel> model(const MapContext& context) {
+    if (!model_) model_ = loadPlaceModel(context.options.parameters.get(fabmap_node::table()));
+    return model_;
+  }
+
+  std::shared_ptr<const LoadedPlaceModel> model_;
+  std::vector<double> ms_features_;
+  std::optional<PlacesRun> run_;
+  std::vector<PagePicture> pictures_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> makePlacesStage() { return std::make_unique<PlacesStage>(); }
+
+}  // namespace urban_nav

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/vo/vo_files.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/io/cloud/ply_writer.hpp"
+#include "urban_nav_core/io/g2o.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::appendNumber;
+using urban_nav_core::G2oGraph;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+
+namespace {
+
+constexpr int kMinObservations = 3;  // frames: with fewer a landmark is as likely a wrong match
+
+std::array<double, 7> poseValues(const Pose& pose) {
+  return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
+}
+
+void appendPose(std::string& text, const Pose& pose, char separator) {
+  for (const double value : poseValues(pose)) {
+    text += separator;
+    appendNumber(text, value);
+  }
+}
+
+void appendFloat(std::string& bytes, float value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof value);
+}
+
+/// A pose per frame and an edge per step; information in g2o's own tangent.
+G2oGraph chain(const VoRun& run) {
+  G2oGraph graph;
+  for (std::size_t i = 0; i < run.settled.size(); ++i) {
+    const auto id = static_cast<G2oGraph::Id>(i);
+    graph.vertices.push_back({id, {}});
+    graph.setPose(graph.vertices.back(), run.settled[i].T_odom_base.pose);
+    if (i == 0) continue;
+    const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
+    G2oGraph::Edge edge;
+    edge.from = id - 1;
+    edge.to = id;
+    edge.values = poseValues(step.T_from_to);
+    const Matrix6d information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
+    urban_nav_core::setG2oInformation(edge, urban_nav_core::g2oFromBoxInformation(information, step.T_from_to));
+    graph.edges.push_back(edge);
+  }
+  if (!run.settled.empty()) graph.fixed.push_back(0);
+  return graph;
+}
+
+}  // namespace
+
+std::string chainG2o(const VoRun& run) { return urban_nav_core::printG2o(chain(run)); }
+
+std::string landmarksPly(const VoRun& run) {
+  std::string bytes;
+  std::size_t count = 0;
+  for (const auto& [id, landmark] : run.landmarks) {
+    if (landmark.seen < kMinObservations || !landmark.landmark.p_odom.allFinite()) continue;
+    for (int i = 0; i < 3; ++i) appendFloat(bytes, static_cast<float>(landmark.landmark.p_odom(i)));
+    appendFloat(bytes, landmark.landmark.sigma);
+    bytes.append(3, static_cast<char>(landmark.grey));
+    ++count;
+  }
+  using urban_nav_core::PlyType;
+  return urban_nav_core::plyHeader({{{"x", PlyType::Float},
+                                     {"y", PlyType::Float},
+                                     {"z", PlyType::Float},
+                                     {"sigma", PlyType::Float},
+                                     {"red", PlyType::UChar},
+                                     {"green", PlyType::UChar},
+                                     {"blue", PlyType::UChar}},
+                                    {}},
+                                   count) +
+         bytes;
+}
+
+std::string statsCsv(const std::vector<const VoRun*>& runs) {
+  std::string text =
+      "session,frame,stamp_ns,accepted,status,reason,corners,features,tracked,track_length_mean,reprojection_px,"
+      "iterations,landmarks,landmarks_in_prior,disparity_offset_px,disparity_offset_sigma_px,row_offset_px,noise_scale,"
+      "now_x,now_y,now_z,now_qx,now_qy,now_qz,now_qw,swf_vo_ms\n";
+  for (std::size_t session = 0; session < runs.size(); ++session) {
+    for (std::size_t i = 0; i < runs[session]->frames.size(); ++i) {
+      const OdometryFrame& row = runs[session]->frames[i];
+      const swf_vo::Statistics& s = runs[session]->figures[i].statistics;
+      text += std::to_string(session + 1) + "," + std::to_string(row.frame) + "," + std::to_string(row.stamp) +
+              (row.accepted ? ",1," : ",0,") + toString(row.status.health) + "," +
+              swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason));
+      for (const int value : {s.corners, s.features, s.tracked}) text += "," + std::to_string(value);
+      for (const double value : {s.track_length_mean, s.reprojection_px}) {
+        text += ',';
+        appendNumber(text, value);
+      }
+      for (const int value : {s.iterations, s.landmarks, s.landmarks_in_prior}) text += "," + std::to_string(value);
+      for (const double value : {s.disparity_offset_px, s.disparity_offset_sigma_px, s.row_offset_px, s.noise_scale}) {
+        text += ',';
+        appendNumber(text, value);
+      }
+      appendPose(text, row.T_odom_base, ',');
+      text += ',';
+      appendNumber(text, runs[session]->figures[i].process_ms);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "map/session_pass.hpp"
+#include "topics/vo/vo_run.hpp"
+
+namespace urban_nav {
+
+/// Feeds SwfVo and records what files and report need of its output. Not thread-safe.
+class VoRecorder {
+ public:
+  /// `run`: filled while frames are processed; must outlive the recorder.
+  VoRecorder(const swf_vo::Parameters& parameters, const urban_nav_input::SourceInfo& info, VoRun& run);
+  /// Continues bit-exactly where another recorder was when `state` was taken. Throws UserError if parameters or
+  /// calibration differ, DataError if the state is damaged.
+  VoRecorder(const swf_vo::Parameters& parameters, const urban_nav_input::SourceInfo& info, VoRun& run,
+             std::string_view state);
+  ~VoRecorder();
+
+  /// Returns the frame that it has added to the run.
+  const OdometryFrame& process(const urban_nav_input::SourceItem& input);
+  /// Empties the window. No process() after it.
+  void finish(const PassEnd& end);
+  /// Returns the state of run and filter. Not after finish().
+  std::string state() const;
+
+ private:
+  class PictureKeeper;
+
+  VoRun& run_;
+  std::optional<swf_vo::SwfVo> filter_;  // never empty: optional so that a state can replace it
+  std::unique_ptr<PictureKeeper> pictures_;
+};
+
+}  // namespace urban_nav

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/vo/vo_store_writer.hpp"
+
+#include "map/store_keys.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::Matrix6d;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+
+void VoStoreWriter::write(const VoRun& run) {
+  for (; rows_ < run.frames.size(); ++rows_)
+    store_.inputs().append(id_, {kVoStream, run.frames[rows_].stamp, run.frames[rows_].accepted});
+  for (; nodes_ < run.settled.size(); ++nodes_) {
+    const SmoothedFrame& settled = run.settled[nodes_];
+    const urban_nav_core::RelativePose& step = settled.from_previous;
+    const bool first = nodes_ == 0;
+    store_.graph().put(
+        id_, urban_nav_store::Node{settled.stamp, settled.T_odom_base.pose,
+                                   first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
+                                   first ? Matrix6d(Matrix6d::Zero()) : step.drift_covariance, settled.status.health});
+    if (first) continue;
+    Edge edge{{id_, step.from},         {id_, step.to},
+              EdgeKind::Odometry,       kVoStage,
+              {step.T_from_to, {}},     1.0,
+              ClosureVerdict::Accepted, ""};
+    edge.measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
+    store_.graph().put(edge);
+  }
+}
+
+void VoStoreWriter::writeForces(const VoRun& run) {
+  if (!run.forces.empty()) store_.states().put(id_, kForcesStage, packForces(run.forces));
+}
+
+}  // namespace urban_nav

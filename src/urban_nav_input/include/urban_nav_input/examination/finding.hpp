@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace urban_nav_input {
+
+/// What a defect of an input concerns.
+enum class FindingKind { Stamps, Pairs, Rectification, Depth, Calibration, Tf, Rates };
+const char* toString(FindingKind kind);
+
+/// A defect of an input.
+struct Finding {
+  FindingKind kind = FindingKind::Pairs;
+  std::string text;       ///< what is wrong, with its numbers
+  std::string remedy;     ///< what repairs it: an option, a command, or what to change on the robot
+  bool unusable = false;  ///< nothing can be mapped while this is so
+};
+
+/// Returns the findings in what the reader of an input states in sentences (SourceInfo::notes, Source::closingFaults).
+/// Sentences that state no defect give none.
+std::vector<Finding> readerFindings(const std::vector<std::string>& sentences);
+/// Returns the finding in an error that prevents an input from being opened or read.
+Finding errorFinding(const std::string& error, const std::string& allowed);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_input/examination/pair_check.hpp"
+
+namespace urban_nav_input {
+
+/// Judges some of a recording's stereo pairs, evenly distributed, by what their images show. Not thread-safe.
+class SampledPairs {
+ public:
+  /// `frames`: pairs of the recording, 0 if unknown. About `samples` pairs are judged, at least `least_step` apart.
+  SampledPairs(std::int64_t frames, std::int64_t samples, std::int64_t least_step);
+
+  /// Adds the next pair. Its images stay alive until the pair after the next one.
+  void add(const urban_nav_core::StereoPairWithMotion& pair);
+  std::vector<Finding> findings() const { return images_.findings(); }
+
+ private:
+  std::int64_t step_, most_, count_ = 0;
+  std::deque<urban_nav_core::StereoPairWithMotion>
+      last_;  // up to three: neighbours tell whether partners belong together
+  PairCheck images_;
+};
+
+}  // namespace urban_nav_input

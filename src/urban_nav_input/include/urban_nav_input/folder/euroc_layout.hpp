@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/Imu.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/raw_camera.hpp"
+#include "urban_nav_core/camera/rectify.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_ros/image.hpp"
+
+namespace urban_nav_input {
+
+/// A pair of file names; one may be empty.
+struct EurocPair {
+  urban_nav_core::StampNs stamp = 0;
+  std::string left, right;
+};
+
+struct EurocImu {
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::Vector3d rate = urban_nav_core::Vector3d::Zero();          ///< rad/s, in the body frame
+  urban_nav_core::Vector3d acceleration = urban_nav_core::Vector3d::Zero();  ///< m/s^2
+};
+
+/// The two cameras of a EuRoC folder, and the rectified pair made of them. base_link is at the rectified left camera,
+/// axes turned to REP-103.
+struct EurocRig {
+  urban_nav_core::RawCamera left, right;
+  urban_nav_core::StereoRectification rectification;
+  urban_nav_core::RectifyMap left_map, right_map;
+  urban_nav_core::Pose T_base_camera;  ///< rectified left optical frame
+  urban_nav_core::Pose T_base_body;    ///< EuRoC's body: the IMU
+};
+
+/// The folder that holds cam0 and cam1: `path` itself or its mav0.
+std::string eurocFolder(const std::string& path);
+
+/// All read data.csv and sensor.yaml; UserError with file and line where they are damaged. `notes`: what was put right
+/// in the lists of images, for the user.
+std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes = nullptr);
+/// Returns the depth of 16-bit images, 8...16, from the first ones of both cameras; 8 for 8-bit images.
+int eurocBits(const std::vector<EurocPair>& pairs);
+EurocRig readEurocRig(const std::string& mav0);
+/// Empty where the folder has none.
+std::vector<EurocImu> readEurocImu(const std::string& mav0);
+/// As a message in the frame imu_link.
+sensor_msgs::Imu toImuMessage(const EurocImu& row);
+/// base_link in the frame of the truth, from state_groundtruth_estimate0; empty where the folder has none.
+std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0,
+                                                         const urban_nav_core::Pose& T_base_body);
+
+/// A raw image, rectified; or a fault that names it.
+urban_nav_ros::GreyImage readRectified(const std::string& path, const urban_nav_core::RectifyMap& map, int bits);
+
+}  // namespace urban_nav_input

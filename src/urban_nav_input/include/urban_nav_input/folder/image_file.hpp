@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "urban_nav_core/image/view.hpp"
+#include "urban_nav_ros/image.hpp"
+
+namespace urban_nav_input {
+
+/// Pixels of an image file as they are stored (8 or 16 bits, one, three or four channels), or none and a fault that
+/// names the file. A file that ends early is a fault: decoders would fill the rest with grey.
+urban_nav_ros::GreyImage readPixels(const std::string& path);
+
+/// The same as 8-bit grey; `bits` as in urban_nav_ros::toGrey.
+urban_nav_ros::GreyImage readGrey(const std::string& path, int bits = 16);
+
+/// Returns a view of grey pixels and an owner that keeps them alive; both empty for no pixels.
+std::pair<urban_nav_core::ImageView, std::shared_ptr<const void>> sharedView(const cv::Mat& grey);
+
+/// Is this the name of an image file (png, jpg, jpeg, pgm, pnm, ppm, bmp, tif, tiff)?
+bool isImageName(const std::string& name);
+
+}  // namespace urban_nav_input

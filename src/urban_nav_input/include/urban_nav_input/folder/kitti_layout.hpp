@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/io/calibration.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_input {
+
+/// Where a KITTI folder has what: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or
+/// without `data/` inside, or `data_rect/` (KITTI-360); `image_2`, `image_3` (colour) where these are all there is.
+struct KittiLayout {
+  std::string folder;
+  std::string left, right;  ///< folders of images
+  urban_nav_core::KittiPair pair = urban_nav_core::KittiPair::Grey;
+};
+std::optional<KittiLayout> findKittiLayout(const std::string& folder);
+
+/// Frame number (the digits of the file name) to file, for one folder of images.
+std::map<std::int64_t, std::string> listFrames(const std::string& folder);
+
+/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it, or perspective.txt in the
+/// folder or where KITTI-360 has it (../../calibration); `width` x `height` are the
+/// images'. UserError naming file and line where a row is missing or wrong.
+urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height);
+
+/// Stamps of frames 0, 1 ... out of times.txt (s) or KITTI raw's timestamps.txt (date and time); empty if there is
+/// neither.
+struct KittiTimes {
+  std::string path;
+  std::vector<urban_nav_core::StampNs> stamps;
+};
+KittiTimes readKittiTimes(const KittiLayout& layout);
+
+/// The frames of a folder: all numbers that either camera has, and a stamp for each, from times.txt by number (by place
+/// where the counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero where there is none. UserError where
+/// stamps and images do not belong together.
+struct KittiFrames {
+  std::map<std::int64_t, std::string> left, right;  ///< number to file
+  std::vector<std::int64_t> numbers;
+  std::vector<urban_nav_core::StampNs> stamps;
+  std::vector<std::string> notes;  ///< what was assumed
+};
+KittiFrames listKittiFrames(const KittiLayout& layout, double rate);
+
+/// "2011-09-26 13:02:25.964389445" as ns since 1970 (UTC); empty if it is no such text.
+std::optional<urban_nav_core::StampNs> parseDateTime(const std::string& text);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace urban_nav_input {
+
+/// What a topic is to `map`. The words are those of --topic ROLE:=NAME; the topics of docs/architecture.md stand for
+/// their roles too (stereo/left/image_raw:=/cam0/image_raw).
+enum class Role {
+  Left,
+  Right,
+  LeftInfo,
+  RightInfo,
+  Imu,
+  Wheels,
+  LaserLeft,
+  LaserRight,
+  Truth,
+  Gps,
+  Panorama0,
+  Panorama1,
+  Panorama2,
+  Panorama3,
+  Panorama4,
+  Panorama0Info,
+  Panorama1Info,
+  Panorama2Info,
+  Panorama3Info,
+  Panorama4Info
+};
+const char* toString(Role role);
+
+constexpr std::size_t panorama_cameras = 5;
+/// Return the roles of a camera of the panoramic head, 0 ... panorama_cameras - 1.
+Role panoramaRole(std::size_t camera);
+Role panoramaInfoRole(std::size_t camera);
+
+struct ChosenTopic {
+  std::string name;
+  std::string type;  ///< "sensor_msgs/Image"
+};
+
+/// Topics by role, with what to tell the user about them.
+struct BagTopics {
+  std::map<Role, ChosenTopic> chosen;
+  std::vector<std::string> notes;
+  std::optional<ChosenTopic> find(Role role) const;
+  /// Returns the cameras of the panoramic head that have a topic, ascending.
+  std::vector<std::size_t> panorama() const;
+};
+
+/// `available`: name and type of every topic of a bag. What `wishes` (ROLE:=NAME) do not say is guessed from types and
+/// names: a stereo pair are two image topics whose names differ in "left" and "right" (or cam0 and cam1, image_0 and
+/// image_1, infra1 and infra2), else the only two there are, in the order of their names. A panoramic head has at least
+/// two image topics whose names contain "ladybug" or "panorama", and "camera" or "cam" with a number. UserError for a
+/// wish that is no role, or a topic that is not there or of another type. Roles for which nothing fits are absent.
+BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
+
+bool isImageType(const std::string& type);
+/// image_rect and its relatives are rectified already.
+bool isRectifiedName(const std::string& topic);
+
+}  // namespace urban_nav_input

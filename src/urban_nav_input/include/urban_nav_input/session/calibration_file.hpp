@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_core/io/calibration.hpp"
+
+namespace urban_nav_input {
+
+/// Left and right camera of --calibration: KITTI's calib.txt (whose size of image is that of the images, `width` x
+/// `height`; `pair`: whose rows of it), or `LEFT.yaml,RIGHT.yaml` as ROS's camera_info. UserError where it is neither.
+std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibration(
+    const std::string& files, int width, int height, urban_nav_core::KittiPair pair = urban_nav_core::KittiPair::Grey);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "urban_nav_input/recording/receipt_range.hpp"
+#include "urban_nav_input/session/source.hpp"
+
+namespace urban_nav_input {
+
+/// What the user said about inputs.
+struct SourceOptions {
+  std::vector<std::string> topics;               ///< ROLE:=NAME, for bags
+  std::string calibration;                       ///< file for bags and KITTI folders; empty: their own
+  double rate = 0.0;                             ///< Hz of an image folder without stamps; 0: 10 Hz
+  std::string motion_input = "none";             ///< as input.motion_input
+  double wheel_noise = 0.0;                      ///< as input.wheel_noise
+  double gyro_noise = 0.0;                       ///< as input.gyro_noise
+  double right_delay = 0.0;                      ///< ms, as input.right_delay
+  std::vector<std::string> read_elsewhere = {};  ///< topics of bags that do not count as unused
+};
+
+enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };
+
+/// What lies at `path`. UserError that names what is known where it is none of it.
+InputKind inputKind(const std::string& path);
+
+/// One session: a folder, or the bags of a recording (more than one where it was split). `after`: where another reader
+/// of the recording stood, with bags that count as the first of `paths`; null for a reader that begins at the start.
+/// `part`: of the bags, what was received within this range. UserError where the bags do not follow.
+std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
+                                   const BagEnd* after = nullptr, const ReceiptRange& part = {});
+
+std::unique_ptr<Source> openKittiFolder(const std::string& folder, const SourceOptions& options);
+std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options);
+std::unique_ptr<Source> openNewCollegeFolder(const std::string& folder, const SourceOptions& options);
+std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options,
+                                 const BagEnd* after = nullptr, const ReceiptRange& part = {});
+
+}  // namespace urban_nav_input

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_input/examination/diagnosis.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "examination/stamp_check.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/examination/input_info.hpp"
+#include "urban_nav_input/examination/sampled_pairs.hpp"
+#include "urban_nav_input/session/calibration_check.hpp"
+
+namespace urban_nav_input {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr std::int64_t kMatchedSamples = 24;  // pairs whose images are matched
+constexpr double kIncomplete = 0.01;          // share of pairs: above it, a finding
+
+/// Faults of single pairs, alike ones counted together.
+class FaultCounter {
+ public:
+  void add(const std::string& fault) {
+    std::string key;  // without numbers
+    for (const char letter : fault)
+      if (letter < '0' || letter > '9') key += letter;
+    Group& group = groups_[key];
+    if (group.count++ == 0) group.example = fault;
+  }
+  std::vector<Finding> findings() const {
+    std::vector<Finding> findings;
+    for (const auto& [key, group] : groups_)
+      findings.push_back(
+          {FindingKind::Pairs,
+           group.example + (group.count > 1 ? " (and " + std::to_string(group.count - 1) + " alike)" : ""),
+           "these pairs are counted, not used; record or copy the images again if they are many"});
+    return findings;
+  }
+
+ private:
+  struct Group {
+    std::string example;
+    std::int64_t count = 0;
+  };
+  std::map<std::string, Group> groups_;
+};
+
+std::vector<std::string> describe(const SourceInfo& info) {
+  std::vector<std::string> contents = info.notes;
+  const urban_nav_core::Pinhole& left = info.camera.left;
+  contents.push_back("stereo: " + std::to_string(left.width) + "x" + std::to_string(left.height) +
+                     " px, focal length " + urban_nav_core::formatNumber(left.fx, 4) + " px, baseline " +
+                     urban_nav_core::formatNumber(info.camera.baseline, 3) + " m");
+  if (!info.lasers.empty()) contents.push_back(std::to_string(info.lasers.size()) + " lasers");
+  if (!info.panorama.empty()) contents.push_back(std::to_string(info.panorama.size()) + " cameras of a panorama");
+  return contents;
+}
+
+/// Reads the pairs, and hands a sample of them with their neighbours to the judge of images.
+class Reading {
+ public:
+  Reading(Source& source, Diagnosis& diagnosis)
+      : source_(source), diagnosis_(diagnosis), images_(source.info().frames, kMatchedSamples, 1) {}
+
+  void read(const std::function<void(std::int64_t, std::int64_t)>& progress) {
+    while (std::optional<SourceItem> item = source_.next()) {
+      const auto& pair = item->assembled.pair;
+      for (const std::string& fault : item->faults) faults_.add(fault);
+      stamps_.push_back(pair.stamp);
+      diagnosis_.complete += !pair.left.empty() && !pair.right.empty();
+      ++diagnosis_.pairs;
+      images_.add(item->assembled);
+      progress(diagnosis_.pairs, source_.info().frames);
+    }
+  }
+
+  void conclude() {
+    const auto append = [this](const std::vector<Finding>& found) {
+      diagnosis_.findings.insert(diagnosis_.findings.end(), found.begin(), found.end());
+    };
+    append(readerFindings(source_.closingFaults()));
+    append(faults_.findings());
+    if (2 * diagnosis_.complete > diagnosis_.pairs) append(checkStamps(stamps_));
+    append(images_.findings());
+    if (stamps_.size() > 1) {
+      const auto [first, last] = std::minmax_element(stamps_.begin(), stamps_.end());
+      diagnosis_.duration_s = urban_nav_core::secondsBetween(*first, *last);
+      if (diagnosis_.duration_s > 0.0)
+        diagnosis_.rate_hz = static_cast<double>(stamps_.size() - 1) / diagnosis_.duration_s;
+    }
+    const auto incomplete = static_cast<double>(diagnosis_.pairs - diagnosis_.complete);
+    if (diagnosis_.complete == 0)
+      append({{FindingKind::Pairs, "no stereo pair is complete",
+               "both images of a pair need stamps within 5 ms of each other, and pixels that can be decoded", true}});
+    else if (incomplete > kIncomplete * static_cast<double>(diagnosis_.pairs))
+      append({{FindingKind::Pairs,
+               std::to_string(diagnosis_.pairs - diagnosis_.complete) + " of " + std::to_string(diagnosis_.pairs) +
+                   " stereo pairs lack an image",
+               "check the cable and the rate of the camera that loses images"}});
+  }
+
+ private:
+  Source& source_;
+  Diagnosis& diagnosis_;
+  std::vector<StampNs> stamps_;
+  FaultCounter faults_;
+  SampledPairs images_;
+};
+
+Finding toFinding(const urban_nav_core::Error& error) {
+  const urban_nav_core::Error::Parts& parts = error.parts();
+  return errorFinding(parts.where + (parts.where.empty() ? "" : ": ") + parts.found, parts.allowed);
+}
+
+}  // namespace
+
+bool Diagnosis::isUsable() const {
+  return std::none_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.unusable; });
+}
+
+std::vector<std::string> separateUnreadable(const std::vector<std::string>& inputs,
+                                            std::vector<Diagnosis>& unreadable) {
+  std::vector<std::string> readable;
+  for (const std::string& input : inputs) {
+    try {
+      findSessions({input});
+      readable.push_back(input);
+    } catch (const urban_nav_core::DataError& error) {
+      Diagnosis diagnosis;
+      diagnosis.name = input;
+      diagnosis.findings.push_back(toFinding(error));
+      unreadable.push_back(diagnosis);
+    }
+  }
+  return readable;
+}
+
+Diagnosis examine(const InputSession& session, const SourceOptions& options,
+                  const std::function<void(std::int64_t done, std::int64_t total)>& progress) {
+  Diagnosis diagnosis;
+  diagnosis.name = session.paths.front();
+  try {
+    const std::unique_ptr<Source> source = readAhead(openSource(session.paths, options, nullptr, session.part), 8);
+    diagnosis.name = source->info().name;
+    diagnosis.kind = source->info().kind;
+    diagnosis.contents = describe(source->info());
+    std::vector<std::string> notes = source->info().notes;
+    if (!session.note.empty()) notes.push_back(session.note);
+    diagnosis.findings = readerFindings(notes);
+    for (const CalibrationFault& fault : checkCalibration(source->info().camera))
+      diagnosis.findings.push_back({FindingKind::Calibration, fault.text, fault.remedy});
+    for (const std::string& path : session.paths) {
+      if (inputKind(path) != InputKind::Bag) continue;
+      const std::vector<Finding> streams = checkStreams(lookInto(path).streams);
+      diagnosis.findings.insert(diagnosis.findings.end(), streams.begin(), streams.end());
+    }
+    Reading reading(*source, diagnosis);
+    reading.read(progress);
+    reading.conclude();
+  } catch (const urban_nav_core::Error& error) {
+    diagnosis.findings.push_back(toFinding(error));
+  }
+  return diagnosis;
+}
+
+}  // namespace urban_nav_input

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_input/examination/finding.hpp"
+
+namespace urban_nav_input {
+
+namespace {
+
+/// A part of a reader's sentence and what it means.
+struct KnownSentence {
+  const char* part;
+  FindingKind kind;
+  const char* remedy;
+};
+
+constexpr KnownSentence kKnownSentences[] = {
+    {"no header has a stamp", FindingKind::Stamps,
+     "let the camera's driver stamp its images; until then pairs are formed by times of receipt"},
+    {"stamps step back", FindingKind::Stamps, "set the clock before recording, and slew it (chrony) while recording"},
+    {"have the stamp of another", FindingKind::Stamps,
+     "record the topic once; a driver that repeats images or stamps needs a restart or a repair"},
+    {"came too late by their stamps", FindingKind::Stamps, "check the clock of the computer that stamps this topic"},
+    {"no times.txt", FindingKind::Stamps, "--rate HZ states the rate of the images"},
+    {"later than the left ones", FindingKind::Pairs, "--set input.right_delay=MS with the delay stated here, in ms"},
+    {"earlier than the left ones", FindingKind::Pairs,
+     "--set input.right_delay=MS with the delay stated here, in ms, below zero"},
+    {"no partner within", FindingKind::Pairs,
+     "trigger both cameras together; --set input.right_delay=MS if one is late by a constant time"},
+    {"no image of this camera", FindingKind::Pairs, "check the cable and the driver of this camera of the panorama"},
+    {"no static tf", FindingKind::Tf,
+     "publish it while recording: rosrun tf2_ros static_transform_publisher X Y Z QX QY QZ QW base_link FRAME"},
+    {"is not used", FindingKind::Tf, "publish its transform from base_link on /tf_static"},
+    {"images are rectified already, although", FindingKind::Calibration,
+     "publish images without distortion with a camera_info whose D is zero, or record the raw images"},
+    {"although their topic is named as rectified", FindingKind::Calibration,
+     "name raw images image_raw, and rectified ones image_rect"},
+    {"left aside", FindingKind::Calibration, "repair the file that the message names"},
+    {"have no stamp, or angles", FindingKind::Stamps, "check the driver of this laser"},
+};
+
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+/// Returns a remedy with the name that a sentence has in quotation marks in place of the word FRAME.
+std::string nameFrame(std::string remedy, const std::string& sentence) {
+  const std::size_t word = remedy.rfind("FRAME"), open = sentence.find('"');
+  const std::size_t close = open == std::string::npos ? open : sentence.find('"', open + 1);
+  if (word != std::string::npos && close != std::string::npos)
+    remedy.replace(word, 5, sentence.substr(open + 1, close - open - 1));
+  return remedy;
+}
+
+}  // namespace
+
+const char* toString(FindingKind kind) {
+  switch (kind) {
+    case FindingKind::Stamps: return "stamps";
+    case FindingKind::Pairs: return "pairs";
+    case FindingKind::Rectification: return "rectification";
+    case FindingKind::Depth: return "depth";
+    case FindingKind::Calibration: return "calibration";
+    case FindingKind::Tf: return "tf";
+    case FindingKind::Rates: return "rates";
+  }
+  return "";
+}
+
+std::vector<Finding> readerFindings(const std::vector<std::string>& sentences) {
+  std::vector<Finding> findings;
+  for (const std::string& sentence : sentences)
+    for (const KnownSentence& known : kKnownSentences)
+      if (contains(sentence, known.part)) {
+        findings.push_back({known.kind, sentence, nameFrame(known.remedy, sentence)});
+        break;
+      }
+  return findings;
+}
+
+Finding errorFinding(const std::string& error, const std::string& allowed) {
+  Finding finding{FindingKind::Pairs, error, allowed, true};
+  for (const char* word : {"camera_info", "calib", "baseline", "focal", "distortion", "sensor.yaml", "projection"})
+    if (contains(error, word)) finding.kind = FindingKind::Calibration;
+  if (contains(error, "encoding") || contains(error, "bits")) finding.kind = FindingKind::Depth;
+  if (contains(error, "rosbag reindex")) finding.remedy = "rosbag reindex, then doctor again";
+  if (!finding.remedy.empty()) return finding;
+  switch (finding.kind) {
+    case FindingKind::Calibration:
+      finding.remedy = "--calibration LEFT.yaml,RIGHT.yaml states the calibration of both cameras";
+      break;
+    case FindingKind::Depth: finding.remedy = "record mono8, mono16, bayer, rgb8 or bgr8 images"; break;
+    default: finding.remedy = "--topic left:=NAME --topic right:=NAME names the images of the stereo pair"; break;
+  }
+  return finding;
+}
+
+}  // namespace urban_nav_input

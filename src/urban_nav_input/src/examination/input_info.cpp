@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_input/examination/input_info.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <map>
+
+#include "urban_nav_core/trajectory/statistics.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/folder/euroc_layout.hpp"
+#include "urban_nav_input/folder/kitti_layout.hpp"
+#include "urban_nav_input/folder/new_college_files.hpp"
+#include "urban_nav_input/folder/new_college_log.hpp"
+#include "urban_nav_input/session/open.hpp"
+#include "urban_nav_input/truth/truth.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_input {
+
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+
+namespace {
+
+/// Adds stamps up to figures.
+class Counter {
+ public:
+  Counter(std::string name, std::string type) { info_.name = std::move(name), info_.type = std::move(type); }
+
+  void add(StampNs stamp) {
+    if (info_.messages++ == 0) {
+      info_.first = info_.last = newest_ = stamp;
+      return;
+    }
+    if (stamp <= newest_) ++info_.backward;
+    info_.longest_gap_s = std::max(info_.longest_gap_s, urban_nav_core::secondsBetween(newest_, stamp));
+    newest_ = stamp;
+    info_.first = std::min(info_.first, stamp);
+    info_.last = std::max(info_.last, stamp);
+  }
+
+  StreamInfo info() const {
+    StreamInfo info = info_;
+    const double seconds = urban_nav_core::secondsBetween(info.first, info.last);
+    info.rate_hz = info.messages > 1 && seconds > 0.0 ? static_cast<double>(info.messages - 1) / seconds : 0.0;
+    return info;
+  }
+
+ private:
+  StreamInfo info_;
+  StampNs newest_ = 0;
+};
+
+template <typename Stamps>
+StreamInfo toStream(const std::string& name, const std::string& type, const Stamps& stamps) {
+  Counter counter(name, type);
+  for (const StampNs stamp : stamps) counter.add(stamp);
+  return counter.info();
+}
+
+void lookIntoBag(const std::string& path, InputInfo& info) {
+  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag);
+  std::map<std::string, Counter> counters;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    counters.emplace(connection->topic, Counter(connection->topic, connection->datatype));
+  std::map<std::string, std::vector<Vector3d>> ways;
+  for (const rosbag::MessageInstance& instance : view) {
+    counters.at(instance.getTopic()).add(urban_nav_ros::toStampNs(instance.getTime()));
+    std::optional<urban_nav_core::Pose> pose;
+    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>())
+      pose = urban_nav_ros::toPose(odometry->pose.pose);
+    if (const auto stamped = instance.instantiate<geometry_msgs::PoseStamped>())
+      pose = urban_nav_ros::toPose(stamped->pose);
+    if (pose) ways[instance.getTopic()].push_back(pose->t());
+  }
+  for (const auto& [topic, counter] : counters) info.streams.push_back(counter.info());
+  if (ways.empty()) return;
+  const auto truth = std::find_if(ways.begin(), ways.end(),
+                                  [](const auto& way) { return way.first.find("truth") != std::string::npos; });
+  const auto& [topic, way] = truth != ways.end() ? *truth : *ways.begin();
+  info.distance_m = urban_nav_core::travelledLength(way);
+  info.distance_of = topic;
+}
+
+void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
+  std::vector<StampNs> stamps;
+  const SourceOptions options;
+  const std::unique_ptr<Source> source = openSource({path}, options);
+  info.notes = source->info().notes;
+  const urban_nav_core::StereoCamera& camera = source->info().camera;
+  info.notes.push_back(std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + ", f " +
+                       std::to_string(camera.left.fx) + " px, baseline " + std::to_string(camera.baseline) + " m");
+  if (kind == InputKind::KittiFolder) {
+    info.streams.push_back(toStream("stereo", "image pairs", listKittiFrames(*findKittiLayout(path), 0.0).stamps));
+  } else {
+    for (const EurocPair& pair : readEurocPairs(eurocFolder(path))) stamps.push_back(pair.stamp);
+    info.streams.push_back(toStream("stereo", "image pairs", stamps));
+    stamps.clear();
+    for (const EurocImu& row : readEurocImu(eurocFolder(path))) stamps.push_back(row.stamp);
+    if (!stamps.empty()) info.streams.push_back(toStream("imu0", "rates and accelerations", stamps));
+  }
+  if (const std::optional<TrajectoryFile> truth = findTruth({{path}}, source->info(), options)) {
+    std::vector<Vector3d> way;
+    stamps.clear();
+    for (const urban_nav_core::StampedPose& pose : truth->trajectory) {
+      way.push_back(pose.pose.t());
+      stamps.push_back(pose.stamp);
+    }
+    info.streams.push_back(toStream("truth", "poses", stamps));
+    info.distance_m = urban_nav_core::travelledLength(way);
+    info.distance_of = truth->path;
+  }
+}
+
+void lookIntoNewCollege(const std::string& path, InputInfo& info) {
+  const NewCollegeFiles files = findNewCollege(path);
+  std::vector<StampNs> stamps;
+  for (const NewCollegeFiles::Pair& pair : files.stereo) stamps.push_back(pair.stamp);
+  info.streams.push_back(toStream("stereo", "image pairs", stamps));
+  stamps.clear();
+  for (const NewCollegeFiles::Image& image : files.panorama) {
+    if (image.camera == 0) stamps.push_back(image.stamp);
+  }
+  info.streams.push_back(toStream("ladybug", "panoramas", stamps));
+  if (files.alog.empty()) return;
+  Counter left("laser_left", "scans"), right("laser_right", "scans"), odometry("wheel_odom", "poses");
+  std::vector<Vector3d> way;
+  NewCollegeLog log(files.alog);
+  while (const std::optional<NewCollegeEvent> event = log.next()) {
+    if (const auto* scan = std::get_if<NewCollegeScan>(&*event))
+      (scan->side == Side::Left ? left : right).add(scan->stamp);
+    if (const auto* pose = std::get_if<NewCollegeOdometry>(&*event)) {
+      odometry.add(pose->stamp);
+      way.push_back(pose->T_odom_base.t());
+    }
+  }
+  for (const Counter* counter : {&left, &right, &odometry}) info.streams.push_back(counter->info());
+  info.distance_m = urban_nav_core::travelledLength(way);
+  info.distance_of = "wheel_odom";
+}
+
+}  // namespace
+
+InputInfo lookInto(const std::string& path) {
+  const InputKind kind = inputKind(path);
+  InputInfo info;
+  info.name = path;
+  switch (kind) {
+    case InputKind::Bag:
+      info.kind = "bag";
+      try {
+        lookIntoBag(path, info);
+      } catch (const rosbag::BagException& error) {
+        throw urban_nav_core::DataError(path, std::string("cannot be read: ") + error.what(),
+                                        "a whole bag (`rosbag reindex` mends one that was cut off)");
+      }
+      break;
+    case InputKind::NewCollegeFolder:
+      info.kind = "New College folder";
+      lookIntoNewCollege(path, info);
+      break;
+    case InputKind::KittiFolder:
+    case InputKind::EurocFolder:
+      info.kind = kind == InputKind::KittiFolder ? "KITTI folder" : "EuRoC folder";
+      lookIntoFolder(path, kind, info);
+      break;
+  }
+  return info;
+}
+
+}  // namespace urban_nav_input

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <tuple>
+
+#include "folder/unused_files.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/folder/euroc_layout.hpp"
+#include "urban_nav_input/folder/image_file.hpp"
+#include "urban_nav_input/session/open.hpp"
+
+namespace urban_nav_input {
+
+using urban_nav_core::UserError;
+using urban_nav_ros::GreyImage;
+
+namespace {
+
+class EurocFolder : public Source {
+ public:
+  EurocFolder(const std::string& folder, const SourceOptions& options)
+      : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_, &info_.notes)) {
+    bits_ = eurocBits(pairs_);
+    if (pairs_.empty()) throw UserError(mav0_, "lists no images", "cam0/data.csv and cam1/data.csv");
+    info_.name = folder;
+    info_.kind = "EuRoC folder";
+    info_.camera = rig_.rectification.camera;
+    info_.T_base_camera = rig_.T_base_camera;
+    info_.frames = static_cast<std::int64_t>(pairs_.size());
+    info_.first = pairs_.front().stamp;
+    info_.last = pairs_.back().stamp;
+    if (options.motion_input == "wheels")
+      throw urban_nav_core::DataError(mav0_, "has no wheel odometry for input.motion_input = wheels", "");
+    if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
+    readForces();
+    info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
+    if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
+    if (std::string sentence = describeUnusedFiles(mav0_, {"cam0", "cam1", "imu0", "state_groundtruth_estimate0"});
+        !sentence.empty())
+      info_.notes.push_back(std::move(sentence));
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
+
+  std::optional<SourceItem> next() override {
+    if (position_ >= pairs_.size()) return std::nullopt;
+    const EurocPair& pair = pairs_[position_++];
+    SourceItem input;
+    input.assembled.pair.stamp = pair.stamp;
+    std::tie(input.assembled.pair.left, input.assembled.left_owner) =
+        sharedView(read(pair.left, "left", pair.stamp, rig_.left_map, bits_, input.faults));
+    std::tie(input.assembled.pair.right, input.assembled.right_owner) =
+        sharedView(read(pair.right, "right", pair.stamp, rig_.right_map, bits_, input.faults));
+    for (; next_motion_ < motion_.size() && motion_[next_motion_].to <= pair.stamp; ++next_motion_)
+      input.assembled.inputs.push_back(motion_[next_motion_]);
+    return input;
+  }
+
+ private:
+  void readMotion(double noise) {
+    urban_nav_ros::GyroMotion gyroscope(noise, rig_.T_base_body.R());
+    for (const EurocImu& row : readEurocImu(mav0_)) {
+      if (const auto motion = gyroscope.add(toImuMessage(row))) motion_.push_back(*motion);
+    }
+    if (motion_.empty()) throw urban_nav_core::DataError(mav0_, "has no imu0 for input.motion_input = gyroscope", "");
+  }
+
+  /// They level the map; without them it is as the first pose stands, and nothing else is lost.
+  void readForces() {
+    try {
+      for (const EurocImu& row : readEurocImu(mav0_))
+        forces_.push_back({row.stamp, rig_.T_base_body.R() * row.acceleration});
+    } catch (const urban_nav_core::Error& error) {
+      forces_.clear();
+      info_.notes.push_back(std::string("the accelerometer is left aside: ") + error.what());
+    }
+  }
+
+  static cv::Mat read(const std::string& path, const char* side, urban_nav_core::StampNs stamp,
+                      const urban_nav_core::RectifyMap& map, int bits, std::vector<std::string>& faults) {
+    if (path.empty()) {
+      faults.push_back(std::string(side) + " image of " + std::to_string(stamp) + " ns is missing");
+      return {};
+    }
+    const GreyImage image = readRectified(path, map, bits);
+    if (!image.fault.empty()) faults.push_back(image.fault);
+    return image.pixels;
+  }
+
+  std::string mav0_;
+  EurocRig rig_;
+  SourceInfo info_;
+  std::vector<EurocPair> pairs_;
+  int bits_ = 8;
+  std::vector<urban_nav_core::MotionInput> motion_;
+  std::vector<urban_nav_core::SpecificForce> forces_;
+  std::size_t position_ = 0, next_motion_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options) {
+  return std::make_unique<EurocFolder>(folder, options);
+}
+
+}  // namespace urban_nav_input

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_input {
+
+/// A row of one of EuRoC's data.csv files: a stamp, then numbers or names.
+struct EurocRow {
+  urban_nav_core::StampNs stamp = 0;
+  std::vector<std::string> cells;  ///< with that of the stamp
+  std::string where;               ///< "data.csv:12"
+
+  /// Throws UserError with file and line if the cell is no finite number.
+  double number(std::size_t cell) const;
+};
+struct EurocTable {
+  std::vector<EurocRow> rows;    ///< in order of stamps, each later than the one before
+  std::size_t repeated = 0;      ///< rows left out: an earlier one has their stamp
+  std::size_t out_of_order = 0;  ///< rows that were sorted
+};
+
+/// Reads a data.csv: with or without a header line, with comments (#), in any order. `meaning`: of the first `columns`
+/// columns, for errors. Throws UserError with file and line.
+EurocTable readEurocTable(const std::string& path, std::size_t columns, const std::string& meaning);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recording/bag_contents.hpp"
+
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "urban_nav_ros/pose.hpp"
+
+namespace urban_nav_input {
+
+using urban_nav_core::Pose;
+
+namespace {
+
+constexpr std::size_t kTfSamples = 1000;
+constexpr double kSamePlace = 1e-3;                // m
+constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad
+
+/// A link of /tf as it was first, and whether it was another one later.
+struct TfLink {
+  geometry_msgs::TransformStamped first;
+  Pose T_parent_child;
+  bool moves = false;
+};
+
+bool isSamePlace(const Pose& a, const Pose& b) {
+  return (a.t() - b.t()).norm() < kSamePlace && a.q().angularDistance(b.q()) < kSameAngle;
+}
+
+std::map<std::string, TfLink> readLinks(std::list<rosbag::Bag>& bags) {
+  std::map<std::string, TfLink> links;  // by child
+  for (rosbag::Bag& bag : bags) {
+    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "tf"}));
+    const std::size_t step = std::max<std::size_t>(1, view.size() / kTfSamples);
+    std::size_t i = 0;
+    for (const rosbag::MessageInstance& instance : view) {
+      // The first ones all, then some drawn by a hash (Knuth): publishers take turns, and a stride would meet the same.
+      const std::uint32_t draw = static_cast<std::uint32_t>(i) * 2654435761U;
+      if (i++ > kTfSamples / 10 && (draw >> 8U) % step != 0) continue;
+      const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+      if (!message) continue;
+      for (const geometry_msgs::TransformStamped& transform : message->transforms) {
+        const std::optional<Pose> pose = urban_nav_ros::toPose(transform.transform);
+        if (!pose) continue;
+        const auto [link, is_new] = links.try_emplace(transform.child_frame_id, TfLink{transform, *pose, false});
+        if (is_new) continue;
+        const bool is_same = link->second.first.header.frame_id == transform.header.frame_id &&
+                             isSamePlace(link->second.T_parent_child, *pose);
+        link->second.moves = link->second.moves || !is_same;
+      }
+    }
+  }
+  return links;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> topicTypes(std::list<rosbag::Bag>& bags) {
+  std::map<std::string, std::string> types;
+  for (rosbag::Bag& bag : bags) {
+    rosbag::View view(bag);
+    for (const rosbag::ConnectionInfo* connection : view.getConnections())
+      types[connection->topic] = connection->datatype;
+  }
+  return types;
+}
+
+urban_nav_ros::StaticTransforms readTransforms(std::list<rosbag::Bag>& bags) {
+  urban_nav_ros::StaticTransforms transforms;
+  for (rosbag::Bag& bag : bags) {
+    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}));
+    for (const rosbag::MessageInstance& instance : view)
+      if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
+  }
+  for (const auto& [child, link] : readLinks(bags))
+    if (!link.moves && !transforms.hasParent(child)) transforms.add(link.first);
+  return transforms;
+}
+
+}  // namespace urban_nav_input

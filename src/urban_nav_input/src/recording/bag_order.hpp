@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+#include <rosbag/view.h>
+
+#include <list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "recording/clock_steps.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_input {
+
+/// How the stamps in the headers of a recording's images relate to the times at which the messages were received.
+struct StampSurvey {
+  /// Stamps of one topic ascend, but messages lie in another order than their stamps: the bags were converted, merged,
+  /// filtered, or recorded over a slow link.
+  bool needs_sorting = false;
+  /// No header has a stamp.
+  bool unset = false;
+  /// ns; by how much the stamps of a topic step back at most while times of receipt ascend: a clock was set.
+  urban_nav_core::StampNs back = 0;
+};
+
+/// Returns the stamp (ns) of a message that begins with a std_msgs/Header.
+urban_nav_core::StampNs readHeaderStamp(const rosbag::MessageInstance& message);
+
+/// Looks at a few hundred messages of the topics, evenly distributed over the part of the bags within `range`.
+StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
+                         const ReceiptRange& range = {});
+
+/// Messages of some bags one after another: as they were received, or in the order of their header stamps, those of
+/// equal stamps as they were received. Sorting reads all of them once, keeps some 60 bytes for each, and requires
+/// topics whose messages have headers. Messages received outside `range` are left out.
+class BagMessages {
+ public:
+  BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted,
+              const ReceiptRange& range = {});
+
+  /// Returns null at the end; the message is valid until the next call.
+  const rosbag::MessageInstance* next();
+
+ private:
+  rosbag::View view_;
+  rosbag::View::iterator position_;
+  std::optional<rosbag::MessageInstance> message_;
+  bool is_sorted_;
+  std::vector<rosbag::MessageInstance> all_;                            // if they are sorted
+  std::vector<std::pair<urban_nav_core::StampNs, std::size_t>> order_;  // of them
+  std::size_t next_ = 0;
+};
+
+}  // namespace urban_nav_input

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_input/recording/bag_topics.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_input {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+struct RoleNames {
+  Role role;
+  const char* word;
+  const char* topic;  // of docs/architecture.md
+};
+constexpr std::array<RoleNames, 20> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
+                                               {Role::Right, "right", "stereo/right/image_raw"},
+                                               {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
+                                               {Role::RightInfo, "right_info", "stereo/right/camera_info"},
+                                               {Role::Imu, "imu", "imu/data"},
+                                               {Role::Wheels, "wheels", "wheel_odom"},
+                                               {Role::LaserLeft, "laser_left", "laser_left/scan"},
+                                               {Role::LaserRight, "laser_right", "laser_right/scan"},
+                                               {Role::Truth, "truth", "ground_truth/pose"},
+                                               {Role::Gps, "gps", "gps/fix"},
+                                               {Role::Panorama0, "panorama0", "ladybug/camera0/image_raw"},
+                                               {Role::Panorama1, "panorama1", "ladybug/camera1/image_raw"},
+                                               {Role::Panorama2, "panorama2", "ladybug/camera2/image_raw"},
+                                               {Role::Panorama3, "panorama3", "ladybug/camera3/image_raw"},
+                                               {Role::Panorama4, "panorama4", "ladybug/camera4/image_raw"},
+                                               {Role::Panorama0Info, "panorama0_info", "ladybug/camera0/camera_info"},
+                                               {Role::Panorama1Info, "panorama1_info", "ladybug/camera1/camera_info"},
+                                               {Role::Panorama2Info, "panorama2_info", "ladybug/camera2/camera_info"},
+                                               {Role::Panorama3Info, "panorama3_info", "ladybug/camera3/camera_info"},
+                                               {Role::Panorama4Info, "panorama4_info", "ladybug/camera4/camera_info"}}};
+
+constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"},
+                                                               {"cam0", "cam1"},
+                                                               {"cam_0", "cam_1"},
+                                                               {"image_00", "image_01"},
+                                                               {"image_0", "image_1"},
+                                                               {"infra1", "infra2"},
+                                                               {"camera0", "camera1"}}};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string bare(const std::string& topic) { return topic.empty() || topic.front() != '/' ? topic : topic.substr(1); }
+
+bool fits(Role role, const std::string& type) {
+  switch (role) {
+    case Role::Left:
+    case Role::Right:
+    case Role::Panorama0:
+    case Role::Panorama1:
+    case Role::Panorama2:
+    case Role::Panorama3:
+    case Role::Panorama4: return isImageType(type);
+    case Role::LeftInfo:
+    case Role::RightInfo:
+    case Role::Panorama0Info:
+    case Role::Panorama1Info:
+    case Role::Panorama2Info:
+    case Role::Panorama3Info:
+    case Role::Panorama4Info: return type == "sensor_msgs/CameraInfo";
+    case Role::Imu: return type == "sensor_msgs/Imu";
+    case Role::Wheels: return type == "nav_msgs/Odometry";
+    case Role::LaserLeft:
+    case Role::LaserRight: return type == "sensor_msgs/LaserScan";
+    case Role::Truth: return type == "geometry_msgs/PoseStamped";
+    case Role::Gps: return type == "sensor_msgs/NavSatFix";
+  }
+  return false;
+}
+
+std::string roleWords() {
+  std::string words;
+  for (const RoleNames& names : kRoles) words += (words.empty() ? "" : ", ") + std::string(names.word);
+  return words;
+}
+
+/// The topic as it is called in the bag, with or without the leading slash.
+std::map<std::string, std::string>::const_iterator findTopic(const std::map<std::string, std::string>& available,
+                                                             const std::string& name) {
+  return std::find_if(available.begin(), available.end(),
+                      [&](const auto& topic) { return bare(topic.first) == bare(name); });
+}
+
+void take(const std::map<std::string, std::string>& available, const std::string& wish, BagTopics& topics) {
+  const std::size_t sign = wish.find(":=");
+  if (sign == std::string::npos)
+    throw UserError("--topic", "\"" + wish + "\"", "ROLE:=NAME with a role of " + roleWords());
+  const std::string role = wish.substr(0, sign), name = wish.substr(sign + 2);
+  const auto names = std::find_if(kRoles.begin(), kRoles.end(),
+                                  [&](const RoleNames& r) { return role == r.word || bare(role) == r.topic; });
+  if (names == kRoles.end()) throw UserError("--topic", "role \"" + role + "\"", roleWords());
+  const auto topic = findTopic(available, name);
+  if (topic == available.end() || !fits(names->role, topic->second)) {
+    std::string candidates;
+    for (const auto& [known, type] : available) {
+      if (fits(names->role, type)) candidates += (candidates.empty() ? "" : ", ") + known;
+    }
+    const std::string found = topic == available.end() ? "is not in the bag" : "is of type " + topic->second;
+    throw UserError("--topic " + wish, name + " " + found,
+                    candidates.empty() ? "none: the bag has no topic of this kind" : candidates);
+  }
+  topics.chosen[names->role] = {topic->first, topic->second};
+}
+
+constexpr int kOdd = 100;  // oddness of what is no camera's image, or a worse one
+
+/// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked
+/// for.
+int oddness(const std::string& topic, const std::string& type) {
+  int value = 0;
+  for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"})
+    value += contains(topic, word) ? kOdd : 0;
+  value += isRectifiedName(topic) ? 10 : 0;
+  value += contains(topic, "stereo") ? 0 : 2;
+  value += contains(topic, "image") ? 0 : 4;
+  value += type == "sensor_msgs/CompressedImage" ? 1 : 0;
+  return value;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// The names of the other camera: one occurrence of the word replaced, the last one first, so that the two images are
+/// of one head (.../left/cam/left with .../left/cam/right), then all of them.
+std::vector<std::string> otherNames(const std::string& text, const std::string& from, const std::string& to) {
+  std::vector<std::string> names;
+  for (std::size_t at = text.rfind(from); at != std::string::npos;
+       at = at == 0 ? std::string::npos : text.rfind(from, at - 1))
+    names.push_back(text.substr(0, at) + to + text.substr(at + from.size()));
+  names.push_back(replaced(text, from, to));
+  return names;
+}
+
+/// Where names tell nothing: the only two streams of images there are, in the order of their names. Not a camera's raw
+/// and rectified images, and not depth beside colour.
+std::pair<ChosenTopic, ChosenTopic> onlyPair(const std::map<std::string, std::string>& available) {
+  std::vector<ChosenTopic> images;
+  for (const auto& [topic, type] : available) {
+    if (isImageType(type)) images.push_back({topic, type});
+  }
+  if (images.size() != 2 || images[0].type != images[1].type ||
+      isRectifiedName(images[0].name) != isRectifiedName(images[1].name))
+    return {};
+  const bool odd = std::any_of(images.begin(), images.end(),
+                               [](const ChosenTopic& topic) { return oddness(topic.name, topic.type) >= kOdd; });
+  return odd ? std::pair<ChosenTopic, ChosenTopic>() : std::make_pair(images[0], images[1]);
+}
+
+void guessImages(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  int best = 1 << 20;
+  std::pair<ChosenTopic, ChosenTopic> pair;
+  for (const auto& [left, type] : available) {
+    if (!isImageType(type)) continue;
+    const std::optional<ChosenTopic> wished_left = topics.find(Role::Left), wished_right = topics.find(Role::Right);
+    if (wished_left && wished_left->name != left) continue;
+    for (std::size_t i = 0; i < kSides.size(); ++i) {
+      if (!contains(left, kSides[i][0])) continue;
+      for (const std::string& name : otherNames(left, kSides[i][0], kSides[i][1])) {
+        const auto right = available.find(name);
+        if (right == available.end() || right->second != type || (wished_right && wished_right->name != right->first))
+          continue;
+        const int value = oddness(left, type) + static_cast<int>(i);
+        if (value < best) {
+          best = value;
+          pair = {{left, type}, {right->first, type}};
+        }
+        break;
+      }
+    }
+  }
+  if (pair.first.name.empty()) {
+    pair = onlyPair(available);
+    const std::optional<ChosenTopic> left = topics.find(Role::Left), right = topics.find(Role::Right);
+    if ((left && left->name == pair.second.name) || (right && right->name == pair.first.name))
+      std::swap(pair.first, pair.second);
+  }
+  if (pair.first.name.empty()) return;
+  if (!topics.find(Role::Left)) topics.chosen[Role::Left] = pair.first;
+  if (!topics.find(Role::Right)) topics.chosen[Role::Right] = pair.second;
+}
+
+/// camera_info stands beside the images, or a level above (.../image_raw/compressed).
+void guessInfo(const std::map<std::string, std::string>& available, Role image, Role info, BagTopics& topics) {
+  if (topics.find(info) || !topics.find(image)) return;
+  std::string folder = topics.find(image)->name;
+  while (folder.find('/') != std::string::npos) {
+    folder.resize(folder.rfind('/'));
+    const auto found = available.find(folder + "/camera_info");
+    if (found != available.end() && fits(info, found->second)) {
+      topics.chosen[info] = {found->first, found->second};
+      return;
+    }
+  }
+}
+
+/// Where none stands beside the images: the only two that are left over, by their sides, else in the order of their
+/// names.
+void guessOtherInfos(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  if (topics.find(Role::LeftInfo) || topics.find(Role::RightInfo)) return;
+  std::vector<ChosenTopic> infos;
+  for (const auto& [topic, type] : available) {
+    if (fits(Role::LeftInfo, type)) infos.push_back({topic, type});
+  }
+  if (infos.size() != 2) return;
+  for (const auto& side : kSides) {
+    if (contains(infos[1].name, side[0]) && replaced(infos[1].name, side[0], side[1]) == infos[0].name)
+      std::swap(infos[0], infos[1]);
+  }
+  topics.chosen[Role::LeftInfo] = infos[0];
+  topics.chosen[Role::RightInfo] = infos[1];
+}
+
+/// Cameras of a panoramic head, unless the user names one: the first topic of each camera whose name tells so.
+void guessPanorama(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  if (topics.panorama().empty()) {
+    for (std::size_t camera = 0; camera < panorama_cameras; ++camera)
+      for (const auto& [topic, type] : available) {
+        const std::string number = std::to_string(camera);
+        if (!isImageType(type) || !(contains(topic, "ladybug") || contains(topic, "panorama")) ||
+            !(contains(topic, "camera" + number) || contains(topic, "cam" + number)))
+          continue;
+        topics.chosen[panoramaRole(camera)] = {topic, type};
+        break;
+      }
+    if (topics.panorama().size() < 2)
+      for (const std::size_t camera : topics.panorama()) topics.chosen.erase(panoramaRole(camera));
+  }
+  for (const std::size_t camera : topics.panorama())
+    guessInfo(available, panoramaRole(camera), panoramaInfoRole(camera), topics);
+}
+
+/// What may be a stereo pair: all topics but those of a panoramic head.
+std::map<std::string, std::string> withoutPanorama(std::map<std::string, std::string> available,
+                                                   const BagTopics& topics) {
+  for (const std::size_t camera : topics.panorama())
+    for (const Role role : {panoramaRole(camera), panoramaInfoRole(camera)})
+      if (const auto topic = topics.find(role)) available.erase(topic->name);
+  return available;
+}
+
+/// One line for each role; panoramas share one.
+void noteTopics(const std::map<Role, ChosenTopic>& wished, BagTopics& topics) {
+  const std::vector<std::size_t> panorama = topics.panorama();
+  for (const auto& [role, topic] : topics.chosen) {
+    const std::string guessed = wished.count(role) != 0 ? "" : " (guessed)";
+    if (role < Role::Panorama0) topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + guessed);
+    else if (role == panoramaRole(panorama.front()))
+      topics.notes.push_back(std::to_string(panorama.size()) + " cameras of a panorama: " + topic.name +
+                             (panorama.size() > 1 ? " ..." : "") + guessed);
+  }
+}
+
+void guessOther(const std::map<std::string, std::string>& available, const RoleNames& names,
+                const std::vector<std::string>& words, BagTopics& topics) {
+  if (topics.find(names.role)) return;
+  for (const std::string& word : words) {
+    for (const auto& [topic, type] : available) {
+      if (fits(names.role, type) && (bare(topic) == names.topic || contains(topic, word))) {
+        topics.chosen[names.role] = {topic, type};
+        return;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const char* toString(Role role) {
+  return std::find_if(kRoles.begin(), kRoles.end(), [role](const RoleNames& names) { return names.role == role; })
+      ->word;
+}
+
+Role panoramaRole(std::size_t camera) { return static_cast<Role>(static_cast<std::size_t>(Role::Panorama0) + camera); }
+
+Role panoramaInfoRole(std::size_t camera) {
+  return static_cast<Role>(static_cast<std::size_t>(Role::Panorama0Info) + camera);
+}
+
+std::vector<std::size_t> BagTopics::panorama() const {
+  std::vector<std::size_t> cameras;
+  for (std::size_t camera = 0; camera < panorama_cameras; ++camera)
+    if (find(panoramaRole(camera))) cameras.push_back(camera);
+  return cameras;
+}
+
+std::optional<ChosenTopic> BagTopics::find(Role role) const {
+  const auto found = chosen.find(role);
+  return found == chosen.end() ? std::nullopt : std::optional<ChosenTopic>(found->second);
+}
+
+BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes) {
+  BagTopics topics;
+  for (const std::string& wish : wishes) take(available, wish, topics);
+  const std::map<Role, ChosenTopic> wished = topics.chosen;
+  guessPanorama(available, topics);
+  const std::map<std::string, std::string> others = withoutPanorama(available, topics);
+  guessImages(others, topics);
+  guessInfo(others, Role::Left, Role::LeftInfo, topics);
+  guessInfo(others, Role::Right, Role::RightInfo, topics);
+  guessOtherInfos(others, topics);
+  guessOther(available, kRoles[4], {"imu"}, topics);
+  guessOther(available, kRoles[5], {"wheel"}, topics);
+  guessOther(available, kRoles[6], {"left"}, topics);
+  guessOther(available, kRoles[7], {"right"}, topics);
+  guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
+  guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
+  noteTopics(wished, topics);
+  if (topics.chosen.size() > wished.size())
+    topics.notes.push_back("guessed from types and names; --topic ROLE:=NAME decides");
+  return topics;
+}
+
+bool isImageType(const std::string& type) {
+  return type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage";
+}
+
+bool isRectifiedName(const std::string& topic) { return contains(topic, "rect"); }
+
+}  // namespace urban_nav_input

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <list>
+#include <string>
+#include <vector>
+
+#include "recording/clock_steps.hpp"
+#include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_ros/stereo_calibration.hpp"
+
+namespace urban_nav_input {
+
+/// Topics of the images of a stereo camera in a recording.
+struct StereoTopics {
+  std::string left, right;
+  urban_nav_core::StampNs right_delay = 0;  ///< ns by which right images are stamped later than the left ones
+};
+
+/// camera_info of both cameras, and where they come from.
+struct StereoInfos {
+  urban_nav_core::CameraInfo left, right;
+  std::string where;
+};
+
+/// Returns the calibration of the images of a recording. Whether they are rectified already is judged by what they
+/// show; `named_as_rectified` decides where that is not clear. Appends a note where the name misleads. Throws
+/// UserError, as StereoCalibration.
+urban_nav_ros::StereoCalibration makeCalibration(std::list<rosbag::Bag>& bags, const StereoTopics& topics,
+                                                 const ReceiptRange& part, bool named_as_rectified,
+                                                 const StereoInfos& infos, std::vector<std::string>& notes);
+
+}  // namespace urban_nav_input
