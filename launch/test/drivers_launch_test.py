@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """drivers.launch as a user starts it, on simulated devices that a bag feeds: every topic comes, with the values of the bag, and all ends clean."""
 import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -12,20 +11,17 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, LaserScan, MagneticField, NavSatFix
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 
 TOPICS = {"/laser_left/scan": LaserScan, "/laser_right/scan": LaserScan, "/imu/data": Imu, "/imu/mag": MagneticField,
           "/wheel_odom": Odometry, "/gps/fix": NavSatFix}
+SECONDS = 24
 
 
 class DriversLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
-        bag = Path(folder) / "session.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", "25", "--sensors", "lasers,imu,wheels,gps", "-o", str(bag)],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return bag
+        return cls.simulated(folder, SECONDS, "lasers", "imu", "wheels", "gps")[0]
 
     def test_simulated_devices_give_the_measurements_of_the_bag(self):
         received = {topic: [] for topic in TOPICS}

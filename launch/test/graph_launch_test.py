@@ -42,12 +42,10 @@ class GraphLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
         rospy.set_param("/pose_graph/queue_size", 100000)
-        bag = Path(folder) / "simulated.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo,imu", "-o", str(bag)], check=True,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        bag, trajectory = cls.simulated(folder, SECONDS, "stereo", "imu")
         with rosbag.Bag(str(bag)) as opened:
             cls.stamps = [message.header.stamp for _, message, _ in opened.read_messages(["/stereo/left/image_raw"])]
-        cls.truth = true_poses(bag.with_suffix(".truth") / "trajectory.tum", cls.stamps)
+        cls.truth = true_poses(trajectory, cls.stamps)
         cls.closures = [(a, b, cls.measured(a, b, wrong)) for a, b, wrong in sorted([(*p, 0.0) for p in TRUE] + [(*p, 1.5) for p in FALSE])]
         return bag
 

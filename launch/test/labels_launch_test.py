@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """bag.launch with labels:=true over a simulated drive: labels as a user sees them in rviz, and one that is corrected by a click."""
-import subprocess
 import sys
 from pathlib import Path
 
@@ -12,19 +11,17 @@ from sensor_msgs.msg import Image, PointCloud2
 from urban_nav_msgs.srv import CorrectLabel
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command, rviz_file, services  # noqa: E402
+from graph import rviz_file, services  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 
+SECONDS = 24
 GROUND, WALLS = {1, 2, 3}, {4, 5}
 
 
 class LabelsLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
-        bag = Path(folder) / "session.bag"
-        subprocess.run([command(), "simulate", "--world", "quad", "--seed", "5", "--duration", "24", "--sensors", "stereo,ladybug,lasers", "-o", str(bag)],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return bag
+        return cls.simulated(folder, SECONDS, "stereo", "ladybug", "lasers")[0]
 
     def has_said(self, key, value):
         """Whether the diagnostics of the stage have had this entry."""

@@ -2,14 +2,21 @@
 """The case from which the tests of launch files derive: a bag for all of them, and for each a listener and what it launched."""
 import csv
 import shutil
+import sys
 import tempfile
 import unittest
+from pathlib import Path
 
+import rospkg
 import rospy
 import yaml
 
-from graph import Launched, Listener, make_bag, published, until
+from graph import Launched, Listener, command, make_bag, published, until
 
+sys.path.insert(0, str(Path(rospkg.RosPack().get_path("urban_nav")) / "test" / "support"))
+import drive  # noqa: E402
+
+ALL_SENSORS = tuple(drive.TOPICS)
 PATIENCE = 90.0  # seconds for what takes two on an idle machine; a test that passes does not wait for them to end
 
 # What a display of rviz reads, and the property that names it.
@@ -42,6 +49,12 @@ class LaunchCase(unittest.TestCase):
     def record(cls, folder):
         """The bag that the tests of a class share."""
         return make_bag(folder)
+
+    @staticmethod
+    def simulated(folder, seconds, *sensors):
+        """Writes the first seconds of these sensors of the drive that all tests share. Returns its bag and the trajectory of its truth."""
+        bag = Path(folder) / "simulated.bag"
+        return bag, drive.cut(drive.record(command()), bag, seconds, sensors)
 
     def setUp(self):
         self.listener = Listener()

@@ -33,11 +33,10 @@ class LocalizationLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
         rospy.set_param("/localization/queue_size", 100000)
-        folder, whole = Path(folder), Path(folder) / "whole.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo", "-o", str(whole)],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        folder = Path(folder)
+        whole, trajectory = cls.simulated(folder, SECONDS, "stereo")
         cls.stamps = cls.split(whole, folder / "first.bag", folder / "second.bag")
-        cls.truth = dict(zip(cls.stamps, true_poses(whole.with_suffix(".truth") / "trajectory.tum", cls.stamps)))
+        cls.truth = dict(zip(cls.stamps, true_poses(trajectory, cls.stamps)))
         subprocess.run([command(), "map", str(folder / "first.bag"), "--stages", "vo,loops,graph", "--out", str(folder / "map")],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         cls.store = folder / "map" / "session.db"

@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 from urban_nav_msgs.msg import GraphState, MetricClosure, StageStatus, TopologicalClosure
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import camera_is_connected, command, connections, services  # noqa: E402
+from graph import camera_is_connected, connections, services  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 from truth import pose_of, true_poses  # noqa: E402
 
@@ -31,13 +31,11 @@ class LoopsLaunch(LaunchCase):
         for name, value in (("queue_size", 100000), ("candidate_timeout", 10.0), ("keyframe_search_distance", 1.5)):
             rospy.set_param(f"/loop_metric/{name}", value)
         rospy.set_param("/pose_graph/queue_size", 100000)
-        there = Path(folder) / "there.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo,lasers", "-o", str(there)],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return cls.to_and_fro(there, Path(folder) / "simulated.bag")
+        there, trajectory = cls.simulated(folder, SECONDS, "stereo", "lasers")
+        return cls.to_and_fro(there, trajectory, Path(folder) / "to_and_fro.bag")
 
     @classmethod
-    def to_and_fro(cls, there, both):
+    def to_and_fro(cls, there, trajectory, both):
         """Every second frame on the way out; the others, and the scans, once more on the way back, which the robot drives backwards."""
         with rosbag.Bag(str(there)) as bag:
             messages = [(topic, message) for topic, message, _ in bag.read_messages(SENSORS)]
@@ -63,7 +61,7 @@ class LoopsLaunch(LaunchCase):
             for stamp, topic, message in sent:
                 message.header.stamp = stamp
                 bag.write(topic, message, stamp)
-        truth = true_poses(there.with_suffix(".truth") / "trajectory.tum", stamps)
+        truth = true_poses(trajectory, stamps)
         cls.frames = len(stamps)
         cls.closures = [(stamps[a], end + (end - stamps[b]), np.linalg.inv(truth[a]) @ truth[b]) for a, b in REVISITS]
         return both

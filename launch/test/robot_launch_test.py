@@ -13,10 +13,11 @@ from urban_nav_msgs.msg import RawFrame, VoFrame
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from graph import Launched, command, connections, subscriptions  # noqa: E402
-from launch_case import LaunchCase  # noqa: E402
+from launch_case import ALL_SENSORS, LaunchCase  # noqa: E402
 
 TOPICS = {"/laser_left/scan": LaserScan, "/laser_right/scan": LaserScan, "/imu/data": Imu, "/wheel_odom": Odometry, "/gps/fix": NavSatFix,
           "/stereo/left/image_raw": Image, "/ladybug/raw": RawFrame, "/ladybug/camera2/image_raw/compressed": CompressedImage, "/vo/odometry": Odometry}
+SECONDS = 14
 STEREO_TOPICS = {"/tf_static", *(f"/stereo/{side}/{topic}" for side in ("left", "right") for topic in ("image_raw", "camera_info"))}
 
 
@@ -29,9 +30,7 @@ def longest_gap(messages):
 class RobotLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
-        bag = Path(folder) / "session.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", "14", "-o", str(bag)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return bag
+        return cls.simulated(folder, SECONDS, *ALL_SENSORS)[0]
 
     def statuses(self, name):
         """What one driver has reported, oldest first."""

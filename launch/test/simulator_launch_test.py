@@ -13,8 +13,8 @@ from geometry_msgs.msg import PoseStamped
 from roslib.message import get_message_class
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import camera_is_connected, command, published, rviz_file, services  # noqa: E402
-from launch_case import PATIENCE, LaunchCase  # noqa: E402
+from graph import camera_is_connected, published, rviz_file, services  # noqa: E402
+from launch_case import ALL_SENSORS, PATIENCE, LaunchCase  # noqa: E402
 
 SECONDS = 1.2  # enough for each sensor to speak twice, GPS to speak once
 FRAMES = {
@@ -51,10 +51,7 @@ def moved(first, last):
 class SimulatorLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
-        bag = Path(folder) / "simulated.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "-o", str(bag)], check=True,
-                       stdout=subprocess.DEVNULL)
-        return bag
+        return cls.simulated(folder, SECONDS, *ALL_SENSORS)[0]
 
     def simulate(self, **arguments):
         """Starts it and holds it at its first message."""
