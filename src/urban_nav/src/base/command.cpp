@@ -119,8 +119,9 @@ Arguments parse(const Command& command, const ParameterTables& tables, int argc,
                                                    : CLI::MultiOptionPolicy::TakeLast);
     }
   }
-  bool help = false;
+  bool help = false, help_all = false;
   app.add_flag("-h,--help", help);
+  app.add_flag("--help-all", help_all);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -129,7 +130,8 @@ Arguments parse(const Command& command, const ParameterTables& tables, int argc,
   for (const auto& [key, given] : flags) {
     if (given) values[key] = {"true"};
   }
-  if (help) values["help"] = {"true"};
+  if (help || help_all) values["help"] = {"true"};
+  if (help_all) values["help-all"] = {"true"};
   for (auto entry = values.begin(); entry != values.end();)
     entry = entry->second.empty() ? values.erase(entry) : std::next(entry);
   return Arguments(std::move(values), tables);
@@ -146,7 +148,9 @@ int runCommand(const Command& command, const ParameterTables& tables, int argc, 
   return command.run(arguments, console);
 }
 
-bool isHelpWord(const std::string& word) { return word == "--help" || word == "-h" || word == "help"; }
+bool isHelpWord(const std::string& word) {
+  return word == "--help" || word == "--help-all" || word == "-h" || word == "help";
+}
 
 const Command& findCommand(const std::vector<Command>& commands, const std::string& name, const std::string& where,
                            const std::string& noun) {

@@ -8,6 +8,7 @@
 namespace urban_nav {
 
 using urban_nav_core::Assignment;
+using urban_nav_core::Audience;
 using urban_nav_core::Setting;
 
 void ParameterSet::load(const std::vector<Assignment>& assignments) {
@@ -50,15 +51,17 @@ std::vector<std::string> ParameterSet::warnings(const std::vector<std::string>& 
   return made;
 }
 
-std::string ParameterSet::help() const {
+std::string ParameterSet::help(Audience audience) const {
   std::string text;
-  for (const std::unique_ptr<Group>& group : groups_) text += help(group->stage());
+  for (const std::unique_ptr<Group>& group : groups_) text += help(group->stage(), audience);
   return text;
 }
 
-std::string ParameterSet::help(const std::string& stage) const {
+std::string ParameterSet::help(const std::string& stage, Audience audience) const {
   const Group* group = find(stage);
-  return group != nullptr ? urban_nav_core::printHelp(stage, group->rows(), group->settings()) : "";
+  if (group == nullptr) return "";
+  return audience == Audience::Users ? urban_nav_core::printHelp(stage, group->rows(), group->settings())
+                                     : urban_nav_core::printHelpForExperts(stage, group->rows(), group->settings());
 }
 
 Json ParameterSet::toJson() const {

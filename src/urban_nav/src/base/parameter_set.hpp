@@ -44,9 +44,10 @@ class ParameterSet {
   /// Returns the assignments by old names, and the rows named by `shared` that have different values in two tables: one
   /// sentence each, for the user.
   std::vector<std::string> warnings(const std::vector<std::string>& shared) const;
-  /// Returns the rows for --help: value, origin and allowed range. `stage`: of this one alone.
-  std::string help() const;
-  std::string help(const std::string& stage) const;
+  /// Returns the rows for users with value and origin, for --help, or every row, for --help-all, also with allowed
+  /// range and source. `stage`: of this one alone.
+  std::string help(urban_nav_core::Audience audience) const;
+  std::string help(const std::string& stage, urban_nav_core::Audience audience) const;
   /// Returns "stage.row" -> {value, origin} for summary.json.
   Json toJson() const;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/parameters.hpp"
 
+#include <optional>
+
 #include "base/command_parameters.hpp"
 #include "urban_nav_core/camera/camera_noise.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
@@ -8,6 +10,7 @@
 namespace urban_nav {
 
 using urban_nav_core::Assignment;
+using urban_nav_core::Audience;
 
 namespace {
 
@@ -19,6 +22,16 @@ std::vector<Assignment> readAssignments(const Arguments& arguments) {
   }
   for (const std::string& setting : arguments.all("set")) assignments.push_back(urban_nav_core::parseSetting(setting));
   return assignments;
+}
+
+/// Parameters of one stage, or of all.
+std::string helpOf(const Arguments& arguments, const std::string& key, const std::optional<std::string>& stage) {
+  const bool for_experts = arguments.has("help-all");
+  const Audience audience = for_experts ? Audience::Experts : Audience::Users;
+  const ParameterSet parameters = loadParameters(arguments);
+  return std::string(for_experts ? "all parameters" : "parameters; all of them: --help-all") +
+         " (--config FILE, --set " + key + "=VALUE):\n" +
+         (stage ? parameters.help(*stage, audience) : parameters.help(audience));
 }
 
 }  // namespace
@@ -41,16 +54,12 @@ void checkCommonOptions(const Arguments& arguments) {
   arguments.integer("threads", 0, 1, 1024);
 }
 
-std::string commonHelp(const Arguments& arguments) {
-  return "parameters (--config FILE, --set KEY=VALUE):\n" + loadParameters(arguments).help(commandTable().stage());
-}
+std::string commonHelp(const Arguments& arguments) { return helpOf(arguments, "KEY", commandTable().stage()); }
 
 std::string stageHelp(const Arguments& arguments, const std::string& stage) {
-  return "parameters (--config FILE, --set " + stage + ".KEY=VALUE):\n" + loadParameters(arguments).help(stage);
+  return helpOf(arguments, stage + ".KEY", stage);
 }
 
-std::string parametersHelp(const Arguments& arguments) {
-  return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" + loadParameters(arguments).help();
-}
+std::string parametersHelp(const Arguments& arguments) { return helpOf(arguments, "STAGE.KEY", std::nullopt); }
 
 }  // namespace urban_nav

@@ -21,8 +21,8 @@ std::vector<std::string> parameterWarnings(const ParameterSet& parameters);
 /// every command. Throws UserError.
 void checkCommonOptions(const Arguments& arguments);
 
-/// Return the parameters for --help with their values, --config and --set of the same call included: those that belong
-/// to no stage, those of one stage, and those of all.
+/// Return the parameters for --help, or all for --help-all, with their values, --config and --set of the same call
+/// included: those that belong to no stage, those of one stage, and those of all.
 std::string commonHelp(const Arguments& arguments);
 std::string stageHelp(const Arguments& arguments, const std::string& stage);
 std::string parametersHelp(const Arguments& arguments);

@@ -9,15 +9,16 @@ namespace urban_nav_core {
 namespace {
 
 constexpr std::size_t kWidth = 110;
+constexpr const char* kHelpIndent = "      ";
 
-// Breaks prose at blanks so that each line with its beginning fits.
-std::string wrapped(const std::string& prose, const std::string& beginning) {
-  std::string out, line = beginning;
+// Breaks prose at blanks so that each line with its beginning fits. `first`: of the first line, if it is another one.
+std::string wrapped(const std::string& prose, const std::string& beginning, const std::string& first = "") {
+  std::string out, line = first.empty() ? beginning : first;
   std::size_t at = 0;
   while (at < prose.size()) {
     const std::size_t end = std::min(prose.find(' ', at), prose.size());
     const std::string word = prose.substr(at, end - at);
-    const bool empty = line.size() == beginning.size();
+    const bool empty = line == beginning;
     if (!empty && line.size() + 1 + word.size() > kWidth) {
       out += line + "\n";
       line = beginning + word;
@@ -54,6 +55,26 @@ std::string cell(const std::string& text) {
   return " " + out + " |";
 }
 
+// Table of the rows for these readers; empty if there are none.
+std::string markdownTable(const std::string& stage, const std::vector<RowInfo>& rows, Audience audience) {
+  std::string out;
+  for (const RowInfo& row : rows) {
+    if (row.audience != audience) continue;
+    out += "|" + cell("`" + fullName(stage, row.name) + "`") + cell("`" + printValue(row.standard) + "`") +
+           cell(row.unit) + cell(formatRange(row)) + cell(row.sentence) + cell(row.source) + "\n";
+  }
+  const std::string head =
+      "| parameter | default | unit | allowed | what it does | source |\n|---|---|---|---|---|---|\n";
+  return out.empty() ? "" : head + out;
+}
+
+// "  swf_vo.window = 25  (--set swf_vo.window=25)"
+std::string valueLine(const std::string& stage, const RowInfo& row, const std::vector<Setting>& settings) {
+  const Setting* setting = find(settings, row.name);
+  return "  " + fullName(stage, row.name) + " = " + printValue(setting != nullptr ? setting->value : row.standard) +
+         "  (" + (setting != nullptr ? setting->origin : "default") + ")";
+}
+
 }  // namespace
 
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows) { return printYaml(stage, rows, {}); }
@@ -73,22 +94,26 @@ std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows
 }
 
 std::string printMarkdown(const std::string& stage, const std::vector<RowInfo>& rows) {
-  std::string out = "| parameter | default | unit | allowed | what it does | source |\n|---|---|---|---|---|---|\n";
-  for (const RowInfo& row : rows) {
-    out += "|" + cell("`" + fullName(stage, row.name) + "`") + cell("`" + printValue(row.standard) + "`") +
-           cell(row.unit) + cell(formatRange(row)) + cell(row.sentence) + cell(row.source) + "\n";
-  }
-  return out;
+  const std::string for_users = markdownTable(stage, rows, Audience::Users);
+  const std::string for_experts = markdownTable(stage, rows, Audience::Experts);
+  if (for_experts.empty()) return for_users;
+  const std::string title = "<details><summary>Parameters for experts</summary>\n\n", end = "\n</details>\n";
+  return for_users + (for_users.empty() ? "" : "\n") + title + for_experts + end;
 }
 
 std::string printHelp(const std::string& stage, const std::vector<RowInfo>& rows,
                       const std::vector<Setting>& settings) {
   std::string out;
-  for (const RowInfo& row : rows) {
-    const Setting* setting = find(settings, row.name);
-    out += "  " + fullName(stage, row.name) + " = " + printValue(setting != nullptr ? setting->value : row.standard) +
-           "  (" + (setting != nullptr ? setting->origin : "default") + ")\n" + wrapped(described(row), "      ");
-  }
+  for (const RowInfo& row : rows)
+    if (row.audience == Audience::Users)
+      out += wrapped(row.sentence, kHelpIndent, valueLine(stage, row, settings) + ":");
+  return out;
+}
+
+std::string printHelpForExperts(const std::string& stage, const std::vector<RowInfo>& rows,
+                                const std::vector<Setting>& settings) {
+  std::string out;
+  for (const RowInfo& row : rows) out += valueLine(stage, row, settings) + "\n" + wrapped(described(row), kHelpIndent);
   return out;
 }
 

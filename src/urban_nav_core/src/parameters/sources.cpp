@@ -144,7 +144,7 @@ std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo
     if (row == rows.end()) {
       throw UserError(
           assignment.where, fullName(stage, assignment.name) + " is no parameter",
-          "the parameters that --help lists; nearest: " + fullName(stage, nearest(assignment.name, listNames(rows))));
+          "the parameters that --help-all lists; nearest: " + fullName(stage, nearest(assignment.name, listNames(rows))));
     }
     Setting& setting = settings[static_cast<std::size_t>(row - rows.begin())];
     setting.value = checked(*row, assignment);

@@ -65,11 +65,38 @@ TEST(Print, MarkdownGoesBetweenItsMarkers) {
       "README.md: no markers for the table of parameters: allowed `<!-- parameters: stage -->` ... `<!-- end -->`");
 }
 
-TEST(Print, HelpShowsValuesAndOrigins) {
-  const auto settings = resolve("stage", rows(), {parseSetting("stage.window=25")});
-  const std::string text = printHelp("stage", rows(), settings);
-  EXPECT_NE(text.find("  stage.window = 25  (--set stage.window=25)\n      Poses kept."), std::string::npos) << text;
-  EXPECT_NE(text.find("  stage.forget = schur  (default)\n"), std::string::npos) << text;
+TEST(Print, HelpShowsValuesOriginsAndWhatIsForUsers) {
+  std::vector<RowInfo> some = rows();
+  some[1].audience = Audience::Experts;
+  const auto settings = resolve("stage", some, {parseSetting("stage.window=25")});
+  const std::string text = printHelp("stage", some, settings);
+  EXPECT_EQ(text.rfind("  stage.window = 25  (--set stage.window=25): Poses kept.\n", 0), 0U) << text;
+  EXPECT_NE(text.find("  stage.forget = schur  (default): What becomes of old poses.\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("stage.noise"), std::string::npos);
+}
+
+TEST(Print, HelpForExpertsShowsEachParameterWithWhatIsAllowed) {
+  std::vector<RowInfo> some = rows();
+  some[1].audience = Audience::Experts;
+  const auto settings = resolve("stage", some, {parseSetting("stage.window=25")});
+  const std::string text = printHelpForExperts("stage", some, settings);
+  EXPECT_EQ(text.rfind("  stage.window = 25  (--set stage.window=25)\n      Poses kept. Allowed: 1...100000 (frames). "
+                       "[section 2.2]\n",
+                       0),
+            0U)
+      << text;
+  EXPECT_NE(text.find("  stage.noise = 0.3  (default)\n"), std::string::npos) << text;
+}
+
+TEST(Print, MarkdownFoldsWhatIsForExperts) {
+  std::vector<RowInfo> some = rows();
+  some[1].audience = Audience::Experts;
+  const std::string text = printMarkdown("stage", some);
+  const std::size_t fold = text.find("\n\n<details><summary>Parameters for experts</summary>\n\n| parameter |");
+  ASSERT_NE(fold, std::string::npos) << text;
+  EXPECT_LT(text.find("`stage.name`"), fold);
+  EXPECT_GT(text.find("`stage.noise`"), fold);
+  EXPECT_EQ(text.substr(text.size() - 13), "\n\n</details>\n") << "a blank line ends the table";
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
             "config.yaml:2: stage.forget = keep: allowed schur, delete");
   EXPECT_EQ(
       catchError([] { loadText("stage:\n  windw: 3\n"); }),
-      "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help lists; nearest: stage.window");
+      "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help-all lists; nearest: stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
             "config.yaml:2: stage.window is not a single value: allowed one value after the colon");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),

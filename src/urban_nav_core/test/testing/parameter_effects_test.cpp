@@ -66,13 +66,13 @@ TEST(ParameterEffects, AreShownElsewhereByTestsThatExist) {
             "stage.name has no test in which it changes a result\n");
 }
 
-TEST(ParameterEffects, AreShownByTestsOfOtherSources) {
-  const std::string source = "test/parameters/table_test.cpp";
+TEST(ParameterEffects, AreShownByTestsOfOtherBinaries) {
+  const std::string folder = "test/parameters";
   const ParameterExperiment<Example> all = {
       "all", print, {{"window", 5}, {"noise", 0.1}, {"robust", false}, {"forget", "delete"}}};
   EXPECT_EQ(findParametersWithoutEffect(
                 exampleTable(), {all},
-                {{"switch", "Table.SaysWhatIsAllowed", source}, {"name", "Table.SaysNothing", source}}),
+                {{"switch", "Table.SaysWhatIsAllowed", folder}, {"name", "Table.SaysNothing", folder}}),
             "name: there is no test Table.SaysNothing\n");
 }
 

@@ -14,11 +14,16 @@ std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows
 /// The same with the values in force and their origins.
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings);
 
-/// The README's table: name, default, unit, allowed, what it does, source.
+/// The README's table: name, default, unit, allowed, what it does, source. The rows for experts are in a second table,
+/// which a browser folds.
 std::string printMarkdown(const std::string& stage, const std::vector<RowInfo>& rows);
 
-/// The part of --help: each parameter with its value, where that came from, and what is allowed.
+/// The part of --help: the parameters for users, each with its value, where that came from, and what it does.
 std::string printHelp(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings);
+
+/// The part of --help-all: every parameter, also with what is allowed and its source.
+std::string printHelpForExperts(const std::string& stage, const std::vector<RowInfo>& rows,
+                                const std::vector<Setting>& settings);
 
 /// Puts the Markdown table between `<!-- parameters: STAGE -->` and `<!-- end -->` in the text of a README. Throws
 /// UserError naming `path` where the markers are missing.

@@ -23,6 +23,12 @@ struct ParameterValue : std::variant<bool, std::int64_t, double, std::string> {
   const Base& base() const { return *this; }
 };
 
+/// Who has reason to change a parameter. `--help` lists those of users, `--help-all` every one.
+enum class Audience {
+  Users,
+  Experts,  ///< thresholds and sizes inside an algorithm
+};
+
 /// One row of a stage's table: all there is to say about a parameter, said once. From it come YAML, the parameter
 /// server, --set, range checks, --help, the README's table and config/<pkg>.yaml.
 template <typename Parameters>
@@ -36,6 +42,7 @@ struct Row {
   std::string sentence;                      ///< what it does
   std::string source;                        ///< `paper 2.4`, publication, `docs/...` or bench that measured it
   std::vector<std::string> old_names = {};   ///< still understood, see old_names.hpp: "queue", or "loop_metric.queue"
+  Audience audience = Audience::Users;
 };
 
 enum class ParameterType { Bool, Integer, Number, Word };
@@ -47,6 +54,7 @@ struct RowInfo {
   ParameterValue standard, low, high;
   std::vector<std::string> words;
   std::vector<std::string> old_names = {};
+  Audience audience = Audience::Users;
 };
 
 /// "1...100000 (frames)" or "numbers 0...1 (px)" or "schur, delete" or "true, false".

@@ -40,7 +40,7 @@ Table<Parameters>::Table(std::string stage, std::vector<Row<Parameters>> rows)
   for (const Row<Parameters>& row : rows_) {
     const ParameterType type = std::visit([](auto member) { return detail::typeOfMember(member); }, row.member);
     infos_.push_back({row.name, row.unit, row.sentence, row.source, type, row.standard, row.low, row.high, row.words,
-                      row.old_names});
+                      row.old_names, row.audience});
   }
   assertSound(stage_, infos_);
 }

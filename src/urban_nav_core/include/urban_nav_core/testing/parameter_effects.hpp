@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,18 +39,24 @@ struct ParameterExperiment {
 struct ParameterTest {
   std::string name;         ///< "queue"
   std::string test;         ///< "LiveMapper.DropsTheOldestScans"
-  std::string source = "";  ///< of a test of another binary: path from the working folder, that of the package
+  std::string folder = "";  ///< of the sources of another binary's tests: path from that of this package
 };
 
 namespace detail {
 
-/// Returns whether this binary, or the source, has the test.
+/// Returns whether a source in the folder or below it has the test "Suite.Name".
+inline bool hasTest(const std::string& folder, const std::string& test) {
+  const std::size_t dot = test.find('.');
+  const std::string head = "(" + test.substr(0, dot) + ", " + test.substr(dot + 1) + ")";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".cpp" && readTextFile(entry.path().string()).find(head) != std::string::npos)
+      return true;
+  return false;
+}
+
+/// Returns whether the test exists, in this binary or in the folder.
 inline bool exists(const ParameterTest& wanted) {
-  if (!wanted.source.empty()) {
-    const std::size_t dot = wanted.test.find('.');
-    const std::string head = "(" + wanted.test.substr(0, dot) + ", " + wanted.test.substr(dot + 1) + ")";
-    return readTextFile(wanted.source).find(head) != std::string::npos;
-  }
+  if (!wanted.folder.empty()) return hasTest(wanted.folder, wanted.test);
   const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
   for (int i = 0; i < all.total_test_suite_count(); ++i) {
     const ::testing::TestSuite& suite = *all.GetTestSuite(i);
