@@ -145,7 +145,7 @@ program=$ws/devel/lib/urban_nav/urban_nav
 # Is the command there, and newer than all it is made of? Asked at every call, so it looks at dates alone.
 command_is_current() {
   [ -x "$program" ] && [ -e "$ws/command.built" ] && [ -z "$(find "$root"/src "$root"/*/package.xml "$root"/*/CMakeLists.txt \
-    "$root"/*/include "$root"/*/src "$root"/packages.apt \
+    "$root"/*/include "$root"/*/src "$root"/*/reference "$root"/packages.apt \
     \( -name test -o -name testing -o -name bench -o -name README.md \) -prune -o -newer "$ws/command.built" -print -quit)" ]
 }
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "pose_graph/ceres.hpp"
 #include "pose_graph/solution.hpp"
+#include "pose_graph_ceres/solve_by_ceres.hpp"
 #include "support/cholmod_once.hpp"
 #include "support/problems.hpp"
 #include "support/program.hpp"

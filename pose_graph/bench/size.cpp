@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/solution.hpp"
+#include "pose_graph_relative/relative_pcg.hpp"
 #include "support/problems.hpp"
 #include "support/program.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"

@@ -17,7 +17,7 @@ const Table<Parameters>& table() {
       "pose_graph",
       {
           {"solver", &P::solver, "", std::string("gauss_newton"), false, false, {"gauss_newton", "relative_pcg", "ceres"},
-           "How the graph is relaxed: sparse Gauss-Newton over the condensed graph, or, of the closures that it accepted, the paper's conjugate gradients over relative transforms or Ceres (references: slower).",
+           "How the graph is relaxed: sparse Gauss-Newton over the condensed graph. relax and map know two slower references for the accepted closures, which the nodelet refuses: relative_pcg, the paper's conjugate gradients over relative transforms, and ceres.",
            "paper 5, eq. 8-19"},
           {"robust", &P::robust, "", true, false, false, {},
            "Closures that disagree with the others are rejected; without, every edge is taken as it is.", "paper 5"},

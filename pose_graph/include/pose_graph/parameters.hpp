@@ -9,7 +9,7 @@ namespace pose_graph {
 
 /// What a user may want to change; one member per row of table().
 struct Parameters {
-  std::string solver;      // gauss_newton, relative_pcg, ceres
+  std::string solver;      // gauss_newton; with references: relative_pcg, ceres
   bool robust;             // reject false closures
   bool gravity;            // takes the drift of roll and pitch out of odometry
   bool gps;                // fixes of satellite navigation are used

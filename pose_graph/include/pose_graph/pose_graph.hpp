@@ -14,6 +14,7 @@
 #include "pose_graph/ground_level.hpp"
 #include "pose_graph/node_index.hpp"
 #include "pose_graph/parameters.hpp"
+#include "pose_graph/reference_solver.hpp"
 #include "pose_graph/solution.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/status.hpp"
@@ -119,8 +120,9 @@ struct Batch {
   double odometry_lean = 0.0;
   FixUse fix_use;
 };
-/// Deterministic. Who ends it by SolveOptions::progress must not take it.
-void run(Batch& batch, const SolveOptions& options = {});
+/// Deterministic. A batch that SolveOptions::progress has ended must not be taken. Throws UserError if
+/// Parameters::solver is neither the stage's own nor one of `references`.
+void run(Batch& batch, const SolveOptions& options = {}, const ReferenceSolvers& references = {});
 
 /// The pose graph of many sessions: chains of relative poses, pinched together by closures (Newman et al. 2009,
 /// sections 5 and 7). Sessions are joined by nothing but closures: two that agree fuse them, with no alignment by hand.
@@ -172,7 +174,8 @@ class PoseGraph {
   bool isLevel(const SessionId& session) const;
 
   /// Relaxes all there is, from the measurements alone: what was relaxed before leaves no trace. Deterministic.
-  Relaxed relax(const SolveOptions& options = {});
+  /// Throws as run().
+  Relaxed relax(const SolveOptions& options = {}, const ReferenceSolvers& references = {});
   /// The same in three steps. What the graph took in since batch() follows what was there; closures that are new, or
   /// were measured anew, are judged as by update(). Not of another graph.
   Batch batch() const;

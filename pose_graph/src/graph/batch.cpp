@@ -68,13 +68,14 @@ Batch PoseGraph::batch() const {
   return made;
 }
 
-void run(Batch& batch, const SolveOptions& options) {
+void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& references) {
+  const ReferenceSolver* reference = findReference(batch.parameters.solver, references);
   if (batch.problem.poses.empty()) return;
   SolveOptions wanted = options;
   wanted.iterations = batch.parameters.iterations;
   const std::size_t chains = batch.problem.edges.size() - batch.closures.size();
   if (batch.parameters.gravity) batch.odometry_lean = levelOdometry(batch.problem, chains, batch.stamps, batch.forces);
-  batch.solution = judge(batch.problem, batch.parameters, wanted, batch.closures);
+  batch.solution = judge(batch.problem, batch.parameters, wanted, reference, batch.closures);
   std::vector<double> weights(chains, 1.0);
   for (auto& [id, closure] : batch.closures) {
     closure.judged = true;

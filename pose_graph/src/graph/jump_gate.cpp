@@ -5,9 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "pose_graph/ceres.hpp"
 #include "pose_graph/graph_file.hpp"
-#include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
 
 namespace pose_graph {
@@ -127,27 +125,10 @@ std::vector<ClosureId> makeWait(const GraphView& view, const std::map<ClosureId,
   return makeWait(ways, by_map, parameters);
 }
 
-/// The paper's way, over what is accepted.
-Solution<3> relaxAccepted(const Problem<3>& problem, std::size_t chains, const SolveOptions& options,
-                          const std::map<ClosureId, Closure>& closures) {
-  Problem<3> accepted;
-  accepted.poses = problem.poses;
-  accepted.edges.assign(problem.edges.begin(), problem.edges.begin() + static_cast<std::ptrdiff_t>(chains));
-  std::size_t e = chains;
-  for (const auto& [id, closure] : closures) {
-    if (closure.weight > 0.0) accepted.edges.push_back(problem.edges[e]);
-    ++e;
-  }
-  RelativePcgOptions wanted;
-  wanted.iterations = options.iterations;
-  wanted.progress = options.progress;
-  return relaxRelative<3>(accepted, wanted);
-}
-
 }  // namespace
 
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                  std::map<ClosureId, Closure>& closures) {
+                  const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures) {
   const std::size_t chains = problem.edges.size() - closures.size();
   RobustSolution<3> judged;
   if (parameters.robust) {
@@ -157,12 +138,10 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
     admitAll(closures);
   }
   const bool waiting = makeWait(problem, chains, parameters, closures);
-  if (parameters.solver == "relative_pcg") return relaxAccepted(problem, chains, options, closures);
-  const bool by_ceres = parameters.solver == "ceres";
-  if (parameters.robust && !waiting && !by_ceres) return std::move(judged.solution);
+  if (parameters.robust && !waiting && reference == nullptr) return std::move(judged.solution);
   std::vector<double> weights(chains, 1.0);
   for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
-  return by_ceres ? solveByCeres(problem, options, weights) : solve(problem, options, weights);
+  return reference != nullptr ? reference->solve(problem, options, weights) : solve(problem, options, weights);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "incremental/incremental_solver.hpp"
 #include "pose_graph/pose_graph.hpp"
+#include "pose_graph/reference_solver.hpp"
 
 namespace pose_graph {
 
@@ -14,8 +15,9 @@ namespace pose_graph {
 /// it says something further off than parameters.jump_distance or jump_angle, it is no stereo closure that odometry
 /// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and
 /// reasons; those that wait or are rejected have weight 0 in the solution.
+/// `reference`: relaxes what is accepted in place of solve(), if not null.
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                  std::map<ClosureId, Closure>& closures);
+                  const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 
 /// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it;
 /// those that are let in stay in `core`.

@@ -86,9 +86,9 @@ std::optional<Pose> PoseGraph::newest() const {
   return tracks_[running_].map.back();
 }
 
-Relaxed PoseGraph::relax(const SolveOptions& options) {
+Relaxed PoseGraph::relax(const SolveOptions& options, const ReferenceSolvers& references) {
   Batch batch = this->batch();
-  run(batch, options);
+  run(batch, options, references);
   return take(batch);
 }
 

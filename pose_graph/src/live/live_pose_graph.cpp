@@ -60,7 +60,9 @@ LivePoseGraph::LivePoseGraph(const Parameters& parameters, const std::string& ro
               options.writer = GraphStoreWriter::writerOptions();
               return options;
             }()),
-      namer_(robot) {}
+      namer_(robot) {
+  findReference(parameters.solver, {});  // throws: there are none here
+}
 
 LivePoseGraph::~LivePoseGraph() {
   endSession();

@@ -27,7 +27,7 @@ namespace pose_graph {
 /// odometry has reached their poses, converts what a relaxation did to outputs, and writes all of it to a store.
 class LivePoseGraph : public LiveGraph {
  public:
-  /// `store`: path of the file; empty: none.
+  /// `store`: path of the file; empty: none. Throws UserError if Parameters::solver names a reference solver.
   LivePoseGraph(const Parameters& parameters, const std::string& robot, std::string recording,
                 const std::string& store = "");
   ~LivePoseGraph() override;

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph_ceres/solve_by_ceres.hpp"
+#include "pose_graph_relative/relative_pcg.hpp"
 #include "urban_nav_core/testing/numeric_jacobian.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -116,18 +118,39 @@ TEST(PoseGraph, SaysWhyTheRobotJumped) {
   EXPECT_FALSE(graph.relax().jump);
 }
 
-TEST(PoseGraph, RelaxesThePapersWayAndByCeresToo) {
-  const auto relaxedBy = [](const std::string& solver) {
+TEST(PoseGraph, ReferenceSolversReachTheSameCost) {
+  const auto costBy = [](const std::string& solver, const ReferenceSolvers& references) {
     Parameters parameters;
     parameters.solver = solver;
     PoseGraph graph{parameters};
     driveRounds(graph, "a", 0, 2 * kRound, 2e-4);
     for (int i = 20; i < kRound; i += 40) graph.addClosure(closureBetween("a", i, "a", i + kRound));
-    return graph.relax().cost_after;
+    return graph.relax({}, references).cost_after;
   };
-  const double cost = relaxedBy("gauss_newton");
-  EXPECT_NEAR(relaxedBy("relative_pcg"), cost, 1e-4 * cost);
-  EXPECT_NEAR(relaxedBy("ceres"), cost, 1e-4 * cost);
+  const double cost = costBy("gauss_newton", {});
+  for (const ReferenceSolver& reference : {relativeSolver(), ceresSolver()}) {
+    const double by_reference = costBy(reference.name, {reference});
+    EXPECT_NEAR(by_reference, cost, 1e-4 * cost) << reference.name;
+    EXPECT_NE(by_reference, cost) << reference.name << " must not be the default solver";
+  }
+}
+
+TEST(PoseGraph, NamesTheSolversThatItHas) {
+  const auto allowed = [](const ReferenceSolvers& references) -> std::string {
+    Parameters parameters;
+    parameters.solver = "ceres";
+    PoseGraph graph{parameters};
+    try {
+      graph.relax({}, references);
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.parts().found, "pose_graph.solver = ceres");
+      return error.parts().allowed;
+    }
+    return "";
+  };
+  EXPECT_EQ(allowed({relativeSolver()}), "gauss_newton, relative_pcg");
+  EXPECT_EQ(allowed({}), "gauss_newton; reference solvers are for the commands relax and map");
+  EXPECT_EQ(allowed({ceresSolver()}), "");
 }
 
 TEST(PoseGraph, LeavesNoTraceOfEarlierRelaxations) {

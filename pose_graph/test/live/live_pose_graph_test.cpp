@@ -18,6 +18,16 @@ using urban_nav_core::UserError;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
+TEST(LivePoseGraph, RefusesReferenceSolvers) {
+  Parameters parameters;
+  for (const char* solver : {"relative_pcg", "ceres"}) {
+    parameters.solver = solver;
+    EXPECT_THROW(LivePoseGraph(parameters, "robot", "recording"), UserError) << solver;
+  }
+  parameters.solver = "gauss_newton";
+  EXPECT_NO_THROW(LivePoseGraph(parameters, "robot", "recording"));
+}
+
 urban_nav_core::MetricClosure seenAgain(int a, int b, const SessionId& session_a = "") {
   const Closure closure = testing::closureAt(session_a, a, "", b);
   urban_nav_core::MetricClosure made;

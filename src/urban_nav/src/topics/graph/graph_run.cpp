@@ -9,6 +9,8 @@
 #include "base/plot.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/map_levels.hpp"
+#include "pose_graph_ceres/solve_by_ceres.hpp"
+#include "pose_graph_relative/relative_pcg.hpp"
 #include "topics/graph/closure_import.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
@@ -69,7 +71,7 @@ void judge(GraphRun& run, const ClosureIds& ids, std::size_t known) {
 pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const SessionOdometry*>& runs) {
   pose_graph::Batch batch = graph.batch();
   for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;
-  pose_graph::run(batch);
+  pose_graph::run(batch, {}, {pose_graph::relativeSolver(), pose_graph::ceresSolver()});
   return graph.take(batch);
 }
 

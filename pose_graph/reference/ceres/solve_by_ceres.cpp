@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one file that includes Ceres.
+// The only file that includes Ceres.
+#include "pose_graph_ceres/solve_by_ceres.hpp"
+
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 #include <ceres/sized_cost_function.h>
@@ -7,9 +9,8 @@
 
 #include <memory>
 
+#include "edge_residual.hpp"
 #include "linear/index.hpp"
-#include "peer/edge_residual.hpp"
-#include "pose_graph/ceres.hpp"
 #include "solve/normal_equations.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 
@@ -149,6 +150,8 @@ Solution<D> solveByCeres(const Problem<D>& problem, const SolveOptions& options,
   made.cost = cost(problem, made.poses, options.objective, weights);
   return made;
 }
+
+ReferenceSolver ceresSolver() { return {"ceres", solveByCeres<3>}; }
 
 template Solution<2> solveByCeres(const Problem<2>&, const SolveOptions&, const std::vector<double>&);
 template Solution<3> solveByCeres(const Problem<3>&, const SolveOptions&, const std::vector<double>&);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose_graph/ceres.hpp"
+#include "pose_graph_ceres/solve_by_ceres.hpp"
 
 #include "support/drawn.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose_graph/relative_pcg.hpp"
+#include "pose_graph_relative/relative_pcg.hpp"
 
 #include <gtest/gtest.h>
 
@@ -187,6 +187,26 @@ TEST(RelativePcg, AnAtrociousStartNeverEndsWithoutANumber) {
     EXPECT_LT(relaxed.cost, relaxed.cost_before);
     for (const Rigid<3>& pose : relaxed.poses) EXPECT_TRUE(pose.t.allFinite() && pose.R.allFinite());
   }
+}
+
+TEST(RelativePcg, AsASolverCountsEachEdgeByItsWeight) {
+  const Problem<3> problem = smallGraph<3>(30, 6, 0.1, 0.05);
+  std::vector<double> weights(problem.edges.size(), 1.0);
+  weights.back() = 0.0;
+  weights[weights.size() - 2] = 0.25;
+  Problem<3> weighted = problem;
+  weighted.edges.pop_back();
+  weighted.edges.back().information *= 0.25;
+  const RelativeSolution<3> expected = relaxRelative(weighted);
+  const ReferenceSolver solver = relativeSolver();
+  EXPECT_EQ(solver.name, "relative_pcg");
+  const Solution<3> relaxed = solver.solve(problem, {}, weights);
+  EXPECT_EQ(relaxed.cost, expected.cost);
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) EXPECT_EQ(relaxed.poses[i].t, expected.poses[i].t);
+  EXPECT_NE(solver.solve(problem, {}, {}).cost, expected.cost);
+  SolveOptions options;
+  options.iterations = 1;
+  EXPECT_EQ(solver.solve(problem, options, weights).ending, Ending::Iterations);
 }
 
 TEST(RelativePcg, RefusesBadInputByName) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "pose_graph/reference_solver.hpp"
 #include "pose_graph/solution.hpp"
 
 namespace pose_graph {
@@ -39,6 +40,10 @@ struct RelativeSolution : Solution<D> {
 /// the same bits.
 template <int D>
 RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOptions& options = {});
+
+/// relaxRelative() as pose_graph.solver = relative_pcg selects it: from problem.poses, whatever SolveOptions::start;
+/// geodesic only.
+ReferenceSolver relativeSolver();
 
 extern template RelativeSolution<2> relaxRelative(const Problem<2>&, const RelativePcgOptions&);
 extern template RelativeSolution<3> relaxRelative(const Problem<3>&, const RelativePcgOptions&);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "peer/edge_residual.hpp"
+#include "edge_residual.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pose_graph/relative_pcg.hpp"
+#include "pose_graph_relative/relative_pcg.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,6 +93,25 @@ RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOp
   solution.cost = system.cost();
   solution.poses = std::move(state.poses);
   return solution;
+}
+
+ReferenceSolver relativeSolver() {
+  const auto solve = [](const Problem<3>& problem, const SolveOptions& options, const std::vector<double>& weights) {
+    Problem<3> weighted;
+    weighted.poses = problem.poses;
+    for (std::size_t e = 0; e < problem.edges.size(); ++e) {
+      const double weight = weights.empty() ? 1.0 : weights[e];
+      if (weight <= 0.0) continue;
+      weighted.edges.push_back(problem.edges[e]);
+      weighted.edges.back().information *= weight;
+    }
+    RelativePcgOptions relative;
+    relative.iterations = options.iterations;
+    relative.tolerance = options.tolerance;
+    relative.progress = options.progress;
+    return Solution<3>(relaxRelative<3>(weighted, relative));
+  };
+  return {"relative_pcg", solve};
 }
 
 template RelativeSolution<2> relaxRelative(const Problem<2>&, const RelativePcgOptions&);

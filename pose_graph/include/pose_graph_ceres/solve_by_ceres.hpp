@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pose_graph/reference_solver.hpp"
+#include "pose_graph/solution.hpp"
+
+namespace pose_graph {
+
+/// solve() by Ceres (Agarwal, Mierle and others; SPARSE_NORMAL_CHOLESKY on SuiteSparse, one thread, other settings at
+/// their defaults): an independent minimiser of the same residuals, with the derivatives of this package. Slower; every
+/// objective and start. Poses are increments (rotation vector, translation) to the start, so that none may turn by a
+/// full round during the minimisation.
+template <int D>
+Solution<D> solveByCeres(const Problem<D>& problem, const SolveOptions& options,
+                         const std::vector<double>& weights = {});
+
+/// solveByCeres() as pose_graph.solver = ceres selects it.
+ReferenceSolver ceresSolver();
+
+extern template Solution<2> solveByCeres(const Problem<2>&, const SolveOptions&, const std::vector<double>&);
+extern template Solution<3> solveByCeres(const Problem<3>&, const SolveOptions&, const std::vector<double>&);
+
+}  // namespace pose_graph
