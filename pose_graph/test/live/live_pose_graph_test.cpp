@@ -109,6 +109,17 @@ class LivePoseGraphTest : public ::testing::Test {
   const StoreFolder place;
 };
 
+TEST_F(LivePoseGraphTest, TheIdOfASessionHasRobotAndRecording) {
+  const auto id = [](const std::string& robot, const std::string& recording) {
+    LivePoseGraph graph(Parameters(), robot, recording);
+    drive(graph, 0, 1);
+    return graph.trajectory(0, 0, 0).runs.at(0).session;
+  };
+  EXPECT_EQ(id("lisa", "monday"), id("lisa", "monday"));
+  EXPECT_NE(id("lisa", "monday"), id("bart", "monday"));
+  EXPECT_NE(id("lisa", "monday"), id("lisa", "tuesday"));
+}
+
 TEST_F(LivePoseGraphTest, ARecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
   auto whole = begin("monday", "");
   drive(*whole, 0, 2 * kLap);
