@@ -10,7 +10,7 @@ using urban_nav_ros::toColour;
 
 namespace {
 
-constexpr double thin = 0.05, thick = 0.12;  // m; the robot is half a metre wide
+constexpr double kThin = 0.05, kThick = 0.12;  // m; the robot is half a metre wide
 
 struct Drawing {
   ClosureMarker::Style style;
@@ -22,13 +22,13 @@ struct Drawing {
 const std::vector<Drawing>& drawings() {
   using Style = ClosureMarker::Style;
   static const std::vector<Drawing> all = {
-      {Style::Stereo, "stereo", toColour(0.1, 0.7, 0.2), thick},
-      {Style::Icp, "icp", toColour(0.6, 0.2, 0.7), thick},
-      {Style::Plane, "plane", toColour(0.2, 0.6, 0.8), thin},
-      {Style::Asserted, "asserted", toColour(1.0, 1.0, 1.0), thick},
-      {Style::Session, "session", toColour(0.6, 0.6, 0.6), thin},
-      {Style::Waiting, "waiting", toColour(1.0, 0.6, 0.0), thick},
-      {Style::Rejected, "rejected", toColour(0.9, 0.1, 0.1, 0.4), thin},
+      {Style::Stereo, "stereo", toColour(0.1, 0.7, 0.2), kThick},
+      {Style::Icp, "icp", toColour(0.6, 0.2, 0.7), kThick},
+      {Style::Plane, "plane", toColour(0.2, 0.6, 0.8), kThin},
+      {Style::Asserted, "asserted", toColour(1.0, 1.0, 1.0), kThick},
+      {Style::Session, "session", toColour(0.6, 0.6, 0.6), kThin},
+      {Style::Waiting, "waiting", toColour(1.0, 0.6, 0.0), kThick},
+      {Style::Rejected, "rejected", toColour(0.9, 0.1, 0.1, 0.4), kThin},
   };
   return all;
 }
@@ -49,7 +49,7 @@ visualization_msgs::MarkerArray toMarkers(const std::vector<ClosureMarker>& clos
     std::vector<Eigen::Vector3d> points;
     points.reserve(run.poses.size());
     for (const auto& pose : run.poses) points.push_back(pose.T_map_base.t());
-    markers.addStrip("trajectory", id++, points, thin, toColour(0.2, 0.4, 1.0));
+    markers.addStrip("trajectory", id++, points, kThin, toColour(0.2, 0.4, 1.0));
   }
   return markers.message();
 }

@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 // s; a filter with a window publishes its first smoothed pose so late, and later ones at the rate of its images.
-constexpr double odometry_timeout = 5.0;
+constexpr double kOdometryTimeout = 5.0;
 
 }  // namespace
 
@@ -102,7 +102,7 @@ PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
 
 void PoseGraphStage::subscribe() {
   TopicOptions steady, occasional;
-  steady.timeout = odometry_timeout;
+  steady.timeout = kOdometryTimeout;
   steady.queue = occasional.queue = nodelet_.queue_size;
   occasional.is_monitored = false;
   node_.subscribeInput<urban_nav_msgs::RelativePose>(

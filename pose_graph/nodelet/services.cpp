@@ -28,7 +28,7 @@ using urban_nav_ros::toStampNs;
 namespace {
 
 // A batch relaxation of a million poses takes some ten seconds.
-constexpr std::chrono::seconds batch_timeout{30};
+constexpr std::chrono::seconds kBatchTimeout{30};
 
 void requireAbsolute(const std::string& path) {
   if (path.empty() || path.front() != '/') throw UserError("path", "`" + path + "`", "an absolute path");
@@ -87,7 +87,7 @@ void load(GraphNode& node, GraphWorker& worker, const std::string& path, std::st
 
 std::string optimize(GraphNode& node, GraphWorker& worker) {
   std::future<Figures> ended = node.ask([&worker] { return worker.requestBatch(); });
-  if (ended.wait_for(batch_timeout) != std::future_status::ready)
+  if (ended.wait_for(kBatchTimeout) != std::future_status::ready)
     throw UserError("", "the batch relaxation is still under way; graph/state reports its end", "");
   try {
     return toSentence(ended.get());

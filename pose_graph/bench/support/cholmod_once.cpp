@@ -31,12 +31,12 @@ TangentMatrix<D> adjoint(const Rigid<D>& T) {
 /// The upper triangle.
 template <int D>
 Eigen::SparseMatrix<double> gaussNewtonMatrix(const Problem<D>& problem) {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   std::vector<Eigen::Triplet<double>> entries;
   const auto put = [&](int i, int j, const TangentMatrix<D>& block) {
-    for (int r = 0; r < N && i > 0 && j > 0; ++r)
-      for (int c = 0; c < N; ++c)
-        if ((i - 1) * N + r <= (j - 1) * N + c) entries.emplace_back((i - 1) * N + r, (j - 1) * N + c, block(r, c));
+    for (int r = 0; r < kN && i > 0 && j > 0; ++r)
+      for (int c = 0; c < kN; ++c)
+        if ((i - 1) * kN + r <= (j - 1) * kN + c) entries.emplace_back((i - 1) * kN + r, (j - 1) * kN + c, block(r, c));
   };
   for (const Edge<D>& edge : problem.edges) {
     const TangentMatrix<D> J = -adjoint<D>(edge.Z.inverse()), JI = J.transpose() * edge.information;
@@ -45,7 +45,7 @@ Eigen::SparseMatrix<double> gaussNewtonMatrix(const Problem<D>& problem) {
     if (edge.from < edge.to) put(edge.from, edge.to, JI);
     else put(edge.to, edge.from, JI.transpose());
   }
-  const int size = (static_cast<int>(problem.poses.size()) - 1) * N;
+  const int size = (static_cast<int>(problem.poses.size()) - 1) * kN;
   Eigen::SparseMatrix<double> made(size, size);
   made.setFromTriplets(entries.begin(), entries.end());
   made.makeCompressed();

@@ -27,7 +27,7 @@ template <int D>
 Rigid<D> nearlyNothing(Dice& dice) {
   Rigid<D> T;
   for (int i = 0; i < D; ++i) T.t[i] = kPlaceM * dice.normal();
-  for (int i = 0; i < rotation_size<D>; ++i) {
+  for (int i = 0; i < kRotationSize<D>; ++i) {
     RotationVector<D> turn = RotationVector<D>::Zero();
     turn[i] = kTurnRad * dice.normal();
     T.R = expRotation(turn) * T.R;  // roll, pitch, yaw

@@ -66,7 +66,7 @@ WrongGraph<D> drawSlip(const Problem<D>& clean, const std::vector<Rigid<D>>& opt
   for (int i = 0; i < D; ++i) shift[i] = dice.normal();
   made.problem.edges[e].Z.t += kSlipShare * longestSide<D>(optimum) / shift.norm() * shift;
   RotationVector<D> turn = RotationVector<D>::Zero();
-  for (int i = 0; i < rotation_size<D>; ++i) turn[i] = dice.uniform(-kSlipRad, kSlipRad);
+  for (int i = 0; i < kRotationSize<D>; ++i) turn[i] = dice.uniform(-kSlipRad, kSlipRad);
   made.problem.edges[e].Z.R = made.problem.edges[e].Z.R * expRotation(turn);
   made.truth[e] = EdgeTruth::False;
   return made;
@@ -104,7 +104,7 @@ WrongGraph<D> drawSessions(const Problem<D>& clean, const std::vector<Rigid<D>>&
     edge.to = half + static_cast<int>(dice.below(clean.poses.size() - at(half)));
     for (int i = 0; i < D; ++i) edge.Z.t[i] = dice.uniform(-1.0, 1.0);
     RotationVector<D> turn;
-    for (int i = 0; i < rotation_size<D>; ++i) turn[i] = dice.uniform(-1.5, 1.5);
+    for (int i = 0; i < kRotationSize<D>; ++i) turn[i] = dice.uniform(-1.5, 1.5);
     edge.Z.R = expRotation(turn);
     made.problem.edges.push_back(edge);
     made.truth.push_back(EdgeTruth::False);

@@ -8,11 +8,11 @@ namespace pose_graph {
 
 /// Numbers of a tangent of SE(D): 3 in the plane, 6 in space. Translation first, then rotation.
 template <int D>
-constexpr int tangent_size = D == 2 ? 3 : 6;
+constexpr int kTangentSize = D == 2 ? 3 : 6;
 template <int D>
-using Tangent = Eigen::Matrix<double, tangent_size<D>, 1>;
+using Tangent = Eigen::Matrix<double, kTangentSize<D>, 1>;
 template <int D>
-using TangentMatrix = Eigen::Matrix<double, tangent_size<D>, tangent_size<D>>;
+using TangentMatrix = Eigen::Matrix<double, kTangentSize<D>, kTangentSize<D>>;
 
 /// A rigid transform of the plane (D = 2) or of space (D = 3) as the solver keeps it: a proper rotation matrix, so that
 /// a residual costs products alone, and a translation (m). p_a = R p_b + t for T_a_b.

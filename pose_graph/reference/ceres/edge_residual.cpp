@@ -10,7 +10,7 @@ namespace {
 /// sqrt(kappa) (R_E - I), column by column, and how it changes when R_E is turned from the left.
 template <int D>
 void putChord(const Rotation<D>& R_E, double root_kappa, Eigen::Ref<Eigen::Matrix<double, D * D, 1>> r,
-              Eigen::Ref<Eigen::Matrix<double, D * D, rotation_size<D>>, 0, Eigen::OuterStride<>> J) {
+              Eigen::Ref<Eigen::Matrix<double, D * D, kRotationSize<D>>, 0, Eigen::OuterStride<>> J) {
   for (int c = 0; c < D; ++c) {
     r.template segment<D>(D * c) = root_kappa * (R_E.col(c) - Rotation<D>::Identity().col(c));
     J.template middleRows<D>(D * c) = root_kappa * turned(Eigen::Matrix<double, D, 1>(R_E.col(c)));
@@ -22,29 +22,29 @@ void putChord(const Rotation<D>& R_E, double root_kappa, Eigen::Ref<Eigen::Matri
 template <Objective objective, int D>
 EdgeResidual<objective, D> edgeResidual(const EdgeTerm<D>& term, const TangentMatrix<D>& root, const Rigid<D>& from,
                                         const Rigid<D>& to) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   const Rotation<D> A = from.R * term.R_Z, R_E = A.transpose() * to.R;
   const Eigen::Matrix<double, D, 1> d = to.t - from.t, e_t = A.transpose() * d - term.t_Z;
   EdgeResidual<objective, D> made;
   auto& J = made.J_to;  // in the axes of A at first
   J.setZero();
   if constexpr (objective == Objective::Chordal) {
-    putChord<D>(R_E, std::sqrt(term.kappa), made.r.template head<D * D>(), J.template topRightCorner<D * D, r>());
+    putChord<D>(R_E, std::sqrt(term.kappa), made.r.template head<D * D>(), J.template topRightCorner<D * D, kR>());
     made.r.template tail<D>() = std::sqrt(term.tau) * e_t;
     J.template bottomLeftCorner<D, D>().diagonal().setConstant(std::sqrt(term.tau));
   } else {
     const RotationError<D> rotation = rotationError<objective>(R_E);
     made.r.template head<D>() = e_t;
-    made.r.template tail<r>() = rotation.e;
+    made.r.template tail<kR>() = rotation.e;
     J.template topLeftCorner<D, D>().setIdentity();
-    J.template bottomRightCorner<r, r>() = rotation.J;
+    J.template bottomRightCorner<kR, kR>() = rotation.J;
     made.r = (root * made.r).eval();
     J = (root * J).eval();
   }
   J.template leftCols<D>() = (J.template leftCols<D>() * A.transpose()).eval();
   if constexpr (D == 3) J.template rightCols<3>() = (J.template rightCols<3>() * A.transpose()).eval();
   made.J_from = -J;
-  made.J_from.template rightCols<r>() -= J.template leftCols<D>() * turned(d);
+  made.J_from.template rightCols<kR>() -= J.template leftCols<D>() * turned(d);
   return made;
 }
 

@@ -7,13 +7,13 @@ namespace pose_graph {
 
 /// Rows of an edge's residual: of a chordal one all entries of a matrix and a vector.
 template <Objective objective, int D>
-constexpr int residual_size = objective == Objective::Chordal ? D* D + D : tangent_size<D>;
+constexpr int kResidualSize = objective == Objective::Chordal ? D* D + D : kTangentSize<D>;
 
 /// An edge's cost as a sum of squares, and its derivatives when the poses are moved as EdgeQuadratic has it.
 template <Objective objective, int D>
 struct EdgeResidual {
-  Eigen::Matrix<double, residual_size<objective, D>, 1> r;
-  Eigen::Matrix<double, residual_size<objective, D>, tangent_size<D>> J_from, J_to;
+  Eigen::Matrix<double, kResidualSize<objective, D>, 1> r;
+  Eigen::Matrix<double, kResidualSize<objective, D>, kTangentSize<D>> J_from, J_to;
 };
 
 /// `root`: of the edge's information, root^T root; the chordal objective takes its weights from `term`.

@@ -27,24 +27,24 @@ Eigen::Matrix<double, 1, 1> toTurn(const RotationVector<2>&) { return Eigen::Mat
 Eigen::Matrix3d toTurn(const RotationVector<3>& phi) { return urban_nav_core::leftJacobianSo3(phi); }
 
 template <Objective objective, int D>
-class EdgeCost final : public ceres::SizedCostFunction<residual_size<objective, D>, tangent_size<D>, tangent_size<D>> {
+class EdgeCost final : public ceres::SizedCostFunction<kResidualSize<objective, D>, kTangentSize<D>, kTangentSize<D>> {
  public:
   EdgeCost(const EdgeTerm<D>& term, const TangentMatrix<D>& root, const Rigid<D>& from, const Rigid<D>& to)
       : term_(term), root_(root), from_(from), to_(to) {}
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    constexpr int K = residual_size<objective, D>, N = tangent_size<D>;
+    constexpr int kK = kResidualSize<objective, D>, kN = kTangentSize<D>;
     const EdgeResidual<objective, D> edge =
         edgeResidual<objective, D>(term_, root_, at<D>(from_, x[0]), at<D>(to_, x[1]));
-    Eigen::Map<Eigen::Matrix<double, K, 1>> r(residuals);
+    Eigen::Map<Eigen::Matrix<double, kK, 1>> r(residuals);
     r = edge.r;
     if (jacobians == nullptr) return r.allFinite();
-    const auto put = [](const Eigen::Matrix<double, K, N>& J, const double* at_x, double* jacobian) {
+    const auto put = [](const Eigen::Matrix<double, kK, kN>& J, const double* at_x, double* jacobian) {
       if (jacobian == nullptr) return;
-      Eigen::Map<Eigen::Matrix<double, K, N, Eigen::RowMajor>> out(jacobian);
+      Eigen::Map<Eigen::Matrix<double, kK, kN, Eigen::RowMajor>> out(jacobian);
       out = J;
-      out.template rightCols<rotation_size<D>>() =
-          J.template rightCols<rotation_size<D>>() *
+      out.template rightCols<kRotationSize<D>>() =
+          J.template rightCols<kRotationSize<D>>() *
           toTurn(RotationVector<D>(Eigen::Map<const RotationVector<D>>(at_x + D)));
     };
     put(edge.J_from, x[0], jacobians[0]);
@@ -100,7 +100,7 @@ void descend(const Problem<D>& problem, const SolveOptions& options, const std::
   std::vector<Tangent<D>> x(problem.poses.size(), Tangent<D>::Zero());
   ceres::Problem all;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    all.AddParameterBlock(x[i].data(), tangent_size<D>);
+    all.AddParameterBlock(x[i].data(), kTangentSize<D>);
     if (unknowns.of_pose[i] < 0) all.SetParameterBlockConstant(x[i].data());
   }
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {

@@ -28,7 +28,7 @@ bool isFinite(const Rigid<D>& T) {
 
 // The eigenvalues of a matrix that was computed or printed with six digits may come out below zero by so much of the
 // largest.
-constexpr double rounding = 1e-6;
+constexpr double kRounding = 1e-6;
 
 // root^T root = information; empty rows where there is none.
 template <int D>
@@ -36,7 +36,7 @@ TangentMatrix<D> chainRoot(const Problem<D>& problem, std::size_t i) {
   const TangentMatrix<D>& information = problem.edges[i].information;
   const auto eigen = urban_nav_core::symmetricEigen(information);
   const double least = eigen->values.minCoeff(), most = eigen->values.maxCoeff();
-  if (least < -rounding * std::max(most, 0.0) || most < 0.0) {
+  if (least < -kRounding * std::max(most, 0.0) || most < 0.0) {
     throw UserError(
         "", makeName(problem, i) + " has indefinite information (an eigenvalue of " + std::to_string(least) + ")",
         "positive semidefinite information");

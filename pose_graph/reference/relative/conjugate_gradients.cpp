@@ -7,7 +7,7 @@ template <int D>
 PcgResult<D> conjugateGradients(const LinearSystem<D>& system, const Preconditioner<D>& preconditioner, double damping,
                                 double tolerance, int max_iterations) {
   PcgResult<D> result;
-  result.step = Increments<D>::Zero(tangent_size<D>, system.links());
+  result.step = Increments<D>::Zero(kTangentSize<D>, system.links());
   Increments<D> residual = system.b(), z, product, scratch;
   preconditioner.apply(residual, z, scratch);
   Increments<D> direction = z;

@@ -49,7 +49,7 @@ LinearSystem<D>::LinearSystem(const Problem<D>& problem, const Chain<D>& chain, 
     : poses_(state.poses) {
   const Eigen::Index links = chain.links;
   blocks_.assign(static_cast<std::size_t>(links), TangentMatrix<D>::Zero());
-  b_ = Increments<D>::Zero(tangent_size<D>, links);
+  b_ = Increments<D>::Zero(kTangentSize<D>, links);
   for (const auto& [link, i] : chain.link_edges) {
     // In the frame of the link's first pose, where nothing is lost to rounding.
     const Edge<D>& edge = problem.edges[i];
@@ -62,7 +62,7 @@ LinearSystem<D>::LinearSystem(const Problem<D>& problem, const Chain<D>& chain, 
     b_.col(link) -= WJ.transpose() * row.e;
     cost_ += weighted<D>(edge, row.e);
   }
-  Increments<D> pull = Increments<D>::Zero(tangent_size<D>, links + 1);
+  Increments<D> pull = Increments<D>::Zero(kTangentSize<D>, links + 1);
   rows_.reserve(chain.closures.size());
   for (const auto& [i, root] : chain.closures) {
     const Edge<D>& edge = problem.edges[i];
@@ -74,7 +74,7 @@ LinearSystem<D>::LinearSystem(const Problem<D>& problem, const Chain<D>& chain, 
     pull.col(edge.from) += z;
     cost_ += weighted<D>(edge, row.e);
   }
-  Increments<D> force(tangent_size<D>, links);
+  Increments<D> force(kTangentSize<D>, links);
   sweepBack(pull, force);
   b_ += force;
 }

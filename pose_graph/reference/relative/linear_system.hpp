@@ -10,7 +10,7 @@ namespace pose_graph {
 
 /// Increments of all links, one column each, as boxPlus takes them.
 template <int D>
-using Increments = Eigen::Matrix<double, tangent_size<D>, Eigen::Dynamic>;
+using Increments = Eigen::Matrix<double, kTangentSize<D>, Eigen::Dynamic>;
 
 /// The state: the links of the chain, and the poses that they lead to from the first.
 template <int D>

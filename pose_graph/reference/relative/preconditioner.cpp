@@ -17,7 +17,7 @@ Preconditioner<D>::Preconditioner(const LinearSystem<D>& system, double damping,
   spread_.push_back(TangentMatrix<D>::Zero());
   for (std::size_t i = 0; i < links; ++i) {
     const TangentMatrix<D> N = (1.0 + damping) * system.blocks()[i];
-    inverses_.push_back(urban_nav_core::SmallCholesky<tangent_size<D>>(N).inverse());
+    inverses_.push_back(urban_nav_core::SmallCholesky<kTangentSize<D>>(N).inverse());
     const TangentMatrix<D> U = system.linkMatrix(static_cast<int>(i));
     spread_.push_back(spread_.back() + U * inverses_.back() * U.transpose());
   }
@@ -46,9 +46,9 @@ void Preconditioner<D>::choose(std::size_t coupled) {
 
 template <int D>
 void Preconditioner<D>::factorise() {
-  constexpr Eigen::Index d = tangent_size<D>;
+  constexpr Eigen::Index kD = kTangentSize<D>;
   const auto count = static_cast<Eigen::Index>(chosen_.size());
-  factor_ = Eigen::MatrixXd::Zero(d * count, d * count);
+  factor_ = Eigen::MatrixXd::Zero(kD * count, kD * count);
   for (Eigen::Index column = 0; column < count; ++column) {
     const auto& b = system_.rows()[chosen_[static_cast<std::size_t>(column)]];
     for (Eigen::Index line = column; line < count; ++line) {
@@ -58,9 +58,9 @@ void Preconditioner<D>::factorise() {
       if (low >= high) continue;
       const double sign = (a.from < a.to) == (b.from < b.to) ? 1.0 : -1.0;
       const TangentMatrix<D> common = spread_[static_cast<std::size_t>(high)] - spread_[static_cast<std::size_t>(low)];
-      factor_.block<d, d>(d * line, d * column) = sign * (a.G * common * b.G.transpose());
+      factor_.block<kD, kD>(kD * line, kD * column) = sign * (a.G * common * b.G.transpose());
     }
-    factor_.block<d, d>(d * column, d * column) += TangentMatrix<D>::Identity();
+    factor_.block<kD, kD>(kD * column, kD * column) += TangentMatrix<D>::Identity();
   }
   // The identity keeps it positive definite but for rounding in the prefix sums; then the chain alone has to do.
   if (!urban_nav_core::choleskyInPlace(factor_)) chosen_.clear();
@@ -68,7 +68,7 @@ void Preconditioner<D>::factorise() {
 
 template <int D>
 void Preconditioner<D>::apply(const Increments<D>& step, Increments<D>& result, Increments<D>& scratch) const {
-  constexpr Eigen::Index d = tangent_size<D>;
+  constexpr Eigen::Index kD = kTangentSize<D>;
   result.resize(Eigen::NoChange, step.cols());
   const auto chain_alone = [this](const Increments<D>& in, Increments<D>& out) {
     for (Eigen::Index i = 0; i < in.cols(); ++i)
@@ -77,21 +77,21 @@ void Preconditioner<D>::apply(const Increments<D>& step, Increments<D>& result, 
   chain_alone(step, result);
   if (chosen_.empty()) return;
   system_.sweep(result, scratch);
-  Eigen::MatrixXd y(d * static_cast<Eigen::Index>(chosen_.size()), 1);
+  Eigen::MatrixXd y(kD * static_cast<Eigen::Index>(chosen_.size()), 1);
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     const auto& row = system_.rows()[chosen_[i]];
-    y.block<d, 1>(d * static_cast<Eigen::Index>(i), 0) = row.G * (scratch.col(row.to) - scratch.col(row.from));
+    y.block<kD, 1>(kD * static_cast<Eigen::Index>(i), 0) = row.G * (scratch.col(row.to) - scratch.col(row.from));
   }
   urban_nav_core::solveLowerInPlace(factor_, y);
   urban_nav_core::solveLowerTransposedInPlace(factor_, y);
   scratch.setZero();
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     const auto& row = system_.rows()[chosen_[i]];
-    const Tangent<D> pull = row.G.transpose() * y.block<d, 1>(d * static_cast<Eigen::Index>(i), 0);
+    const Tangent<D> pull = row.G.transpose() * y.block<kD, 1>(kD * static_cast<Eigen::Index>(i), 0);
     scratch.col(row.to) -= pull;
     scratch.col(row.from) += pull;
   }
-  Increments<D> force(d, step.cols());
+  Increments<D> force(kD, step.cols());
   system_.sweepBack(scratch, force);
   chain_alone(force, force);
   result += force;

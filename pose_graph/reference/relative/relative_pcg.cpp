@@ -14,16 +14,16 @@ namespace {
 // A step that does not lower the cost is halved so often before it is solved again with damping. A cost is had for a
 // hundredth of what a factorisation takes, and bold steps undo knots that small ones run into: on manhattan from its
 // odometry damping as soon as a gain is poor stops at 3 753, this at the optimum, 3 549.
-constexpr int halvings = 3;
+constexpr int kHalvings = 3;
 // Levenberg's damping in units of what odometry itself knows of each link. None until a step fails; then from here,
 // four times as much at each failure and a tenth at each success, gone below the least.
-constexpr double first_damping = 1e-2, least_damping = 1e-4;
-constexpr double more = 4.0, less = 0.1;
+constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-4;
+constexpr double kMore = 4.0, kLess = 0.1;
 // Beyond it a step is a millionth of what odometry allows: nothing is to be gained.
-constexpr double most_damping = 1e12;
+constexpr double kMostDamping = 1e12;
 // A sum of weighted squares below it has no meaning in double precision: a billionth of one residual's share of a
 // sigma.
-constexpr double nothing = 1e-18;
+constexpr double kNothing = 1e-18;
 
 // How exactly a step is solved: roughly at first, where it is far off anyhow, and better as the promises fall.
 double toleranceFor(double last_share) { return std::clamp(1e-2 * std::sqrt(last_share), 1e-8, 1e-2); }
@@ -32,7 +32,7 @@ double toleranceFor(double last_share) { return std::clamp(1e-2 * std::sqrt(last
 template <int D>
 std::optional<ChainState<D>> lowered(const Problem<D>& problem, const ChainState<D>& state, double cost,
                                      Increments<D> step) {
-  for (int i = 0; i <= halvings; ++i) {
+  for (int i = 0; i <= kHalvings; ++i) {
     ChainState<D> next = moved(state, step);
     if (computeCost(problem, next) < cost) return next;
     step *= 0.5;
@@ -54,7 +54,7 @@ RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOp
   LinearSystem<D> system(problem, chain, state);
   solution.cost_before = solution.cost_start = system.cost();
   solution.ending = Ending::Iterations;
-  const double floor = nothing * static_cast<double>(problem.edges.size());
+  const double floor = kNothing * static_cast<double>(problem.edges.size());
   double damping = 0.0, share = 1.0;
   int refused = 0;
   for (int i = 0; i < options.iterations; ++i) {
@@ -76,15 +76,15 @@ RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOp
     std::optional<ChainState<D>> next = lowered(problem, state, system.cost(), solved.step);
     if (!next) {
       ++refused;
-      damping = std::max(first_damping, more * damping);
-      if (damping <= most_damping) continue;
+      damping = std::max(kFirstDamping, kMore * damping);
+      if (damping <= kMostDamping) continue;
       solution.ending = Ending::Stuck;
       break;
     }
     state = std::move(*next);
     system = LinearSystem<D>(problem, chain, state);
     solution.iterations.push_back({system.cost(), promise, damping, std::exchange(refused, 0)});
-    damping = damping * less < least_damping ? 0.0 : damping * less;
+    damping = damping * kLess < kLeastDamping ? 0.0 : damping * kLess;
     if (options.progress && !options.progress(static_cast<int>(solution.iterations.size()), system.cost())) {
       solution.ending = Ending::Stopped;
       break;

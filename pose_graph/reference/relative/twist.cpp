@@ -18,29 +18,29 @@ Rotation<3> leftJacobianInverse(const RotationVector<3>& phi) { return urban_nav
 
 template <int D>
 Tangent<D> edgeResidual(const Edge<D>& edge, const Rigid<D>& T_map_from, const Rigid<D>& T_map_to) {
-  constexpr int turn = rotation_size<D>;
+  constexpr int kTurn = kRotationSize<D>;
   const Rotation<D> R_Z_map = (T_map_from.R * edge.Z.R).transpose();
   Tangent<D> e;
   e.template head<D>() = R_Z_map * (T_map_to.t - T_map_from.t - T_map_from.R * edge.Z.t);
-  e.template tail<turn>() = logRotation(Rotation<D>(R_Z_map * T_map_to.R));
+  e.template tail<kTurn>() = logRotation(Rotation<D>(R_Z_map * T_map_to.R));
   return e;
 }
 
 template <int D>
 EdgeRow<D> edgeRow(const Edge<D>& edge, const Rigid<D>& T_map_from, const Rigid<D>& T_map_to) {
-  constexpr int turn = rotation_size<D>;
+  constexpr int kTurn = kRotationSize<D>;
   EdgeRow<D> row;
   row.e = edgeResidual(edge, T_map_from, T_map_to);
-  const RotationVector<D> phi = row.e.template tail<turn>();
+  const RotationVector<D> phi = row.e.template tail<kTurn>();
   const Rotation<D> R_Z_map = (T_map_from.R * edge.Z.R).transpose();
   const auto J = leftJacobianInverse(phi);
   // Of x_to - x_from = (A, B), `to` sees itself move by A - p_to x B and turn by B, in the axes of the map.
   row.K.setZero();
   row.K.template topLeftCorner<D, D>() = R_Z_map;
-  for (int i = 0; i < turn; ++i) {
+  for (int i = 0; i < kTurn; ++i) {
     const RotationVector<D> B = RotationVector<D>::Unit(i);
     row.K.template block<D, 1>(0, D + i) = -(R_Z_map * crossTurn<D>(T_map_to.t, B));
-    row.K.template block<turn, 1>(D, D + i) = J * rotateTurn<D>(R_Z_map, B);
+    row.K.template block<kTurn, 1>(D, D + i) = J * rotateTurn<D>(R_Z_map, B);
   }
   return row;
 }

@@ -50,23 +50,23 @@ RotationVector<D> rotateTurnBack(const Rotation<D>& R, const RotationVector<D>& 
 /// What link r adds to x: (a + p_r x b, b), for the increment d of the link.
 template <int D>
 Tangent<D> linkTwist(const Rigid<D>& previous, const Vector<D>& p, const Tangent<D>& d) {
-  constexpr int turn = rotation_size<D>;
-  const RotationVector<D> b = rotateTurn<D>(previous.R, d.template tail<turn>());
+  constexpr int kTurn = kRotationSize<D>;
+  const RotationVector<D> b = rotateTurn<D>(previous.R, d.template tail<kTurn>());
   Tangent<D> x;
   x.template head<D>() = previous.R * d.template head<D>() + crossTurn<D>(p, b);
-  x.template tail<turn>() = b;
+  x.template tail<kTurn>() = b;
   return x;
 }
 
 /// The transposed map: the force and moment on the link where x is pulled by `z`.
 template <int D>
 Tangent<D> linkForce(const Rigid<D>& previous, const Vector<D>& p, const Tangent<D>& z) {
-  constexpr int turn = rotation_size<D>;
+  constexpr int kTurn = kRotationSize<D>;
   const Vector<D> f = z.template head<D>();
   Tangent<D> d;
   d.template head<D>() = previous.R.transpose() * f;
-  d.template tail<turn>() =
-      rotateTurnBack<D>(previous.R, RotationVector<D>(z.template tail<turn>() - crossForce<D>(p, f)));
+  d.template tail<kTurn>() =
+      rotateTurnBack<D>(previous.R, RotationVector<D>(z.template tail<kTurn>() - crossForce<D>(p, f)));
   return d;
 }
 
@@ -74,7 +74,7 @@ Tangent<D> linkForce(const Rigid<D>& previous, const Vector<D>& p, const Tangent
 template <int D>
 TangentMatrix<D> linkMatrix(const Rigid<D>& previous, const Vector<D>& p) {
   TangentMatrix<D> U;
-  for (int i = 0; i < tangent_size<D>; ++i) U.col(i) = linkTwist<D>(previous, p, Tangent<D>::Unit(i));
+  for (int i = 0; i < kTangentSize<D>; ++i) U.col(i) = linkTwist<D>(previous, p, Tangent<D>::Unit(i));
   return U;
 }
 

@@ -11,28 +11,28 @@ namespace pose_graph {
 namespace {
 
 template <int D>
-using Turn = Eigen::Matrix<double, D, rotation_size<D>>;
+using Turn = Eigen::Matrix<double, D, kRotationSize<D>>;
 
 // A twist w about the origin moves a pose at t by (rho, phi) = (w_rho + phi x t, w_phi), and back.
 template <int D>
 Tangent<D> boxFromTwist(const Tangent<D>& w, const Eigen::Matrix<double, D, 1>& t) {
   Tangent<D> x = w;
-  x.template head<D>() += turned(t) * w.template tail<rotation_size<D>>();
+  x.template head<D>() += turned(t) * w.template tail<kRotationSize<D>>();
   return x;
 }
 template <int D>
 Tangent<D> twistFromBox(const Tangent<D>& x, const Eigen::Matrix<double, D, 1>& t) {
   Tangent<D> w = x;
-  w.template head<D>() -= turned(t) * x.template tail<rotation_size<D>>();
+  w.template head<D>() -= turned(t) * x.template tail<kRotationSize<D>>();
   return w;
 }
 // The covariance of what is shifted by v turns: J P J^T with J = [I, sign turned(t); 0, I].
 template <int D>
 TangentMatrix<D> shifted(TangentMatrix<D> P, const Eigen::Matrix<double, D, 1>& t, double sign) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   const Turn<D> turn = sign * turned(t);
-  P.template topRows<D>() += turn * P.template bottomRows<r>();
-  P.template leftCols<D>() += P.template rightCols<r>() * turn.transpose();
+  P.template topRows<D>() += turn * P.template bottomRows<kR>();
+  P.template leftCols<D>() += P.template rightCols<kR>() * turn.transpose();
   return P;
 }
 // Both blocks seen from axes that are turned by A.
@@ -65,7 +65,7 @@ template <int D>
 Tangent<D> boxBetween(const Rigid<D>& T, const Rigid<D>& base) {
   Tangent<D> x;
   x.template head<D>() = T.t - base.t;
-  x.template tail<rotation_size<D>>() = logRotation(Rotation<D>(T.R * base.R.transpose()));
+  x.template tail<kRotationSize<D>>() = logRotation(Rotation<D>(T.R * base.R.transpose()));
   return x;
 }
 
@@ -77,12 +77,12 @@ constexpr double kLeastPivot = 1e-10;
 template <int D>
 ChainSum<D> linkSum(const Edge<D>& edge, bool against, const TangentMatrix<D>& covariance, const Rigid<D>& before,
                     const Rigid<D>& after, double* cost) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   const Rigid<D>&from = against ? after : before, &to = against ? before : after;
   const Rotation<D> A = from.R * edge.Z.R;
   Tangent<D> e;
   e.template head<D>() = A.transpose() * (to.t - from.t) - edge.Z.R.transpose() * edge.Z.t;
-  e.template tail<r>() = logRotation(Rotation<D>(A.transpose() * to.R));
+  e.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * to.R));
   *cost += e.dot(edge.information * e);
   // e changes by (A^T rho, J_l^-1 A^T phi) when `to` moves by (rho, phi), and J_l(e) e = e.
   TangentMatrix<D> P = covariance;
@@ -114,7 +114,7 @@ Edge<D> composedEdge(const ChainSum<D>& sum, const Rigid<D>& end) {
     P.template bottomRows<3>() = (J * P.template bottomRows<3>()).eval();
     P.template rightCols<3>() = (P.template rightCols<3>() * J.transpose()).eval();
   }
-  edge.information = urban_nav_core::SmallCholesky<tangent_size<D>>(P).inverse();
+  edge.information = urban_nav_core::SmallCholesky<kTangentSize<D>>(P).inverse();
   edge.information = (0.5 * (edge.information + edge.information.transpose())).eval();
   return edge;
 }
@@ -126,7 +126,7 @@ Tangent<D> twistBetween(const Rigid<D>& wanted, const Rigid<D>& lies) {
 
 template <int D>
 Tangent<D> solvedWith(const TangentMatrix<D>& covariance, const Tangent<D>& x) {
-  return urban_nav_core::SmallCholesky<tangent_size<D>>(covariance).solve(x);
+  return urban_nav_core::SmallCholesky<kTangentSize<D>>(covariance).solve(x);
 }
 
 template <int D>
@@ -140,7 +140,7 @@ bool invert(const TangentMatrix<D>& information, TangentMatrix<D>& inverse) {
   const Tangent<D> diagonal = information.diagonal();
   if (!(diagonal.minCoeff() > 0.0)) return false;
   const Tangent<D> scale = diagonal.cwiseSqrt().cwiseInverse();
-  const urban_nav_core::SmallCholesky<tangent_size<D>> factored(scale.asDiagonal() * information * scale.asDiagonal());
+  const urban_nav_core::SmallCholesky<kTangentSize<D>> factored(scale.asDiagonal() * information * scale.asDiagonal());
   if (!factored.succeeded() || !(factored.factor().diagonal().cwiseAbs2().minCoeff() > kLeastPivot)) return false;
   inverse = scale.asDiagonal() * factored.solve(TangentMatrix<D>(scale.asDiagonal()));
   return inverse.allFinite();

@@ -75,7 +75,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
   double chain_cost = condensed.relinearise();
   Problem<D> core = condensed.core(options.start == Start::Odometry ? posesAlongEdges(problem) : problem.poses);
   NormalEquations<D> equations(core);
-  BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
+  BlockCholesky<kTangentSize<D>> cholesky(equations.symbolic());
   std::vector<Rigid<D>> poses = firstGuess(equations, core, options, core_weights);
   made.cost_start = chain_cost + equations.cost(options.objective, poses, core_weights);
   // A chain as odometry laid it costs nothing in itself, so that the given poses have to be good to be worth more.

@@ -77,7 +77,7 @@ class ConstraintAdder {
   }
 
  private:
-  static constexpr int kTurn = tangent_size<D> - D;
+  static constexpr int kTurn = kTangentSize<D> - D;
 
   int addPose(const Rigid<D>& pose) {
     file_.problem.poses.push_back(pose);

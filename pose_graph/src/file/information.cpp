@@ -56,13 +56,13 @@ TangentMatrix<D> tangentInformation(const std::array<double, 21>& upper_triangle
 template <int D>
 bool demandSemidefinite(Semidefinite demanded, TangentMatrix<D>& information, const std::string& what,
                         const std::string& name) {
-  if (isSemidefinite<tangent_size<D>>(information)) {
-    clampEigenvalues<tangent_size<D>>(information);
+  if (isSemidefinite<kTangentSize<D>>(information)) {
+    clampEigenvalues<kTangentSize<D>>(information);
     return true;
   }
-  constexpr int R = tangent_size<D> - D;
+  constexpr int kR = kTangentSize<D> - D;
   if (demanded == Semidefinite::Blocks && isSemidefinite<D>(information.template topLeftCorner<D, D>()) &&
-      isSemidefinite<R>(information.template bottomRightCorner<R, R>()))
+      isSemidefinite<kR>(information.template bottomRightCorner<kR, kR>()))
     return false;
   throw urban_nav_core::UserError(name, "the information of " + what + " has a negative eigenvalue",
                                   "positive semidefinite matrices");

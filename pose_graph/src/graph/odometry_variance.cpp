@@ -32,7 +32,7 @@ int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector
 std::optional<double> redundancyOfChains(const Problem<3>& problem, std::size_t chains,
                                          const std::vector<double>& weights, const std::vector<Rigid<3>>& poses) {
   const Marginals<3> marginals(problem, poses, weights);
-  double sum = -static_cast<double>(tangent_size<3>) * joinedParts(problem, chains, weights);
+  double sum = -static_cast<double>(kTangentSize<3>) * joinedParts(problem, chains, weights);
   for (std::size_t e = chains; e < problem.edges.size(); ++e) {
     if (!(weights[e] > 0.0)) continue;
     const Edge<3>& edge = problem.edges[e];

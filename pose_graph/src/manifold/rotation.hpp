@@ -12,9 +12,9 @@ namespace pose_graph {
 
 /// Rotations of the plane and of space under one name. The tangent of the plane is one number, that of space three.
 template <int D>
-constexpr int rotation_size = D == 2 ? 1 : 3;
+constexpr int kRotationSize = D == 2 ? 1 : 3;
 template <int D>
-using RotationVector = Eigen::Matrix<double, rotation_size<D>, 1>;
+using RotationVector = Eigen::Matrix<double, kRotationSize<D>, 1>;
 template <int D>
 using Rotation = Eigen::Matrix<double, D, D>;
 
@@ -50,7 +50,7 @@ Rotation<D> renormalised(const Rotation<D>& R) {
 /// T moved by d = (rho, phi): [Exp(phi) R, t + rho], both in the parent frame.
 template <int D>
 Rigid<D> moved(const Rigid<D>& T, const Tangent<D>& d) {
-  return {expRotation(RotationVector<D>(d.template tail<rotation_size<D>>())) * T.R, T.t + d.template head<D>()};
+  return {expRotation(RotationVector<D>(d.template tail<kRotationSize<D>>())) * T.R, T.t + d.template head<D>()};
 }
 
 }  // namespace pose_graph

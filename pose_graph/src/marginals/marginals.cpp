@@ -28,9 +28,9 @@ Problem<D> telling(const Problem<D>& problem, const std::vector<double>& weights
 /// A factor of the normal equations, with pins where they are singular, and the inverse on their pattern.
 template <int D>
 struct Inverse {
-  static constexpr int N = tangent_size<D>;
-  BlockCholesky<N> cholesky;
-  BlockMatrix<N> selected;
+  static constexpr int kN = kTangentSize<D>;
+  BlockCholesky<kN> cholesky;
+  BlockMatrix<kN> selected;
 
   explicit Inverse(const Symbolic& symbolic) : cholesky(symbolic) {}
 
@@ -52,12 +52,12 @@ struct Between {
   TangentMatrix<D> J_a = TangentMatrix<D>::Zero(), J_b = TangentMatrix<D>::Zero();
 
   Between(const Rigid<D>& a, const Rigid<D>& b) {
-    constexpr int r = rotation_size<D>;
+    constexpr int kR = kRotationSize<D>;
     J_b.template topLeftCorner<D, D>() = a.R.transpose();
-    J_b.template bottomRightCorner<r, r>().setIdentity();
+    J_b.template bottomRightCorner<kR, kR>().setIdentity();
     if constexpr (D == 3) J_b.template bottomRightCorner<3, 3>() = a.R.transpose();
     TangentMatrix<D> T = TangentMatrix<D>::Identity();
-    T.template topRightCorner<D, r>() = turned(Eigen::Matrix<double, D, 1>(b.t - a.t));
+    T.template topRightCorner<D, kR>() = turned(Eigen::Matrix<double, D, 1>(b.t - a.t));
     J_a = -J_b * T;
   }
 };
@@ -80,7 +80,7 @@ urban_nav_core::Matrix6d displayed(const Marginal<3>& marginal, double length) {
 
 template <int D>
 struct Marginals<D>::Parts {
-  static constexpr int N = tangent_size<D>;
+  static constexpr int kN = kTangentSize<D>;
 
   NormalEquations<D> equations;
   std::vector<Rigid<D>> poses;
@@ -92,7 +92,7 @@ struct Marginals<D>::Parts {
     first.assign(sz(unknowns.components), -1);
     for (std::size_t i = poses.size(); i-- > 0;) first[sz(unknowns.component[i])] = static_cast<int>(i);
     equations.linearise(Objective::Geodesic, poses, {});
-    BlockMatrix<N>& H = equations.H();
+    BlockMatrix<kN>& H = equations.H();
     std::vector<int> pinned;
     inverse.emplace_back(equations.symbolic());
     if (!inverse[0].cholesky.factorPinned(H, equations.pattern(), pinned)) {
@@ -102,9 +102,9 @@ struct Marginals<D>::Parts {
     inverse[0].selected = selectedInverse(inverse[0].cholesky, equations.pattern());
     if (pinned.empty()) return;
     std::vector<double> pins;
-    for (const int entry : pinned) pins.push_back(BlockCholesky<N>::computePin(H, entry));
+    for (const int entry : pinned) pins.push_back(BlockCholesky<kN>::computePin(H, entry));
     for (std::size_t k = 0; k < pinned.size(); ++k)
-      H.diagonal[sz(pinned[k] / N)](pinned[k] % N, pinned[k] % N) += 2.0 * pins[k];
+      H.diagonal[sz(pinned[k] / kN)](pinned[k] % kN, pinned[k] % kN) += 2.0 * pins[k];
     inverse.emplace_back(equations.symbolic());
     if (!inverse[1].cholesky.factor(H, equations.pattern())) inverse.clear();
     else inverse[1].selected = selectedInverse(inverse[1].cholesky, equations.pattern());

@@ -70,14 +70,14 @@ RotationVector<3> skewAxis(const Rotation<3>& R) { return {R(2, 1) - R(1, 2), R(
 template <int D>
 LocalQuadratic<D> chordalQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t,
                                    const Rotation<D>& R_E) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   LocalQuadratic<D> made;
   made.cost = term.kappa * chordSquared<D>(R_E) + term.tau * e_t.squaredNorm();
   made.g.template head<D>() = term.tau * e_t;
-  made.g.template tail<r>() = term.kappa * skewAxis(R_E);
+  made.g.template tail<kR>() = term.kappa * skewAxis(R_E);
   made.H.setZero();
   made.H.diagonal().template head<D>().setConstant(term.tau);
-  made.H.diagonal().template tail<r>().setConstant(2.0 * term.kappa);  // |[phi]x R|^2 = 2 |phi|^2
+  made.H.diagonal().template tail<kR>().setConstant(2.0 * term.kappa);  // |[phi]x R|^2 = 2 |phi|^2
   return made;
 }
 
@@ -85,7 +85,7 @@ LocalQuadratic<D> chordalQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<
 
 template <int D>
 EdgeTerm<D> makeTerm(const Edge<D>& edge) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   EdgeTerm<D> made;
   made.from = edge.from;
   made.to = edge.to;
@@ -95,7 +95,8 @@ EdgeTerm<D> makeTerm(const Edge<D>& edge) {
   made.tau = D * harmonic<D>(edge.information.template topLeftCorner<D, D>());
   // SE-Sync has 3 / (2 trace) of the information of the quaternion's vector, which is four times that of the rotation
   // vector.
-  made.kappa = D == 2 ? edge.information(D, D) : 6.0 * harmonic<r>(edge.information.template bottomRightCorner<r, r>());
+  made.kappa =
+      D == 2 ? edge.information(D, D) : 6.0 * harmonic<kR>(edge.information.template bottomRightCorner<kR, kR>());
   return made;
 }
 

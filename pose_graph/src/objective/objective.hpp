@@ -41,7 +41,7 @@ LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<do
 template <int D>
 struct RotationError {
   RotationVector<D> e;
-  Eigen::Matrix<double, rotation_size<D>, rotation_size<D>> J;
+  Eigen::Matrix<double, kRotationSize<D>, kRotationSize<D>> J;
 };
 template <Objective objective>
 RotationError<2> rotationError(const Rotation<2>& R_E);
@@ -72,7 +72,7 @@ EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, co
   const LocalQuadratic<D> local =
       localQuadratic<objective, D>(term, A.transpose() * made.d - term.t_Z, A.transpose() * to.R);
   made.cost = local.cost;
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   if constexpr (D == 2) {
     made.g_to.template head<2>() = A * local.g.template head<2>();
     made.g_to[2] = local.g[2];
@@ -82,11 +82,11 @@ EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, co
     made.K(2, 2) = local.H(2, 2);
   } else {
     made.g_to.template head<D>() = A * local.g.template head<D>();
-    made.g_to.template tail<r>() = A * local.g.template tail<r>();
+    made.g_to.template tail<kR>() = A * local.g.template tail<kR>();
     made.K.template topLeftCorner<D, D>() = A * local.H.template topLeftCorner<D, D>() * A.transpose();
-    made.K.template topRightCorner<D, r>() = A * local.H.template topRightCorner<D, r>() * A.transpose();
-    made.K.template bottomLeftCorner<r, D>() = made.K.template topRightCorner<D, r>().transpose();
-    made.K.template bottomRightCorner<r, r>() = A * local.H.template bottomRightCorner<r, r>() * A.transpose();
+    made.K.template topRightCorner<D, kR>() = A * local.H.template topRightCorner<D, kR>() * A.transpose();
+    made.K.template bottomLeftCorner<kR, D>() = made.K.template topRightCorner<D, kR>().transpose();
+    made.K.template bottomRightCorner<kR, kR>() = A * local.H.template bottomRightCorner<kR, kR>() * A.transpose();
   }
   return made;
 }

@@ -43,7 +43,7 @@ void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<doubl
       if (in[e]) part_.edges.push_back(problem_->edges[e]);
     part_.poses = problem_->poses;
     equations_ = std::make_unique<NormalEquations<D>>(part_, equations_.get());
-    cholesky_ = std::make_unique<BlockCholesky<N>>(equations_->symbolic());
+    cholesky_ = std::make_unique<BlockCholesky<kN>>(equations_->symbolic());
   }
   in_ = in;
   weights_.clear();
@@ -144,9 +144,9 @@ typename AcceptedGraph<D>::Share AcceptedGraph<D>::share(const std::vector<Rigid
   }
   Share made;
   if (!any || unknowns() == 0) return made;
-  const BlockMatrix<N> inverse = selectedInverse(*cholesky_, equations_->pattern());
+  const BlockMatrix<kN> inverse = selectedInverse(*cholesky_, equations_->pattern());
   made.cost = equations_->linearise(Objective::Geodesic, poses, weights);
-  const BlockMatrix<N>& H = equations_->H();
+  const BlockMatrix<kN>& H = equations_->H();
   for (std::size_t k = 0; k < H.diagonal.size(); ++k)
     made.unknowns += H.diagonal[k].cwiseProduct(inverse.diagonal[k]).sum();
   for (std::size_t k = 0; k < H.lower.size(); ++k)

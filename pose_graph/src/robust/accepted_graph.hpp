@@ -14,7 +14,7 @@ namespace pose_graph {
 template <int D>
 class AcceptedGraph {
  public:
-  static constexpr int N = tangent_size<D>;
+  static constexpr int kN = kTangentSize<D>;
 
   /// `problem` must outlive it. `most_work`: beyond which it is too dense.
   explicit AcceptedGraph(const Problem<D>& problem, double most_work = std::numeric_limits<double>::infinity())
@@ -72,7 +72,7 @@ class AcceptedGraph {
   std::vector<char> in_, pattern_;
   std::vector<double> weights_;  // of the edges of the pattern; empty: ones
   std::unique_ptr<NormalEquations<D>> equations_;
-  std::unique_ptr<BlockCholesky<N>> cholesky_;
+  std::unique_ptr<BlockCholesky<kN>> cholesky_;
 };
 
 extern template class AcceptedGraph<2>;

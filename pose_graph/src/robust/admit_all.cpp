@@ -73,7 +73,7 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   for (int e : evaluator.candidates())
     poor += all.in[sz(e)] && (contradicts(e) || !(all.evidence.likelier[sz(e)] >= enough));
   // Many false ones that bend the graph a little each fit one by one, but not all together.
-  double redundancy = -static_cast<double>(graph.unknowns()) * tangent_size<D>;
+  double redundancy = -static_cast<double>(graph.unknowns()) * kTangentSize<D>;
   for (std::size_t e = 0; e < all.in.size(); ++e)
     redundancy += all.in[e] ? evaluator.edge(static_cast<int>(e)).rank : 0;
   const bool bent = graph.cost(all.poses) > kBentFactor * all.variance * std::max(redundancy, kFewNumbers);

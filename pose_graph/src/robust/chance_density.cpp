@@ -50,7 +50,7 @@ PoseSample<D>::PoseSample(std::vector<Rigid<D>> poses, double extent, std::vecto
   }
   const double number = static_cast<double>(std::max<std::size_t>(1, poses_.size()));
   shift_ = std::max(std::sqrt(shift.sum() / number / D), kLeastShare * extent);
-  turn_ = std::max(std::sqrt(turn / number / rotation_size<D>), kLeastTurn);
+  turn_ = std::max(std::sqrt(turn / number / kRotationSize<D>), kLeastTurn);
   // The volume of all rotations is 2 pi, or 8 pi^2.
   even_ = std::pow(2.0 * extent, -D) / (D == 2 ? 2.0 * M_PI : 8.0 * M_PI * M_PI);
   shift.maxCoeff(&axis_);
@@ -84,9 +84,9 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
   const std::size_t asked = poses_.size() - count(own);
   if (asked < 2 * kNearestPairs) return std::log(even_);
   const double per_shift = 1.0 / (shift_ * shift_), per_turn = 1.0 / (turn_ * turn_);
-  const double unit = (tangent_size<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0) * std::pow(shift_, D) *
-                      std::pow(turn_, rotation_size<D>);  // volume of the ball of radius 1
-  const double least = std::max(std::pow(resolved / unit, 2.0 / tangent_size<D>), kLeastSquare);
+  const double unit = (kTangentSize<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0) * std::pow(shift_, D) *
+                      std::pow(turn_, kRotationSize<D>);  // volume of the ball of radius 1
+  const double least = std::max(std::pow(resolved / unit, 2.0 / kTangentSize<D>), kLeastSquare);
   std::vector<double> nearest;  // a heap of squares, the farthest first
   std::size_t within = 0;
   double farthest = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
     if (per_shift * distance(next) * distance(next) >= farthest) break;
     look(next);
   }
-  const double volume = unit * std::pow(farthest, 0.5 * tangent_size<D>);
+  const double volume = unit * std::pow(farthest, 0.5 * kTangentSize<D>);
   const double share = static_cast<double>(std::max(within, kNearestPairs)) / static_cast<double>(asked);
   return std::log((1.0 - kEvenShare) * share / volume + kEvenShare * even_);
 }

@@ -41,7 +41,7 @@ ClosureLoops<D>::ClosureLoops(const Problem<D>& problem, const std::vector<int>&
 
 template <int D>
 ClosureLoop ClosureLoops<D>::loop(std::size_t first, std::size_t second) const {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   const Closure &a = closures_[first], &b = closures_[second];
   const DeadReckoning<D>& chains = *chains_;
   const Rigid<D> to_b = a.Z * (chains.pose[sz(a.to)].inverse() * chains.pose[sz(b.to)]);
@@ -49,19 +49,19 @@ ClosureLoop ClosureLoops<D>::loop(std::size_t first, std::size_t second) const {
   const Rigid<D> remains = back * (chains.pose[sz(b.from)].inverse() * chains.pose[sz(a.from)]);
   Tangent<D> d;
   d.template head<D>() = remains.t;
-  d.template tail<rotation_size<D>>() = logRotation(remains.R);
+  d.template tail<kRotationSize<D>>() = logRotation(remains.R);
   const TangentMatrix<D> over_a = adjoint<D>(a.Z), over_b = adjoint<D>(back);
   const TangentMatrix<D> S = a.covariance + over_a * chains.covariance(a.to, b.to) * over_a.transpose() +
                              over_b * (b.covariance + chains.covariance(b.from, a.from)) * over_b.transpose();
-  const urban_nav_core::SmallCholesky<N> factored(S);
+  const urban_nav_core::SmallCholesky<kN> factored(S);
   const double span = chains.of_pose[sz(a.from)] == chains.of_pose[sz(a.to)]
                           ? std::min(chains.extent, std::abs(chains.way[sz(a.to)] - chains.way[sz(a.from)]))
                           : chains.extent;
   ClosureLoop made;
   made.chi2 = d.dot(factored.solve(d));
-  made.log_true = -0.5 * N * kLogTwoPi;
-  for (int i = 0; i < N; ++i) made.log_true -= std::log(factored.factor()(i, i));
-  made.log_false = -rotation_size<D> * kLogTwoPi - D * std::log(2.0 * std::max(span, 1e-3));
+  made.log_true = -0.5 * kN * kLogTwoPi;
+  for (int i = 0; i < kN; ++i) made.log_true -= std::log(factored.factor()(i, i));
+  made.log_false = -kRotationSize<D> * kLogTwoPi - D * std::log(2.0 * std::max(span, 1e-3));
   return made;
 }
 

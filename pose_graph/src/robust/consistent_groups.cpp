@@ -16,9 +16,9 @@ constexpr int kPartners = 20;  // compared with each closure at most: one that a
 
 template <int D>
 bool agree(const ClosureLoop& loop, double variance, const Thresholds& thresholds) {
-  constexpr int N = tangent_size<D>;
-  if (!(loop.chi2 <= variance * thresholds.limit[N])) return false;
-  const double log_true = loop.log_true - 0.5 * N * std::log(variance) - 0.5 * loop.chi2 / variance;
+  constexpr int kN = kTangentSize<D>;
+  if (!(loop.chi2 <= variance * thresholds.limit[kN])) return false;
+  const double log_true = loop.log_true - 0.5 * kN * std::log(variance) - 0.5 * loop.chi2 / variance;
   return log_true - loop.log_false >= Thresholds::kEvidence;
 }
 

@@ -18,15 +18,15 @@ constexpr double kLeastExtent = 1e-3;  // metres: a graph that does not move at 
 
 template <int D>
 TangentMatrix<D> adjoint(const Rigid<D>& T) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   TangentMatrix<D> made = TangentMatrix<D>::Zero();
   made.template topLeftCorner<D, D>() = T.R;
   if constexpr (D == 2) {
     made.template topRightCorner<2, 1>() = -turned(T.t);
     made(2, 2) = 1.0;
   } else {
-    made.template topRightCorner<D, r>() = -turned(T.t) * T.R;
-    made.template bottomRightCorner<r, r>() = T.R;
+    made.template topRightCorner<D, kR>() = -turned(T.t) * T.R;
+    made.template bottomRightCorner<kR, kR>() = T.R;
   }
   return made;
 }
@@ -34,7 +34,7 @@ TangentMatrix<D> adjoint(const Rigid<D>& T) {
 template <int D>
 TangentMatrix<D> boundedCovariance(const TangentMatrix<D>& information, double extent) {
   TangentMatrix<D> sum = information;
-  for (int a = 0; a < tangent_size<D>; ++a) {
+  for (int a = 0; a < kTangentSize<D>; ++a) {
     const double width = a < D ? 2.0 * extent : 2.0 * M_PI;
     sum(a, a) += 12.0 / (width * width);
   }

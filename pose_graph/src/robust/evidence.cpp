@@ -21,17 +21,17 @@ constexpr int kAtOnce = 8;
 // Of the inverse of a covariance from as many samples (the mean of an inverse Wishart matrix).
 template <int D>
 constexpr double kShrink =
-    static_cast<double>(ClosureEvaluator<D>::kDisturbances - tangent_size<D> - 1) / ClosureEvaluator<D>::kDisturbances;
+    static_cast<double>(ClosureEvaluator<D>::kDisturbances - kTangentSize<D> - 1) / ClosureEvaluator<D>::kDisturbances;
 
 template <int D>
-using Eight = Eigen::Matrix<double, tangent_size<D>, kAtOnce, Eigen::RowMajor>;
+using Eight = Eigen::Matrix<double, kTangentSize<D>, kAtOnce, Eigen::RowMajor>;
 
 // Disturbances first...first + 7 of an edge: signs, a bit for each.
 template <int D>
 Eight<D> disturbances(std::size_t edge, int first) {
   Eight<D> made;
-  for (int a = 0; a < tangent_size<D>; ++a) {
-    const std::uint64_t bits = scatteredBits(edge * sz(tangent_size<D>) + sz(a)) >> first;
+  for (int a = 0; a < kTangentSize<D>; ++a) {
+    const std::uint64_t bits = scatteredBits(edge * sz(kTangentSize<D>) + sz(a)) >> first;
     for (int c = 0; c < kAtOnce; ++c) made(a, c) = static_cast<double>(static_cast<int>(2 * (bits >> c & 1)) - 1);
   }
   return made;
@@ -54,9 +54,9 @@ ClosureEvaluator<D>::ClosureEvaluator(const Problem<D>& problem, const std::vect
     double log = 0.0;
     for (int a = 0; a < edge.rank; ++a)
       log += 0.5 * std::log(edge.W.row(a).template head<D>().squaredNorm() * width * width +
-                            edge.W.row(a).template tail<rotation_size<D>>().squaredNorm() * 4.0 * M_PI * M_PI);
+                            edge.W.row(a).template tail<kRotationSize<D>>().squaredNorm() * 4.0 * M_PI * M_PI);
     false_log_.push_back(log);
-    width_log_.push_back(D * std::log(width) + rotation_size<D> * std::log(2.0 * M_PI));
+    width_log_.push_back(D * std::log(width) + kRotationSize<D> * std::log(2.0 * M_PI));
   }
 }
 
@@ -75,19 +75,19 @@ std::vector<WhitenedJacobians<D>> ClosureEvaluator<D>::linearise(const std::vect
 template <int D>
 std::vector<typename ClosureEvaluator<D>::Samples> ClosureEvaluator<D>::disturb(
     AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<WhitenedJacobians<D>>& at) const {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   std::vector<Samples> moved(candidates_.size(), Samples::Zero());
   std::vector<double> x;
-  const auto at_place = [&x](int place) { return x.data() + sz(place * N * kAtOnce); };
+  const auto at_place = [&x](int place) { return x.data() + sz(place * kN * kAtOnce); };
   static const auto kernels = urban_nav_core::kernels::instructionSets().front();
   for (int first = 0; first < kDisturbances && graph.unknowns() > 0; first += kAtOnce) {
-    x.assign(sz(graph.unknowns() * N * kAtOnce), 0.0);
+    x.assign(sz(graph.unknowns() * kN * kAtOnce), 0.0);
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       if (!in[e]) continue;
       const int from = graph.place(edges_[e].from), to = graph.place(edges_[e].to);
       const Eight<D> y = -disturbances<D>(e, first);
-      if (from >= 0) kernels.subtractEight(at_place(from), N, at[e].by_from.data(), N, 1, y.data(), N);
-      if (to >= 0) kernels.subtractEight(at_place(to), N, at[e].by_to.data(), N, 1, y.data(), N);
+      if (from >= 0) kernels.subtractEight(at_place(from), kN, at[e].by_from.data(), kN, 1, y.data(), kN);
+      if (to >= 0) kernels.subtractEight(at_place(to), kN, at[e].by_to.data(), kN, 1, y.data(), kN);
     }
     graph.solveEight(x.data());
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
@@ -95,8 +95,8 @@ std::vector<typename ClosureEvaluator<D>::Samples> ClosureEvaluator<D>::disturb(
       const int from = graph.place(edges_[e].from), to = graph.place(edges_[e].to);
       Eight<D> z = Eight<D>::Zero();
       if (in[e]) z = disturbances<D>(e, first);
-      if (from >= 0) kernels.subtractEight(z.data(), N, at[e].by_from.data(), 1, N, at_place(from), N);
-      if (to >= 0) kernels.subtractEight(z.data(), N, at[e].by_to.data(), 1, N, at_place(to), N);
+      if (from >= 0) kernels.subtractEight(z.data(), kN, at[e].by_from.data(), 1, kN, at_place(from), kN);
+      if (to >= 0) kernels.subtractEight(z.data(), kN, at[e].by_to.data(), 1, kN, at_place(to), kN);
       moved[k].template middleCols<kAtOnce>(first) = z;
     }
   }
@@ -106,21 +106,21 @@ std::vector<typename ClosureEvaluator<D>::Samples> ClosureEvaluator<D>::disturb(
 template <int D>
 void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const WhitenedJacobians<D>& at, const Samples& moved,
                                       double uncontrolled, Evidence& made) const {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   const std::size_t e = sz(candidates_[k]);
   const int rank = edges_[e].rank;
   TangentMatrix<D> C = moved.lazyProduct(moved.transpose()) / kDisturbances;
-  for (int a = rank; a < N; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
+  for (int a = rank; a < kN; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
   double log = false_log_[k] - 0.5 * rank * std::log(2.0 * M_PI);
   if (inside) {
     // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
     log += 0.5 * std::log(std::max(1e-300, C.determinant()));
     C.diagonal().array() += uncontrolled;
-    made.chi2[e] = at.error.dot(urban_nav_core::SmallCholesky<N>(C).solve(at.error)) * kShrink<D> / made.variance;
+    made.chi2[e] = at.error.dot(urban_nav_core::SmallCholesky<kN>(C).solve(at.error)) * kShrink<D> / made.variance;
   } else {
     C.topLeftCorner(rank, rank) /= kShrink<D>;
     C.diagonal().head(rank).array() += 1.0;
-    const urban_nav_core::SmallCholesky<N> factored(C);
+    const urban_nav_core::SmallCholesky<kN> factored(C);
     made.chi2[e] = at.error.dot(factored.solve(at.error)) / made.variance;
     for (int a = 0; a < rank; ++a) log -= std::log(factored.factor()(a, a));
   }
@@ -132,7 +132,7 @@ template <int D>
 void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members, const std::vector<Rigid<D>>& poses,
                                         const std::vector<WhitenedJacobians<D>>& at, const std::vector<Samples>& moved,
                                         double uncontrolled, Evidence& made) const {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   Samples spread = Samples::Zero();
   Tangent<D> sum = Tangent<D>::Zero();
   TangentMatrix<D> weight = TangentMatrix<D>::Zero();
@@ -143,7 +143,7 @@ void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members,
     const bool forward = edges_[e].from < edges_[e].to;
     const Rigid<D>& end = poses[sz(forward ? edges_[e].to : edges_[e].from)];
     TangentMatrix<D> body = TangentMatrix<D>::Identity();
-    body.template topRightCorner<D, rotation_size<D>>() = turned(Eigen::Matrix<double, D, 1>(end.t - middle));
+    body.template topRightCorner<D, kRotationSize<D>>() = turned(Eigen::Matrix<double, D, 1>(end.t - middle));
     const TangentMatrix<D> bias = (forward ? at[e].by_to : at[e].by_from) * body;
     spread.noalias() += bias.transpose() * moved[k];
     sum.noalias() += bias.transpose() * at[e].error;
@@ -151,13 +151,13 @@ void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members,
   }
   TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
   C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
-  const double chi2 = sum.dot(urban_nav_core::SmallCholesky<N>(C).solve(sum)) * kShrink<D> / made.variance;
+  const double chi2 = sum.dot(urban_nav_core::SmallCholesky<kN>(C).solve(sum)) * kShrink<D> / made.variance;
   double width = 0.0;
   for (std::size_t k : members) width = std::max(width, width_log_[k]);
-  const double log = width - 0.5 * N * std::log(2.0 * M_PI) + 0.5 * std::log(std::max(1e-300, C.determinant()));
+  const double log = width - 0.5 * kN * std::log(2.0 * M_PI) + 0.5 * std::log(std::max(1e-300, C.determinant()));
   for (std::size_t k : members) {
     made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
-    made.group_likelier[sz(candidates_[k])] = logInlierLikelihood(log, N, chi2 * made.variance, made.variance);
+    made.group_likelier[sz(candidates_[k])] = logInlierLikelihood(log, kN, chi2 * made.variance, made.variance);
   }
 }
 

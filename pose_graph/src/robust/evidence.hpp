@@ -45,7 +45,7 @@ class ClosureEvaluator {
                     double variance, const std::vector<int>& small_group, double uncontrolled) const;
 
  private:
-  using Samples = Eigen::Matrix<double, tangent_size<D>, kDisturbances, Eigen::RowMajor>;
+  using Samples = Eigen::Matrix<double, kTangentSize<D>, kDisturbances, Eigen::RowMajor>;
 
   std::vector<WhitenedJacobians<D>> linearise(const std::vector<char>& in, const std::vector<Rigid<D>>& poses) const;
   // What the disturbances do to each candidate: to its residual if inside, to its prediction if outside.

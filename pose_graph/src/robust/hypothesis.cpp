@@ -51,9 +51,9 @@ double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole
     if (!step[i] || !step[i + 1]) continue;
     Tangent<D> difference;
     difference.template head<D>() = step[i + 1]->Z.t - step[i]->Z.t;
-    difference.template tail<rotation_size<D>>() =
+    difference.template tail<kRotationSize<D>>() =
         logRotation(Rotation<D>(step[i]->Z.R.transpose() * step[i + 1]->Z.R));
-    squares.push_back(0.5 * difference.dot(step[i]->information * difference) / tangent_size<D>);
+    squares.push_back(0.5 * difference.dot(step[i]->information * difference) / kTangentSize<D>);
   }
   if (squares.empty()) return kOdometryMargin;
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
@@ -64,11 +64,11 @@ double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole
 // Logarithm of the determinant of what an information has, and its rank.
 template <int D>
 std::pair<double, int> logDeterminant(const TangentMatrix<D>& information) {
-  const auto eigen = urban_nav_core::smallEigen<tangent_size<D>>(information);
-  const double largest = eigen.values[tangent_size<D> - 1];
+  const auto eigen = urban_nav_core::smallEigen<kTangentSize<D>>(information);
+  const double largest = eigen.values[kTangentSize<D> - 1];
   double sum = 0.0;
   int rank = 0;
-  for (int a = 0; a < tangent_size<D>; ++a) {
+  for (int a = 0; a < kTangentSize<D>; ++a) {
     if (!(eigen.values[a] > 1e-12 * largest)) continue;
     sum += std::log(eigen.values[a]);
     ++rank;
@@ -82,9 +82,9 @@ template <int D>
 void boundInformation(double extent, TangentMatrix<D>& information) {
   Tangent<D> deviation;  // of an even spread
   deviation.template head<D>().setConstant(2.0 * extent / std::sqrt(12.0));
-  deviation.template tail<rotation_size<D>>().setConstant(2.0 * M_PI / std::sqrt(12.0));
+  deviation.template tail<kRotationSize<D>>().setConstant(2.0 * M_PI / std::sqrt(12.0));
   const TangentMatrix<D> scaled = deviation.asDiagonal() * information * deviation.asDiagonal();
-  if (urban_nav_core::smallEigen<tangent_size<D>>(scaled).values[0] >= 1.0) return;
+  if (urban_nav_core::smallEigen<kTangentSize<D>>(scaled).values[0] >= 1.0) return;
   information.diagonal() += deviation.cwiseAbs2().cwiseInverse();
 }
 
@@ -140,8 +140,8 @@ HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector
   }
   largest_odometry_ = boundOdometryFactor(problem, roles);
   assertions_ = stateTheSame(problem, candidates_);
-  constexpr int N = tangent_size<D>, R = rotation_size<D>;
-  log_place_ = -R * kLogTwoPiHypothesis - D * std::log(2.0 * reckoning_.extent);
+  constexpr int kN = kTangentSize<D>, kR = kRotationSize<D>;
+  log_place_ = -kR * kLogTwoPiHypothesis - D * std::log(2.0 * reckoning_.extent);
   log_false_.assign(roles.size(), log_place_);
   ChanceDensity<D> by_chance(reckoning_, candidates_.size());
   for (const int e : candidates_) log_false_[sz(e)] = by_chance.logAt(problem.edges[sz(e)]);
@@ -156,7 +156,7 @@ HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector
       if (!std::isfinite(loop.chi2) || !std::isfinite(loop.log_true)) return;
       double best = -std::numeric_limits<double>::infinity();
       for (const double factor : {1.0, scale, kLooseRow, kLooseRow * std::max(1.0, scale)})
-        best = std::max(best, loop.log_true - 0.5 * N * std::log(factor) - 0.5 * loop.chi2 / factor);
+        best = std::max(best, loop.log_true - 0.5 * kN * std::log(factor) - 0.5 * loop.chi2 / factor);
       neighbour_[sz(loops.edge(b))] = loops.edge(a);
       log_alike_[sz(loops.edge(b))] = best;
     });
@@ -221,7 +221,7 @@ VarianceFactors HypothesisJudge<D>::estimateFactors(AcceptedGraph<D>& graph, con
   double ranks[2] = {0.0, 0.0};
   for (std::size_t e = 0; e < roles_.size(); ++e)
     if (hypothesis.in[e]) ranks[roles_[e] == EdgeRole::Candidate] += rank_[e];
-  const double unknowns = graph.unknowns() * tangent_size<D>;
+  const double unknowns = graph.unknowns() * kTangentSize<D>;
   const auto factor = [](double squares, double redundancy) {
     return likeliestFactor({squares, std::max(0.0, redundancy)});
   };
@@ -235,7 +235,7 @@ VarianceFactors HypothesisJudge<D>::estimateFactors(AcceptedGraph<D>& graph, con
 
 template <int D>
 void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   std::vector<int> edges;
   for (std::size_t e = 0; e < roles_.size(); ++e)
     if (hypothesis.in[e]) edges.push_back(static_cast<int>(e));
@@ -267,7 +267,7 @@ void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
   hypothesis.log_evidence = -std::numeric_limits<double>::infinity();
   if (!graph.factor(hypothesis.poses)) return;
   const double unknowns = graph.unknowns();
-  double sum = -0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ + 0.5 * unknowns * N * kLogTwoPiHypothesis -
+  double sum = -0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ + 0.5 * unknowns * kN * kLogTwoPiHypothesis -
                0.5 * graph.logDeterminant();
   for (const int e : edges) {
     sum += 0.5 * log_information_[sz(e)] - 0.5 * rank_[sz(e)] * (kLogTwoPiHypothesis + std::log(factorOf(e)));

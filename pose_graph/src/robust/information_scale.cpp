@@ -80,7 +80,7 @@ Mixture likeliest(const std::vector<ClosureLoop>& loops, int dof, bool rows) {
 
 template <int D>
 InformationScale informationScale(const ClosureLoops<D>& closures) {
-  constexpr int dof = tangent_size<D>;
+  constexpr int kDof = kTangentSize<D>;
   std::vector<ClosureLoop> loops;
   const std::size_t step = 1 + closures.size() / kLoops;
   for (std::size_t a = 0; a < closures.size(); a += step)
@@ -89,12 +89,12 @@ InformationScale informationScale(const ClosureLoops<D>& closures) {
       if (std::isfinite(loop.chi2) && std::isfinite(loop.log_true)) loops.push_back(loop);
     });
   if (loops.empty()) return {};
-  const Mixture plain = likeliest(loops, dof, false);
+  const Mixture plain = likeliest(loops, kDof, false);
   InformationScale made{plain.factor, plain.true_loops, plain.shares[0]};
   // Where false closures that agree with each other outnumber the true ones, theirs is the likelier spread: that
   // information boasts must be so beside them too.
   if (made.factor > 1.0)
-    made.factor = plain.true_loops < kToDoubt ? 1.0 : std::max(1.0, likeliest(loops, dof, true).factor);
+    made.factor = plain.true_loops < kToDoubt ? 1.0 : std::max(1.0, likeliest(loops, kDof, true).factor);
   return made;
 }
 

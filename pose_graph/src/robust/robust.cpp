@@ -103,7 +103,7 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
     if (roles[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
     if (roles[e] == EdgeRole::Asserted) asserted.push_back(static_cast<int>(e));
   }
-  const Thresholds thresholds(candidates.size(), tangent_size<D>);
+  const Thresholds thresholds(candidates.size(), kTangentSize<D>);
   const ClosureEvaluator<D> evaluator(problem, candidates, reckoning);
   const ClosureLoops<D> loops(problem, candidates, reckoning);
   const InformationScale scale = informationScale(loops);
@@ -188,7 +188,7 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
   made.poses = core.expanded(judged.poses);
   made.edges.resize(roles.size());
   for (EdgeAssessment& verdict : made.edges)
-    verdict.dof = tangent_size<D>;  // of a chain's: what is singular is in none
+    verdict.dof = kTangentSize<D>;  // of a chain's: what is singular is in none
   for (std::size_t e = 0; e < judged.edges.size(); ++e) {
     EdgeAssessment& verdict = judged.edges[e];
     for (int& other : verdict.contradicted_by) other = core.edge(other);

@@ -174,7 +174,7 @@ class Selection {
     left_out.weight = 0.0;
     left_out.verdict = ClosureVerdict::Rejected;
     left_out.reason = Reason::NoWitness;
-    left_out.dof = tangent_size<D>;
+    left_out.dof = kTangentSize<D>;
     made.edges.assign(roles_.size(), left_out);
     for (std::size_t k = 0; k < names.size(); ++k) {
       for (int& other : judged.edges[k].contradicted_by) other = static_cast<int>(names[sz(other)]);
@@ -321,7 +321,7 @@ class Selection {
       if (proposed_roles_[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
     const DeadReckoning<D> reckoning(scaled, proposed_roles_);
     const std::vector<int> group = consistentGroups(scaled.edges.size(), ClosureLoops<D>(scaled, candidates, reckoning),
-                                                    1.0, Thresholds(candidates.size(), tangent_size<D>));
+                                                    1.0, Thresholds(candidates.size(), kTangentSize<D>));
     std::vector<int> members(scaled.edges.size(), 0);
     for (const int e : candidates) ++members[sz(group[sz(e)])];
     Considered made{best_.hypothesis.in, {}};
@@ -400,7 +400,7 @@ class Selection {
   // stated, or than those that follow from it if they are smaller. Where they would not, and the set explains more than
   // chance, no others can be gained by that.
   bool mayFitLooser() const {
-    const Thresholds thresholds(candidates_, tangent_size<D>);
+    const Thresholds thresholds(candidates_, kTangentSize<D>);
     const VarianceFactors& found = best_.hypothesis.factors;
     const double far = kFar * std::min(1.0, std::max(found.odometry, found.closures));
     std::size_t near = 0;

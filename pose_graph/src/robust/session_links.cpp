@@ -53,10 +53,10 @@ class PairwiseConsistency {
     const Rigid<D> remains = back * along_from;
     Tangent<D> d;
     d.template head<D>() = remains.t;
-    d.template tail<rotation_size<D>>() = logRotation(remains.R);
+    d.template tail<kRotationSize<D>>() = logRotation(remains.R);
     ++pairs;
     const bool rough =
-        remains.t.norm() <= kRoughShare * extent_ && d.template tail<rotation_size<D>>().norm() <= kRoughTurn;
+        remains.t.norm() <= kRoughShare * extent_ && d.template tail<kRotationSize<D>>().norm() <= kRoughTurn;
     // Every pair has its share in the chance; few are enough to know it.
     if (!rough && pairs % 37 != 0) return {};
     const Marginal<D> to = marginals_.between(a.to, b.to), from = marginals_.between(b.from, a.from);
@@ -66,17 +66,17 @@ class PairwiseConsistency {
                                spread(Z_a.R, to.covariance, remains.t - there.t) +
                                spread(there.R, covariance(b, true), remains.t - back.t) +
                                spread(back.R, from.covariance, Eigen::Matrix<double, D, 1>::Zero());
-    const urban_nav_core::SmallCholesky<tangent_size<D>> factored(S);
+    const urban_nav_core::SmallCholesky<kTangentSize<D>> factored(S);
     if (!factored.succeeded()) return {};
     double log_volume = 0.0;
-    for (int i = 0; i < tangent_size<D>; ++i) log_volume += std::log(factored.factor()(i, i));
-    static const double limit = urban_nav_core::chiSquareQuantile(kPairQuantile, tangent_size<D>);
-    const double ball = tangent_size<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0;
-    chance += std::min(1.0, ball * std::pow(limit, 0.5 * tangent_size<D>) * std::exp(log_volume + log_density_));
+    for (int i = 0; i < kTangentSize<D>; ++i) log_volume += std::log(factored.factor()(i, i));
+    static const double limit = urban_nav_core::chiSquareQuantile(kPairQuantile, kTangentSize<D>);
+    const double ball = kTangentSize<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0;
+    chance += std::min(1.0, ball * std::pow(limit, 0.5 * kTangentSize<D>) * std::exp(log_volume + log_density_));
     ++counted;
     const double square = d.dot(factored.solve(d));
     if (!rough || !(square <= limit)) return {};
-    const double log_true = -0.5 * (square + tangent_size<D> * std::log(2.0 * M_PI)) - log_volume;
+    const double log_true = -0.5 * (square + kTangentSize<D> * std::log(2.0 * M_PI)) - log_volume;
     return {true, std::max(0.0, log_true - log_density_)};
   }
 
@@ -115,7 +115,7 @@ class PairwiseConsistency {
   static TangentMatrix<D> spread(const Rotation<D>& R, const TangentMatrix<D>& covariance,
                                  const Eigen::Matrix<double, D, 1>& lever) {
     TangentMatrix<D> body = TangentMatrix<D>::Identity();
-    body.template topRightCorner<D, rotation_size<D>>() = turned(lever);
+    body.template topRightCorner<D, kRotationSize<D>>() = turned(lever);
     const TangentMatrix<D> all = body * blockTurn(R);
     return all * covariance * all.transpose();
   }
@@ -126,7 +126,7 @@ class PairwiseConsistency {
     const TangentMatrix<D> forward = turn * boundedCovariance<D>(edge.information, extent_) * turn.transpose();
     if ((edge.from == closure.from) != inverted) return forward;
     TangentMatrix<D> back = -blockTurn(Rotation<D>(edge.Z.R.transpose()));
-    back.template topRightCorner<D, rotation_size<D>>() = edge.Z.R.transpose() * turned(edge.Z.t);
+    back.template topRightCorner<D, kRotationSize<D>>() = edge.Z.R.transpose() * turned(edge.Z.t);
     return back * forward * back.transpose();
   }
 

@@ -109,7 +109,7 @@ class Steps {
       const Rigid<D> difference = own.inverse() * forward(other);
       Tangent<D> d;
       d.template head<D>() = difference.t;
-      d.template tail<rotation_size<D>>() = logRotation(difference.R);
+      d.template tail<kRotationSize<D>>() = logRotation(difference.R);
       squares.push_back((whitened_[sz(e)].W * d).squaredNorm());
     }
     if (squares.size() < kAlike) return 0.0;
@@ -196,7 +196,7 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   std::vector<double> weights(edges.size(), 1.0);
   AcceptedGraph<D> graph(problem);
   double last = 0.0;
-  const double work = graph.work(in) * std::pow(tangent_size<D>, 3);
+  const double work = graph.work(in) * std::pow(kTangentSize<D>, 3);
   const int rounds =
       static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestCauchyRounds, kMostCauchyRounds));
   for (int round = 0; round < rounds; ++round) {

@@ -23,7 +23,7 @@ template <int D>
 void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                const ClosureEvaluator<D>& evaluator, double most_work, AdmissionState<D>& state) {
   std::vector<double> limit(1, 0.0);
-  for (int dof = 1; dof <= tangent_size<D>; ++dof)
+  for (int dof = 1; dof <= kTangentSize<D>; ++dof)
     limit.push_back(state.variance * urban_nav_core::chiSquareQuantile(kQuantile, dof));
   const auto toSquare = [&](std::size_t e, const std::vector<Rigid<D>>& poses) {
     const WhitenedEdge<D>& edge = evaluator.edge(static_cast<int>(e));

@@ -23,7 +23,7 @@ constexpr std::size_t kClosuresToTell = 100;
 template <int D>
 VarianceComponents varianceComponents(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                       const std::vector<double>& weights, const std::vector<Rigid<D>>& poses) {
-  constexpr int R = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   const Marginals<D> marginals(problem, poses, weights);
   VarianceComponents made;
   for (std::size_t e = 0; e < roles.size(); ++e) {
@@ -35,7 +35,7 @@ VarianceComponents varianceComponents(const Problem<D>& problem, const std::vect
     Tangent<D> error;
     error.template head<D>() =
         A.transpose() * (poses[sz(edge.to)].t - poses[sz(edge.from)].t) - edge.Z.R.transpose() * edge.Z.t;
-    error.template tail<R>() = logRotation(Rotation<D>(A.transpose() * poses[sz(edge.to)].R));
+    error.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * poses[sz(edge.to)].R));
     TangentMatrix<D> turn = TangentMatrix<D>::Identity();
     turn.template topLeftCorner<D, D>() = edge.Z.R.transpose();
     if constexpr (D == 3) turn.template bottomRightCorner<3, 3>() = edge.Z.R.transpose();
@@ -44,11 +44,12 @@ VarianceComponents varianceComponents(const Problem<D>& problem, const std::vect
     const TangentMatrix<D> leverage = weights[e] * edge.information * covariance;
     VarianceComponent* const group = made.of[roles[e] == EdgeRole::Candidate];
     const int rank = whitened(edge).rank;
-    const double rank_turn = std::min(rank, edge.information.template bottomRightCorner<R, R>().trace() > 0.0 ? R : 0);
+    const double rank_turn =
+        std::min(rank, edge.information.template bottomRightCorner<kR, kR>().trace() > 0.0 ? kR : 0);
     group[0].squares += error.template head<D>().dot(weighted.template head<D>());
     group[0].redundancy += std::max(0.0, rank - rank_turn - leverage.template topLeftCorner<D, D>().trace());
-    group[1].squares += error.template tail<R>().dot(weighted.template tail<R>());
-    group[1].redundancy += std::max(0.0, rank_turn - leverage.template bottomRightCorner<R, R>().trace());
+    group[1].squares += error.template tail<kR>().dot(weighted.template tail<kR>());
+    group[1].redundancy += std::max(0.0, rank_turn - leverage.template bottomRightCorner<kR, kR>().trace());
   }
   return made;
 }

@@ -21,7 +21,7 @@ double varianceFactor(const ClosureEvaluator<D>& evaluator, const std::vector<ch
                       const std::vector<Rigid<D>>& poses, int unknowns, const Thresholds& thresholds, double scale) {
   const double expected = scale < 1.0 ? std::min(1.0, kCaution * scale) : scale;
   std::vector<std::pair<double, int>> squares;
-  double redundancy = -static_cast<double>(unknowns) * tangent_size<D>;
+  double redundancy = -static_cast<double>(unknowns) * kTangentSize<D>;
   for (std::size_t e = 0; e < in.size(); ++e) {
     if (!in[e]) continue;
     const WhitenedEdge<D>& edge = evaluator.edge(static_cast<int>(e));
@@ -29,7 +29,7 @@ double varianceFactor(const ClosureEvaluator<D>& evaluator, const std::vector<ch
     redundancy += edge.rank;
   }
   if (redundancy <= 0.0) return expected;
-  const double prior = kPriorTangents * tangent_size<D>;
+  const double prior = kPriorTangents * kTangentSize<D>;
   double factor = expected;
   for (int i = 0; i < 8; ++i) {
     double sum = prior * expected;

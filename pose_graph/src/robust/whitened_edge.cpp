@@ -33,10 +33,10 @@ WhitenedEdge<D> whitened(const Edge<D>& edge) {
   made.to = edge.to;
   made.Z = edge.Z;
   made.W.setZero();
-  const auto eigen = urban_nav_core::smallEigen<tangent_size<D>>(edge.information);
+  const auto eigen = urban_nav_core::smallEigen<kTangentSize<D>>(edge.information);
   const Tangent<D>& values = eigen.values;
-  for (int a = tangent_size<D> - 1; a >= 0; --a) {
-    if (!(values[a] > kZeroEigenvalue * values[tangent_size<D> - 1])) continue;
+  for (int a = kTangentSize<D> - 1; a >= 0; --a) {
+    if (!(values[a] > kZeroEigenvalue * values[kTangentSize<D> - 1])) continue;
     made.W.row(made.rank++) = std::sqrt(values[a]) * eigen.vectors.col(a).transpose();
   }
   return made;
@@ -64,24 +64,24 @@ Tangent<D> whitenedError(const WhitenedEdge<D>& edge, const Rigid<D>& from, cons
   const Rotation<D> A = from.R * edge.Z.R;
   Tangent<D> e;
   e.template head<D>() = A.transpose() * (to.t - from.t) - edge.Z.R.transpose() * edge.Z.t;
-  e.template tail<rotation_size<D>>() = logRotation(Rotation<D>(A.transpose() * to.R));
+  e.template tail<kRotationSize<D>>() = logRotation(Rotation<D>(A.transpose() * to.R));
   return edge.W * e;
 }
 
 template <int D>
 WhitenedJacobians<D> whitenedJacobians(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
-  constexpr int r = rotation_size<D>;
+  constexpr int kR = kRotationSize<D>;
   const Rotation<D> A = from.R * edge.Z.R;
   const Eigen::Matrix<double, D, 1> d = to.t - from.t;
   Tangent<D> e;
   e.template head<D>() = A.transpose() * d - edge.Z.R.transpose() * edge.Z.t;
-  e.template tail<r>() = logRotation(Rotation<D>(A.transpose() * to.R));
+  e.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * to.R));
   TangentMatrix<D> by_to = TangentMatrix<D>::Zero(), by_from;
   by_to.template topLeftCorner<D, D>() = A.transpose();
   if constexpr (D == 2) by_to(2, 2) = 1.0;
-  else by_to.template bottomRightCorner<r, r>() = logByLeft(RotationVector<D>(e.template tail<r>())) * A.transpose();
+  else by_to.template bottomRightCorner<kR, kR>() = logByLeft(RotationVector<D>(e.template tail<kR>())) * A.transpose();
   by_from = -by_to;
-  by_from.template topRightCorner<D, r>() = -A.transpose() * turned(d);
+  by_from.template topRightCorner<D, kR>() = -A.transpose() * turned(d);
   WhitenedJacobians<D> made;
   made.error = edge.W * e;
   made.by_from = edge.W * by_from;

@@ -35,9 +35,9 @@ void add(Numbers& a, double factor, const Numbers& b) {
 
 template <int D>
 class Lifted {
-  static constexpr int B = D + 1;
+  static constexpr int kB = D + 1;
   using Rows = Eigen::Matrix<double, D, kSideBySide, Eigen::RowMajor>;
-  using All = Eigen::Matrix<double, B, kSideBySide, Eigen::RowMajor>;
+  using All = Eigen::Matrix<double, kB, kSideBySide, Eigen::RowMajor>;
 
  public:
   Lifted(const QuadraticForm<D>& form, Numbers x)
@@ -47,7 +47,7 @@ class Lifted {
 
   /// By the curvature that the multipliers have on average: f = sum tr(Lambda_i).
   bool prepare() {
-    BlockMatrix<B> A = form_.M;
+    BlockMatrix<kB> A = form_.M;
     const double mean = cost_ / (D * static_cast<double>(A.diagonal.size()));
     for (auto& block : A.diagonal) block.template bottomRightCorner<D, D>().diagonal().array() += mean;
     form_.holdTranslations(A, 1.0);
@@ -78,16 +78,16 @@ class Lifted {
 
  private:
   Eigen::Map<Rows> rows(Numbers& v, std::size_t k) const {
-    return Eigen::Map<Rows>(v.data() + (k * B + 1) * kSideBySide);
+    return Eigen::Map<Rows>(v.data() + (k * kB + 1) * kSideBySide);
   }
   Eigen::Map<const Rows> rows(const Numbers& v, std::size_t k) const {
-    return Eigen::Map<const Rows>(v.data() + (k * B + 1) * kSideBySide);
+    return Eigen::Map<const Rows>(v.data() + (k * kB + 1) * kSideBySide);
   }
 
   void multiply(const Numbers& v, Numbers& made) const {
     made.resize(v.size());
-    const auto part = [&](std::size_t k) { return Eigen::Map<const All>(v.data() + k * B * kSideBySide); };
-    const auto target = [&](std::size_t k) { return Eigen::Map<All>(made.data() + k * B * kSideBySide); };
+    const auto part = [&](std::size_t k) { return Eigen::Map<const All>(v.data() + k * kB * kSideBySide); };
+    const auto target = [&](std::size_t k) { return Eigen::Map<All>(made.data() + k * kB * kSideBySide); };
     for (std::size_t k = 0; k < lambda_.size(); ++k) target(k).noalias() = form_.M.diagonal[k] * part(k);
     for (std::size_t k = 0; k < lambda_.size(); ++k)
       for (int e = form_.pattern.first[k]; e < form_.pattern.first[k + 1]; ++e) {
@@ -101,7 +101,7 @@ class Lifted {
   void project(Numbers& v) const {
     for (std::size_t k = 0; k < lambda_.size(); ++k) {
       if (form_.holdsTranslation(static_cast<int>(k)))
-        for (int c = 0; c < kSideBySide; ++c) v[k * B * kSideBySide + sz(c)] = 0.0;
+        for (int c = 0; c < kSideBySide; ++c) v[k * kB * kSideBySide + sz(c)] = 0.0;
       const Eigen::Matrix<double, D, D> across = rows(v, k) * rows(x_, k).transpose();
       rows(v, k) -= (0.5 * (across + across.transpose())).eval() * rows(x_, k);
     }
@@ -180,7 +180,7 @@ class Lifted {
   const QuadraticForm<D>& form_;
   Numbers x_, gradient_;
   std::vector<Eigen::Matrix<double, D, D>> lambda_;
-  BlockCholesky<B> preconditioner_;
+  BlockCholesky<kB> preconditioner_;
   double cost_ = 0.0, radius_ = 0.0;
   bool at_rim_ = false;
 };

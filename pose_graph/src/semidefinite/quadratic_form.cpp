@@ -70,7 +70,7 @@ QuadraticForm<D>::QuadraticForm(const Problem<D>& problem)
 }
 
 template <int D>
-void QuadraticForm<D>::holdTranslations(BlockMatrix<B>& A, double pivot) const {
+void QuadraticForm<D>::holdTranslations(BlockMatrix<kB>& A, double pivot) const {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     if (held_[k]) {
       auto& block = A.diagonal[k];

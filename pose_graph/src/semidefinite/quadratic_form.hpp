@@ -14,8 +14,8 @@ namespace pose_graph {
 /// Rosen et al., SE-Sync, IJRR 2019, eq. 13, with the translations left in, so that everything stays sparse.
 template <int D>
 struct QuadraticForm {
-  static constexpr int B = D + 1;
-  using Block = Eigen::Matrix<double, B, B>;
+  static constexpr int kB = D + 1;
+  using Block = Eigen::Matrix<double, kB, kB>;
 
   /// Edges without weight are left out: what they alone connect are parts of their own.
   QuadraticForm(const Problem<D>& problem, const std::vector<double>& weights);
@@ -24,7 +24,7 @@ struct QuadraticForm {
 
   /// Takes the row and the column of one translation of each part out of A, which has M's pattern: its first pose's,
   /// which may be shifted at no cost. What stands there instead is `pivot`.
-  void holdTranslations(BlockMatrix<B>& A, double pivot) const;
+  void holdTranslations(BlockMatrix<kB>& A, double pivot) const;
   bool holdsTranslation(int place) const { return held_[static_cast<std::size_t>(place)] != 0; }
 
   std::vector<EdgeTerm<D>> terms;  ///< of the edges that count, kappa and tau times their weights
@@ -32,7 +32,7 @@ struct QuadraticForm {
   Adjacency graph;
   Symbolic symbolic;
   BlockPattern pattern;
-  BlockMatrix<B> M;
+  BlockMatrix<kB> M;
 
  private:
   explicit QuadraticForm(const Problem<D>& problem);

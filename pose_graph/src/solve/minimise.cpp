@@ -30,7 +30,7 @@ std::vector<Tangent<D>> dampingScale(const std::vector<TangentMatrix<D>>& diagon
 }
 
 template <int D>
-void addDamping(BlockMatrix<tangent_size<D>>& H, const std::vector<TangentMatrix<D>>& undamped,
+void addDamping(BlockMatrix<kTangentSize<D>>& H, const std::vector<TangentMatrix<D>>& undamped,
                 const std::vector<Tangent<D>>& scale, double damping) {
   for (std::size_t k = 0; k < undamped.size(); ++k) {
     H.diagonal[k] = undamped[k];
@@ -56,12 +56,12 @@ double roundOff(const NormalEquations<D>& equations, const std::vector<Rigid<D>>
 template <int D>
 std::vector<Rigid<D>> stepped(const NormalEquations<D>& equations, const std::vector<double>& x,
                               const std::vector<Rigid<D>>& poses) {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   std::vector<Rigid<D>> made = poses;
   const Unknowns& unknowns = equations.unknowns();
   for (std::size_t u = 0; u < unknowns.pose.size(); ++u) {
     const std::size_t place = sz(equations.symbolic().place[u]), pose = sz(unknowns.pose[u]);
-    made[pose] = moved<D>(poses[pose], Eigen::Map<const Tangent<D>>(x.data() + place * N));
+    made[pose] = moved<D>(poses[pose], Eigen::Map<const Tangent<D>>(x.data() + place * kN));
   }
   return made;
 }
@@ -88,9 +88,9 @@ class Forecast {
 }  // namespace
 
 template <int D>
-Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& cholesky, const SolveOptions& options,
+Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const SolveOptions& options,
                  const std::vector<double>& weights, std::vector<Rigid<D>>& poses) {
-  constexpr std::size_t N = tangent_size<D>;
+  constexpr std::size_t kN = kTangentSize<D>;
   Descent made;
   made.ending = Ending::Iterations;
   double damping = 0.0;
@@ -119,7 +119,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
         cholesky.solve(x.data());
         step.predicted = -dotProduct(equations.g(), x);
         for (std::size_t k = 0; k < undamped.size() && damping > 0.0; ++k) {
-          const Eigen::Map<const Tangent<D>> part(x.data() + k * N);
+          const Eigen::Map<const Tangent<D>> part(x.data() + k * kN);
           step.predicted += damping * part.dot(scale[k].cwiseProduct(part));
         }
         next = stepped(equations, x, poses);

@@ -19,7 +19,7 @@ struct Descent {
 /// Optimization, chapter 10; damping in proportion to the diagonal as Marquardt has it). `poses` are moved in place;
 /// they are never worse than they were.
 template <int D>
-Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& cholesky, const SolveOptions& options,
+Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const SolveOptions& options,
                  const std::vector<double>& weights, std::vector<Rigid<D>>& poses);
 
 extern template Descent minimise<2>(NormalEquations<2>&, BlockCholesky<3>&, const SolveOptions&,

@@ -22,15 +22,15 @@ Adjacency adjacencyOfUnknowns(const Problem<D>& problem, const Unknowns& unknown
 
 // T = [I, turned(d); 0, I] of EdgeQuadratic: K T and T^T K by their blocks alone.
 template <int D>
-TangentMatrix<D> timesT(const TangentMatrix<D>& K, const Eigen::Matrix<double, D, rotation_size<D>>& turn) {
+TangentMatrix<D> timesT(const TangentMatrix<D>& K, const Eigen::Matrix<double, D, kRotationSize<D>>& turn) {
   TangentMatrix<D> made = K;
-  made.template rightCols<rotation_size<D>>().noalias() += K.template leftCols<D>() * turn;
+  made.template rightCols<kRotationSize<D>>().noalias() += K.template leftCols<D>() * turn;
   return made;
 }
 template <int D>
-TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, rotation_size<D>>& turn, const TangentMatrix<D>& K) {
+TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, kRotationSize<D>>& turn, const TangentMatrix<D>& K) {
   TangentMatrix<D> made = K;
-  made.template bottomRows<rotation_size<D>>().noalias() += turn.transpose() * K.template topRows<D>();
+  made.template bottomRows<kRotationSize<D>>().noalias() += turn.transpose() * K.template topRows<D>();
   return made;
 }
 
@@ -101,7 +101,7 @@ template <int D>
 template <Objective objective>
 double NormalEquations<D>::lineariseAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) {
   H_.setZero(pattern_);
-  g_.assign(unknowns_.pose.size() * N, 0.0);
+  g_.assign(unknowns_.pose.size() * kN, 0.0);
   double total = 0.0;
   for (std::size_t e = 0; e < terms_.size(); ++e) {
     const double weight = weights.empty() ? 1.0 : weights[e];
@@ -115,17 +115,17 @@ double NormalEquations<D>::lineariseAs(const std::vector<Rigid<D>>& poses, const
       quadratic.K *= weight;
     }
     total += quadratic.cost;
-    const Eigen::Matrix<double, D, rotation_size<D>> turn = turned(quadratic.d);
+    const Eigen::Matrix<double, D, kRotationSize<D>> turn = turned(quadratic.d);
     if (place.to >= 0) {
       H_.diagonal[sz(place.to)] += quadratic.K;
-      Eigen::Map<Tangent<D>>(g_.data() + sz(place.to) * N) += quadratic.g_to;
+      Eigen::Map<Tangent<D>>(g_.data() + sz(place.to) * kN) += quadratic.g_to;
     }
     if (place.from >= 0) {
       const TangentMatrix<D> TK = transposedTimes<D>(turn, quadratic.K);
       H_.diagonal[sz(place.from)] += timesT<D>(TK, turn);
       Tangent<D> g = quadratic.g_to;
-      g.template tail<rotation_size<D>>().noalias() += turn.transpose() * quadratic.g_to.template head<D>();
-      Eigen::Map<Tangent<D>>(g_.data() + sz(place.from) * N) -= g;
+      g.template tail<kRotationSize<D>>().noalias() += turn.transpose() * quadratic.g_to.template head<D>();
+      Eigen::Map<Tangent<D>>(g_.data() + sz(place.from) * kN) -= g;
       if (place.to >= 0) {
         auto& block = H_.lower[sz(place.slot.index)];
         // The block of row `from` and column `to` is -T^T K; slot.turned: it stands as (to, from).

@@ -23,7 +23,7 @@ Unknowns makeUnknowns(const Problem<D>& problem);
 template <int D>
 class NormalEquations {
  public:
-  static constexpr int N = tangent_size<D>;
+  static constexpr int kN = kTangentSize<D>;
 
   /// In the order of elimination of `before` where the same poses are free, no edges are gone, and a factorisation
   /// takes hardly longer than the one that order was found for: finding it anew costs as much as several of them.
@@ -44,8 +44,8 @@ class NormalEquations {
   double cost(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const;
 
   /// H x = -g by places, after linearise: H, and g.
-  const BlockMatrix<N>& H() const { return H_; }
-  BlockMatrix<N>& H() { return H_; }
+  const BlockMatrix<kN>& H() const { return H_; }
+  BlockMatrix<kN>& H() { return H_; }
   const std::vector<double>& g() const { return g_; }
 
   /// Where the blocks of an edge lie; places are -1 for poses that are held.
@@ -73,7 +73,7 @@ class NormalEquations {
   BlockPattern pattern_;
   std::vector<EdgeTerm<D>> terms_;
   std::vector<EdgePlace> places_;
-  BlockMatrix<N> H_;
+  BlockMatrix<kN> H_;
   std::vector<double> g_;
 };
 

@@ -32,7 +32,7 @@ bool inTheSameValley(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>
 }
 
 template <int D>
-void untangle(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& cholesky, const Problem<D>& problem,
+void untangle(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const Problem<D>& problem,
               const SolveOptions& options, const std::vector<double>& weights, Solution<D>& made) {
   auto poses = liftedPoses(problem, made.poses, weights);
   if (!poses || inTheSameValley(*poses, made.poses)) return;
@@ -85,7 +85,7 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const st
     if (!is_tangled || is_large) return *std::move(condensed);
   }
   NormalEquations<D> equations(problem);
-  BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
+  BlockCholesky<kTangentSize<D>> cholesky(equations.symbolic());
   Solution<D> made;
   made.components = equations.unknowns().components;
   made.cost_before = equations.cost(options.objective, problem.poses, weights);

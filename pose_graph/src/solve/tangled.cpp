@@ -22,7 +22,7 @@ bool isTangled(const Problem<D>& problem, const std::vector<double>& weights, co
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const Edge<D>& edge = problem.edges[e];
     const bool measures =
-        edge.information.template bottomRightCorner<rotation_size<D>, rotation_size<D>>().diagonal().minCoeff() > 0.0;
+        edge.information.template bottomRightCorner<kRotationSize<D>, kRotationSize<D>>().diagonal().minCoeff() > 0.0;
     if (!measures || (!weights.empty() && !(weights[e] > 0.0))) continue;
     const Rotation<D> off = edge.Z.R.transpose() * (poses[sz(edge.from)].R.transpose() * poses[sz(edge.to)].R);
     const double square = logRotation(off).squaredNorm();
@@ -30,7 +30,7 @@ bool isTangled(const Problem<D>& problem, const std::vector<double>& weights, co
     largest = std::max(largest, square);
     ++count;
   }
-  return sum > kNoisy * kNoisy * count * rotation_size<D> || largest > kTangled * kTangled;
+  return sum > kNoisy * kNoisy * count * kRotationSize<D> || largest > kTangled * kTangled;
 }
 
 template bool isTangled<2>(const Problem<2>&, const std::vector<double>&, const std::vector<Rigid<2>>&);

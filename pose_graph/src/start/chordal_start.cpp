@@ -28,13 +28,13 @@ template <int D>
 std::optional<std::vector<Rotation<D>>> chordalRotations(const NormalEquations<D>& equations,
                                                          const std::vector<Rigid<D>>& poses,
                                                          const std::vector<double>& weights) {
-  constexpr int C = kColumns<D>;
+  constexpr int kC = kColumns<D>;
   const Symbolic& symbolic = equations.symbolic();
   const std::size_t n = symbolic.node.size();
   BlockMatrix<D> A;
   A.setZero(equations.pattern());
   // Unknown: Y_i = R_i^T. Column c of all unknowns, one column after the other.
-  std::vector<double> x(n * D * C, 0.0);
+  std::vector<double> x(n * D * kC, 0.0);
   const auto part = [&](int place, int c) {
     return Eigen::Map<Eigen::Matrix<double, D, 1>>(x.data() + (sz(c) * n + sz(place)) * D);
   };
@@ -50,20 +50,20 @@ std::optional<std::vector<Rotation<D>>> chordalRotations(const NormalEquations<D
       else block -= w * term.R_Z;
     } else if (place.to >= 0) {
       const Rotation<D> Y = poses[sz(term.from)].R.transpose();
-      for (int c = 0; c < C; ++c) part(place.to, c) += w * (term.R_Z.transpose() * Y.col(c));
+      for (int c = 0; c < kC; ++c) part(place.to, c) += w * (term.R_Z.transpose() * Y.col(c));
     } else if (place.from >= 0) {
       const Rotation<D> Y = poses[sz(term.to)].R.transpose();
-      for (int c = 0; c < C; ++c) part(place.from, c) += w * (term.R_Z * Y.col(c));
+      for (int c = 0; c < kC; ++c) part(place.from, c) += w * (term.R_Z * Y.col(c));
     }
   }
   BlockCholesky<D> cholesky(symbolic);
   if (!cholesky.factor(A, equations.pattern())) return std::nullopt;
-  cholesky.solve(x.data(), C);
+  cholesky.solve(x.data(), kC);
   std::vector<Rotation<D>> rotations(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) rotations[i] = poses[i].R;
   for (std::size_t u = 0; u < n; ++u) {
-    Eigen::Matrix<double, D, C> Y;
-    for (int c = 0; c < C; ++c) Y.col(c) = part(symbolic.place[u], c);
+    Eigen::Matrix<double, D, kC> Y;
+    for (int c = 0; c < kC; ++c) Y.col(c) = part(symbolic.place[u], c);
     rotations[sz(equations.unknowns().pose[u])] = fromTransposedColumns<D>(Y);
   }
   return rotations;

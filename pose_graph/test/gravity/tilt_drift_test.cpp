@@ -120,11 +120,11 @@ TEST(TiltDrift, FindsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
   const Odometry odometry = drifting(drive, 3e-4, dice);
   std::vector<SpecificForce> near = drive.forces(dice), far = near;
   const Vector3d arm(0.2, -0.1, 0.8);
-  constexpr double h = 1e-3;
+  constexpr double kH = 1e-3;
   for (SpecificForce& sample : far) {
     const double t = 1e-9 * static_cast<double>(sample.stamp);
     const Eigen::Matrix3d R = drive.rotation(t);
-    sample.force += R.transpose() * ((drive.rotation(t + h) - 2.0 * R + drive.rotation(t - h)) / (h * h) * arm);
+    sample.force += R.transpose() * ((drive.rotation(t + kH) - 2.0 * R + drive.rotation(t - kH)) / (kH * kH) * arm);
   }
   const auto lost = [&](const std::vector<SpecificForce>& forces) {
     return measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces)).after;

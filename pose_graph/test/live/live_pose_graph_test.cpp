@@ -62,14 +62,14 @@ class LivePoseGraphTest : public ::testing::Test {
   static void seeGround(LivePoseGraph& graph, int end) {
     Pose T;
     for (int i = 0; i < end; ++i) {
-      graph.add(GroundNormal{i * kPeriod, T.R().transpose() * up_, 1e-3, 0.0, 0.9});
+      graph.add(GroundNormal{i * kPeriod, T.R().transpose() * kUp, 1e-3, 0.0, 0.9});
       T = T * testing::stepAt(i).T_from_to;
     }
   }
   /// Tilt of the map, rad.
   static double tilt(const LivePoseGraph& graph) {
     const Pose first = graph.trajectory(0, 0, 0).runs[0].poses[0].T_map_base;
-    return (first.R() * up_ - Eigen::Vector3d::UnitZ()).norm();
+    return (first.R() * kUp - Eigen::Vector3d::UnitZ()).norm();
   }
   static std::size_t countPoses(const LivePoseGraph& graph) {
     std::size_t poses = 0;
@@ -105,7 +105,7 @@ class LivePoseGraphTest : public ::testing::Test {
     }
   }
 
-  static inline const Eigen::Vector3d up_ = Eigen::Vector3d(0.1, -0.05, 1.0).normalized();
+  static inline const Eigen::Vector3d kUp = Eigen::Vector3d(0.1, -0.05, 1.0).normalized();
   const StoreFolder place;
 };
 

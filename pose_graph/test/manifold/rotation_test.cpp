@@ -13,7 +13,7 @@ void expectExpAndLog() {
   Dice dice(1);
   for (int run = 0; run < 100; ++run) {
     RotationVector<D> phi;
-    for (int i = 0; i < rotation_size<D>; ++i) phi[i] = dice.normal();
+    for (int i = 0; i < kRotationSize<D>; ++i) phi[i] = dice.normal();
     phi *= 3.14 * dice.uniform() / phi.norm();
     const Rotation<D> R = expRotation(phi);
     EXPECT_LT((R * R.transpose() - Rotation<D>::Identity()).norm(), 1e-14);

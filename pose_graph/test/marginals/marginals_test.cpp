@@ -29,27 +29,27 @@ PoseWithCovariance withCovariance(const Edge<3>& edge) {
 /// Covariance of all poses by a dense inverse, 0 for the first, in the axes of the map.
 template <int D>
 Eigen::MatrixXd denseCovariance(const Problem<D>& problem) {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   NormalEquations<D> equations(problem);
   equations.linearise(Objective::Geodesic, problem.poses, {});
   const auto n = static_cast<Eigen::Index>(problem.poses.size());
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(N * n, N * n);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(kN * n, kN * n);
   const auto pose = [&](std::size_t place) {
-    return N * static_cast<Eigen::Index>(equations.unknowns().pose[sz(equations.symbolic().node[place])]);
+    return kN * static_cast<Eigen::Index>(equations.unknowns().pose[sz(equations.symbolic().node[place])]);
   };
   const BlockPattern& pattern = equations.pattern();
   for (std::size_t k = 0; k + 1 < pattern.first.size(); ++k) {
-    H.block<N, N>(pose(k), pose(k)) = equations.H().diagonal[k];
+    H.block<kN, kN>(pose(k), pose(k)) = equations.H().diagonal[k];
     for (int e = pattern.first[k]; e < pattern.first[k + 1]; ++e) {
       const Eigen::Index row = pose(sz(pattern.row[sz(e)]));
-      H.block<N, N>(row, pose(k)) = equations.H().lower[sz(e)];
-      H.block<N, N>(pose(k), row) = equations.H().lower[sz(e)].transpose();
+      H.block<kN, kN>(row, pose(k)) = equations.H().lower[sz(e)];
+      H.block<kN, kN>(pose(k), row) = equations.H().lower[sz(e)].transpose();
     }
   }
-  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(N * n, N * n);
-  const auto inverse = urban_nav_core::invertPositiveDefinite(H.bottomRightCorner(N * (n - 1), N * (n - 1)));
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(kN * n, kN * n);
+  const auto inverse = urban_nav_core::invertPositiveDefinite(H.bottomRightCorner(kN * (n - 1), kN * (n - 1)));
   EXPECT_TRUE(inverse);
-  if (inverse) made.bottomRightCorner(N * (n - 1), N * (n - 1)) = *inverse;
+  if (inverse) made.bottomRightCorner(kN * (n - 1), kN * (n - 1)) = *inverse;
   return made;
 }
 
@@ -177,8 +177,8 @@ TEST(Marginals, WeightsAreFactorsOfTheInformation) {
 /// the information is zero, and all others are as if it were not there.
 template <int D>
 void expectFreeMarginals() {
-  constexpr int N = tangent_size<D>;
-  for (int rank = 1; rank < N; ++rank) {
+  constexpr int kN = kTangentSize<D>;
+  for (int rank = 1; rank < kN; ++rank) {
     Dice dice(static_cast<std::uint64_t>(6 + rank));
     Problem<D> problem = drawProblem<D>(dice, 12, 6, 0.05, 0.05);
     const Marginals<D> without(problem, problem.poses);

@@ -45,15 +45,15 @@ struct Case {
     edge.information = drawInformation<D>(dice);
     Tangent<D> error = drawTangent<D>(dice, 1.0, 1.0);
     error.template head<D>() *= metres / error.template head<D>().norm();
-    error.template tail<rotation_size<D>>() *= angle / error.template tail<rotation_size<D>>().norm();
+    error.template tail<kRotationSize<D>>() *= angle / error.template tail<kRotationSize<D>>().norm();
     to = from * edge.Z * moved(Rigid<D>(), error);
   }
 };
 
 template <int D>
 struct Sizes {
-  static constexpr double metres[] = {0.0, 0.01, 0.5, 0.5, 2.0};
-  static constexpr double angle[] = {0.0, 0.01, 40 * kDegree, 170 * kDegree, 100 * kDegree};
+  static constexpr double kMetres[] = {0.0, 0.01, 0.5, 0.5, 2.0};
+  static constexpr double kAngle[] = {0.0, 0.01, 40 * kDegree, 170 * kDegree, 100 * kDegree};
 };
 
 template <int D>
@@ -77,26 +77,26 @@ TEST(Objective, CostsAreThoseOfTheDefinitions) {
 template <int D>
 TangentMatrix<D> fromTo(const EdgeQuadratic<D>& quadratic) {
   TangentMatrix<D> T = TangentMatrix<D>::Identity();
-  T.template topRightCorner<D, rotation_size<D>>() = turned(quadratic.d);
+  T.template topRightCorner<D, kRotationSize<D>>() = turned(quadratic.d);
   return T;
 }
 
 template <int D>
 void expectGradients() {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   Dice dice(2);
   for (int size = 0; size < 5; ++size) {
     for (int run = 0; run < 8; ++run) {
-      const Case<D> one(dice, Sizes<D>::metres[size], Sizes<D>::angle[size]);
+      const Case<D> one(dice, Sizes<D>::kMetres[size], Sizes<D>::kAngle[size]);
       for (const Objective objective : kObjectives) {
         const EdgeQuadratic<D> quadratic = makeQuadratic(objective, one.edge, one.from, one.to);
         const Tangent<D> zero = Tangent<D>::Zero();
         const Tangent<D> by_to =
-            numericJacobian<1, N>(
+            numericJacobian<1, kN>(
                 [&](const Tangent<D>& x) { return computeCost(objective, one.edge, one.from, moved(one.to, x)); }, zero)
                 .transpose();
         const Tangent<D> by_from =
-            numericJacobian<1, N>(
+            numericJacobian<1, kN>(
                 [&](const Tangent<D>& x) { return computeCost(objective, one.edge, moved(one.from, x), one.to); }, zero)
                 .transpose();
         const double scale = 1.0 + by_to.norm() + by_from.norm();
@@ -113,10 +113,10 @@ TEST(Objective, GradientsHoldAtLargeErrors) {
 
 template <int D>
 void expectGaussNewton() {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   Dice dice(3);
   for (int size = 0; size < 5; ++size) {
-    const Case<D> one(dice, Sizes<D>::metres[size], Sizes<D>::angle[size]);
+    const Case<D> one(dice, Sizes<D>::kMetres[size], Sizes<D>::kAngle[size]);
     for (const Objective objective : kObjectives) {
       constexpr int kMost = D * D + D;
       using Residual = Eigen::Matrix<double, kMost, 1>;  // filled up with zeros
@@ -127,10 +127,10 @@ void expectGaussNewton() {
         return made;
       };
       const Tangent<D> zero = Tangent<D>::Zero();
-      const Eigen::Matrix<double, kMost, N> J_to =
-          numericJacobian<kMost, N>([&](const Tangent<D>& x) { return residual(one.from, moved(one.to, x)); }, zero);
-      const Eigen::Matrix<double, kMost, N> J_from =
-          numericJacobian<kMost, N>([&](const Tangent<D>& x) { return residual(moved(one.from, x), one.to); }, zero);
+      const Eigen::Matrix<double, kMost, kN> J_to =
+          numericJacobian<kMost, kN>([&](const Tangent<D>& x) { return residual(one.from, moved(one.to, x)); }, zero);
+      const Eigen::Matrix<double, kMost, kN> J_from =
+          numericJacobian<kMost, kN>([&](const Tangent<D>& x) { return residual(moved(one.from, x), one.to); }, zero);
       const Eigen::MatrixXd small = plainResidual(objective, one.edge, one.from, one.to).W;
       Eigen::MatrixXd W = Eigen::MatrixXd::Zero(kMost, kMost);
       W.topLeftCorner(small.rows(), small.cols()) = small;
@@ -169,7 +169,7 @@ TEST(Objective, DoesNotChangeWhenBothPosesMoveAsOneBody) {
 template <int D>
 void expectSingularInformation() {
   Dice dice(5);
-  for (int rank = 0; rank < tangent_size<D>; ++rank) {
+  for (int rank = 0; rank < kTangentSize<D>; ++rank) {
     Case<D> one(dice, 0.5, 1.0);
     one.edge.information = drawInformation<D>(dice, rank);
     const EdgeTerm<D> term = makeTerm(one.edge);

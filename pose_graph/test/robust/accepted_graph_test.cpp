@@ -51,7 +51,7 @@ void sharesUnknownsAsMarginalsDo() {
     in.push_back(e % 11 != 10 || roles[e] != EdgeRole::Candidate);
     is_closure.push_back(roles[e] == EdgeRole::Candidate);
     weights.push_back(in[e] ? is_closure[e] ? 0.5 : 2.0 : 0.0);
-    ranks += in[e] && is_closure[e] ? tangent_size<D> : 0;
+    ranks += in[e] && is_closure[e] ? kTangentSize<D> : 0;
   }
   AcceptedGraph<D> accepted(problem);
   accepted.take(in, weights);
@@ -62,7 +62,7 @@ void sharesUnknownsAsMarginalsDo() {
   EXPECT_NEAR(closures.cost, 0.5 * (shift.squares + turn.squares), 1e-6 * closures.cost);
   EXPECT_NEAR(ranks - closures.unknowns, shift.redundancy + turn.redundancy, 0.01 * ranks);
   ASSERT_TRUE(accepted.factor(poses));
-  EXPECT_NEAR(accepted.share(poses, in).unknowns, tangent_size<D> * accepted.unknowns(), 1e-6);
+  EXPECT_NEAR(accepted.share(poses, in).unknowns, kTangentSize<D> * accepted.unknowns(), 1e-6);
 }
 TEST(AcceptedGraph, SharesUnknownsAsMarginalsDoInThePlane) { sharesUnknownsAsMarginalsDo<2>(); }
 TEST(AcceptedGraph, SharesUnknownsAsMarginalsDoInSpace) { sharesUnknownsAsMarginalsDo<3>(); }

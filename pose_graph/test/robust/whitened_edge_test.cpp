@@ -19,13 +19,13 @@ void jacobiansAreRight() {
     const Rigid<D> from = test::drawRigid<D>(dice, 5.0, 0.7);
     const Rigid<D> to = moved(from * edge.Z, test::drawTangent<D>(dice, 0.5, 0.5));  // large residuals
     const WhitenedJacobians<D> made = whitenedJacobians(white, from, to);
-    constexpr double h = 1e-6;
-    for (int a = 0; a < tangent_size<D>; ++a) {
-      const Tangent<D> step = h * Tangent<D>::Unit(a);
+    constexpr double kH = 1e-6;
+    for (int a = 0; a < kTangentSize<D>; ++a) {
+      const Tangent<D> step = kH * Tangent<D>::Unit(a);
       const Tangent<D> by_from =
-          (whitenedError(white, moved(from, step), to) - whitenedError(white, moved<D>(from, -step), to)) / (2 * h);
+          (whitenedError(white, moved(from, step), to) - whitenedError(white, moved<D>(from, -step), to)) / (2 * kH);
       const Tangent<D> by_to =
-          (whitenedError(white, from, moved(to, step)) - whitenedError(white, from, moved<D>(to, -step))) / (2 * h);
+          (whitenedError(white, from, moved(to, step)) - whitenedError(white, from, moved<D>(to, -step))) / (2 * kH);
       EXPECT_LT((made.by_from.col(a) - by_from).norm(), 1e-6 * (1.0 + by_from.norm()));
       EXPECT_LT((made.by_to.col(a) - by_to).norm(), 1e-6 * (1.0 + by_to.norm()));
     }

@@ -28,16 +28,16 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector6d;
 
-constexpr StampNs start = 1'225'719'873'000'000'000, period = 100'000'000;
-constexpr int lap = 40;  // poses around
+constexpr StampNs kStart = 1'225'719'873'000'000'000, kPeriod = 100'000'000;
+constexpr int kLap = 40;  // poses around
 
-StampNs toStamp(int i) { return start + i * period; }
+StampNs toStamp(int i) { return kStart + i * kPeriod; }
 
 Pose turned(double yaw, double x) {
   return Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, yaw)), Eigen::Vector3d(x, 0, 0));
 }
 // A circle of a metre a step, of which odometry sees each turn too small and each metre too long.
-Pose measuredStep() { return turned(2.0 * M_PI / lap - 0.004, 1.01); }
+Pose measuredStep() { return turned(2.0 * M_PI / kLap - 0.004, 1.01); }
 Pose odomPose(int i) {
   Pose T;
   for (int k = 0; k < i; ++k) T = T * measuredStep();
@@ -129,7 +129,7 @@ Listener* PoseGraphNodelet::listener_ = nullptr;
 
 /// Without a place of the camera in /tf_static it is at base_link.
 TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
-  constexpr int poses = 80;
+  constexpr int kPoses = 80;
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
   const auto publish = [&](int i) {
     const Eigen::Vector3d up_camera = urban_nav_ros::opticalInBody().R().transpose() * odomPose(i).R().transpose() * up;
@@ -144,9 +144,9 @@ TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   };
   publish(0);
   ros::WallDuration(1.2).sleep();
-  for (int i = 1; i <= poses; ++i) publish(i);
+  for (int i = 1; i <= kPoses; ++i) publish(i);
   ros::WallDuration(0.2).sleep();  // topics have no order among each other
-  drive(0, poses);
+  drive(0, kPoses);
   const auto isLevelled = [](const auto& jump) { return jump.reason_name == "Levelled"; };
   EXPECT_TRUE(
       Listener::until([&] { return std::any_of(listener().jumps.begin(), listener().jumps.end(), isLevelled); }));
@@ -157,30 +157,30 @@ TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
 }
 
 TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
-  drive(0, lap);
-  ASSERT_TRUE(driven(lap + 1));
-  EXPECT_TRUE(isApprox(mapFromOdom(lap), Pose(), 1e-12)) << "nothing says otherwise yet";
-  EXPECT_GT(odomPose(lap).t().norm(), 0.5) << "odometry has drifted";
+  drive(0, kLap);
+  ASSERT_TRUE(driven(kLap + 1));
+  EXPECT_TRUE(isApprox(mapFromOdom(kLap), Pose(), 1e-12)) << "nothing says otherwise yet";
+  EXPECT_GT(odomPose(kLap).t().norm(), 0.5) << "odometry has drifted";
 
-  close(toClosure(0, lap, Pose()));
+  close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty() && !listener().states.empty(); }));
   const auto update = urban_nav_ros::toGraphUpdate(listener().updates.back());
   ASSERT_TRUE(update);
   EXPECT_EQ(update->revision, static_cast<std::int64_t>(listener().states.back().revision));
   EXPECT_EQ(listener().updates.back().header.frame_id, "map");
   ASSERT_FALSE(update->runs.empty());
-  EXPECT_EQ(update->runs.back().poses.back().stamp, toStamp(lap));
+  EXPECT_EQ(update->runs.back().poses.back().stamp, toStamp(kLap));
   EXPECT_LT(update->runs.back().poses.back().T_map_base.t().norm(), 0.1);
-  ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() < 0.1; }));
+  ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(kLap) * odomPose(kLap)).t().norm() < 0.1; }));
 
   const auto& state = listener().states.back();
-  EXPECT_EQ(state.poses, static_cast<std::uint64_t>(lap + 1));
+  EXPECT_EQ(state.poses, static_cast<std::uint64_t>(kLap + 1));
   EXPECT_EQ(state.closures, 1U);
   EXPECT_EQ(state.closures_rejected, 0U);
   EXPECT_LT(state.cost_after, state.cost_before);
   EXPECT_GT(state.relax_ms, 0.0);
   ASSERT_TRUE(Listener::until([&] { return !listener().jumps.empty(); }));
-  EXPECT_NEAR(listener().jumps.back().distance, odomPose(lap).t().norm(), 0.2);
+  EXPECT_NEAR(listener().jumps.back().distance, odomPose(kLap).t().norm(), 0.2);
   ASSERT_EQ(listener().jumps.back().witnesses.size(), 1U);
   EXPECT_EQ(listener().jumps.back().witnesses[0].source, "loop_metric");
   EXPECT_EQ(listener().jumps.back().reason, 1);
@@ -189,13 +189,13 @@ TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
 }
 
 TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
-  constexpr int last = 8 * lap, again = 7 * lap;  // the fixes of 30 s are used at once
+  constexpr int kLast = 8 * kLap, kAgain = 7 * kLap;  // the fixes of 30 s are used at once
   const urban_nav_core::LocalTangent tangent({0.9, -0.02, 120.0});
   const Pose T_east_map(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, 0.7)), Eigen::Vector3d(30.0, -8.0, 1.0));
-  drive(0, last, 1e-2);
-  ASSERT_TRUE(driven(last + 1));
+  drive(0, kLast, 1e-2);
+  ASSERT_TRUE(driven(kLast + 1));
   Pose T_map_base;
-  for (int i = 0; i <= last; ++i, T_map_base = T_map_base * turned(2.0 * M_PI / lap, 1.0)) {
+  for (int i = 0; i <= kLast; ++i, T_map_base = T_map_base * turned(2.0 * M_PI / kLap, 1.0)) {
     if (i % 5 != 0) continue;  // more than wait for the place of the antenna, which is not in /tf_static
     const urban_nav_core::Geodetic position = tangent.toGeodetic((T_east_map * T_map_base).t());
     sensor_msgs::NavSatFix fix;
@@ -208,11 +208,11 @@ TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
     fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
     listener().fixes.publish(fix);
   }
-  EXPECT_GT(odomPose(again).t().norm(), 5.0) << "odometry has drifted";
+  EXPECT_GT(odomPose(kAgain).t().norm(), 5.0) << "odometry has drifted";
   const auto apart = [&] {
     const auto run = trajectory().runs.at(0);
     return distanceBetween(*urban_nav_ros::toPose(run.T_map_base.front()),
-                           *urban_nav_ros::toPose(run.T_map_base.at(again)));
+                           *urban_nav_ros::toPose(run.T_map_base.at(kAgain)));
   };
   EXPECT_TRUE(Listener::until([&] { return apart() < 1.0; })) << apart() << " m between equal places";
 }
@@ -220,53 +220,53 @@ TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
 TEST_F(PoseGraphNodelet, AClosureThatIsAheadOfOdometryWaitsForIt) {
   drive(0, 10);
   ASSERT_TRUE(driven(11));
-  close(toClosure(0, lap, Pose()));
+  close(toClosure(0, kLap, Pose()));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
   EXPECT_TRUE(listener().updates.empty());
-  drive(10, lap);
+  drive(10, kLap);
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
   EXPECT_LT(listener().updates.back().runs.back().T_map_base.back().position.x, 0.1);
 }
 
 TEST_F(PoseGraphNodelet, ARejectedClosureIsNone) {
-  drive(0, lap);
-  auto rejected = toClosure(0, lap, Pose());
+  drive(0, kLap);
+  auto rejected = toClosure(0, kLap, Pose());
   rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
   close(rejected);
-  ASSERT_TRUE(driven(lap + 1));
+  ASSERT_TRUE(driven(kLap + 1));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
   EXPECT_TRUE(listener().updates.empty());
 }
 
 TEST_F(PoseGraphNodelet, GivesTheTrajectoryOrWhatChangedOfIt) {
-  drive(0, lap);
-  ASSERT_TRUE(driven(lap + 1));
+  drive(0, kLap);
+  ASSERT_TRUE(driven(kLap + 1));
   const auto before = trajectory();
   ASSERT_EQ(before.runs.size(), 1U);
-  EXPECT_EQ(before.runs[0].stamps.front(), urban_nav_ros::toRosTime(start));
+  EXPECT_EQ(before.runs[0].stamps.front(), urban_nav_ros::toRosTime(kStart));
   EXPECT_EQ(before.runs[0].session.size(), 20U);
   const auto part = trajectory(0, 5, 9);
   ASSERT_EQ(part.runs.size(), 1U);
   EXPECT_EQ(part.runs[0].stamps.size(), 5U);
 
-  close(toClosure(0, lap, Pose()));
+  close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
   const std::uint64_t now = trajectory().revision;
   EXPECT_GT(now, before.revision);
   EXPECT_EQ(poses(now), 0U) << "nothing moved since";
-  drive(lap, lap + 3);
-  ASSERT_TRUE(driven(lap + 4));
+  drive(kLap, kLap + 3);
+  ASSERT_TRUE(driven(kLap + 4));
   EXPECT_EQ(poses(now), 3U) << "new poses are new";
 }
 
 TEST_F(PoseGraphNodelet, EdgesAreAddedAndRemovedByHand) {
-  drive(0, lap);
-  ASSERT_TRUE(driven(lap + 1));
+  drive(0, kLap);
+  ASSERT_TRUE(driven(kLap + 1));
   urban_nav_msgs::AddEdge add;
   add.request.a.stamp = urban_nav_ros::toRosTime(toStamp(0));
-  add.request.b.stamp = urban_nav_ros::toRosTime(toStamp(lap));
+  add.request.b.stamp = urban_nav_ros::toRosTime(toStamp(kLap));
   add.request.T_a_b = urban_nav_ros::toPoseMessage(Pose());
   add.request.information =
       urban_nav_ros::toArray36((Vector6d() << 1e4, 1e4, 1e4, 1e6, 1e6, 1e6).finished().asDiagonal());
@@ -274,7 +274,7 @@ TEST_F(PoseGraphNodelet, EdgesAreAddedAndRemovedByHand) {
   ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
   EXPECT_TRUE(add.response.success) << add.response.message;
   EXPECT_TRUE(add.response.contradicting.empty());
-  ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() < 0.1; }));
+  ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(kLap) * odomPose(kLap)).t().norm() < 0.1; }));
 
   urban_nav_msgs::RemoveEdge remove;
   remove.request.edge.a = add.request.a;
@@ -286,7 +286,7 @@ TEST_F(PoseGraphNodelet, EdgesAreAddedAndRemovedByHand) {
   remove.request.edge.kind.clear();
   ASSERT_TRUE(ros::service::call("pose_graph/remove_edge", remove));
   EXPECT_TRUE(remove.response.success) << remove.response.message;
-  EXPECT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() > 0.5; }));
+  EXPECT_TRUE(Listener::until([&] { return (mapFromOdom(kLap) * odomPose(kLap)).t().norm() > 0.5; }));
 }
 
 TEST_F(PoseGraphNodelet, AnEdgeThatCannotBeIsRefusedWithTheReason) {
@@ -311,11 +311,11 @@ TEST_F(PoseGraphNodelet, AnEdgeThatCannotBeIsRefusedWithTheReason) {
 }
 
 TEST_F(PoseGraphNodelet, ShowsPathAndClosures) {
-  drive(0, lap);
-  close(toClosure(0, lap, Pose()));
+  drive(0, kLap);
+  close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] {
-    return !listener().paths.empty() && listener().paths.back().poses.size() > lap / 2 && !listener().markers.empty() &&
-           listener().markers.back().markers.size() >= 3;
+    return !listener().paths.empty() && listener().paths.back().poses.size() > kLap / 2 &&
+           !listener().markers.empty() && listener().markers.back().markers.size() >= 3;
   }));
   EXPECT_EQ(listener().paths.back().header.frame_id, "map");
   const auto& picture = listener().markers.back().markers;
@@ -425,17 +425,17 @@ class Store : public PoseGraphNodelet {
 };
 
 TEST_F(Store, HasWhatWasTakenInASecondAgo) {
-  drive(0, lap);
-  ASSERT_TRUE(driven(lap + 1));
+  drive(0, kLap);
+  ASSERT_TRUE(driven(kLap + 1));
   ros::WallTime begin = ros::WallTime::now();
-  ASSERT_TRUE(Listener::until([&] { return storedNodes() == lap + 1; }));
+  ASSERT_TRUE(Listener::until([&] { return storedNodes() == kLap + 1; }));
   EXPECT_LT((ros::WallTime::now() - begin).toSec(), 4.0) << "a second, on a machine with nothing else to do";
   EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("store", path()); }));
 }
 
 TEST_F(Store, SavesTheGraphAndGoesOnFromIt) {
-  drive(0, lap);
-  close(toClosure(0, lap, Pose()));
+  drive(0, kLap);
+  close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
   const auto saved = command("save", path() + ".saved");
   EXPECT_TRUE(saved.success) << saved.message;
@@ -446,21 +446,21 @@ TEST_F(Store, SavesTheGraphAndGoesOnFromIt) {
   const auto loaded = command("load", path() + ".saved");
   EXPECT_TRUE(loaded.success) << loaded.message;
   EXPECT_NE(loaded.message.find(" closures are in the graph"), std::string::npos) << loaded.message;
-  EXPECT_GE(poses(), static_cast<std::size_t>(lap + 1));
+  EXPECT_GE(poses(), static_cast<std::size_t>(kLap + 1));
   const auto refused = command("load", "/nothing.db");
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("/nothing.db"), std::string::npos) << refused.message;
 }
 
 TEST_F(PoseGraphNodelet, OptimizesFromTheEdgesAndTheStatusWaitsForLateSubscribers) {
-  drive(0, lap);
-  close(toClosure(0, lap, Pose()));
+  drive(0, kLap);
+  close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().states.empty(); }));
   const std::uint64_t before = listener().states.back().revision;
   std_srvs::Trigger optimize;
   ASSERT_TRUE(ros::service::call("pose_graph/optimize", optimize) && optimize.response.success)
       << optimize.response.message;
-  EXPECT_NE(optimize.response.message.find(std::to_string(lap + 1) + " poses, 1 closures"), std::string::npos)
+  EXPECT_NE(optimize.response.message.find(std::to_string(kLap + 1) + " poses, 1 closures"), std::string::npos)
       << "it has ended: " << optimize.response.message;
   ASSERT_TRUE(Listener::until([&] { return listener().states.back().revision > before; }));
   const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("pose_graph/status", ros::Duration(5.0));

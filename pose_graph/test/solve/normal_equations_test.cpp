@@ -38,8 +38,8 @@ struct DenseSystem {
 
   DenseSystem(const NormalEquations<D>& equations, const Problem<D>& problem, Objective objective,
               const std::vector<double>& weights) {
-    constexpr int N = tangent_size<D>;
-    const Eigen::Index n = static_cast<Eigen::Index>(equations.unknowns().pose.size()) * N;
+    constexpr int kN = kTangentSize<D>;
+    const Eigen::Index n = static_cast<Eigen::Index>(equations.unknowns().pose.size()) * kN;
     H = Eigen::MatrixXd::Zero(n, n);
     g = Eigen::VectorXd::Zero(n);
     for (std::size_t e = 0; e < problem.edges.size(); ++e) {
@@ -50,8 +50,8 @@ struct DenseSystem {
       for (const int pose : {edge.from, edge.to}) {
         const int unknown = equations.unknowns().of_pose[sz(pose)];
         if (unknown < 0) continue;
-        const Eigen::Index column = N * equations.symbolic().place[sz(unknown)];
-        for (int k = 0; k < N; ++k) {
+        const Eigen::Index column = kN * equations.symbolic().place[sz(unknown)];
+        for (int k = 0; k < kN; ++k) {
           const auto residual = [&](double h) {
             Rigid<D> from = problem.poses[sz(edge.from)], to = problem.poses[sz(edge.to)];
             Rigid<D>& other = pose == edge.from ? from : to;
@@ -72,7 +72,7 @@ struct DenseSystem {
 
 template <int D>
 void expectDense(Objective objective, bool weighted) {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   Dice dice(7);
   const Problem<D> problem = drawProblem<D>(dice, 9, 8, 0.5, 0.7);
   std::vector<double> weights;
@@ -88,12 +88,12 @@ void expectDense(Objective objective, bool weighted) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(dense.H.rows(), dense.H.cols());
   const BlockPattern& pattern = equations.pattern();
   for (std::size_t k = 0; k + 1 < pattern.first.size(); ++k) {
-    const Eigen::Index column = N * static_cast<Eigen::Index>(k);
-    H.block<N, N>(column, column) = equations.H().diagonal[k];
+    const Eigen::Index column = kN * static_cast<Eigen::Index>(k);
+    H.block<kN, kN>(column, column) = equations.H().diagonal[k];
     for (int e = pattern.first[k]; e < pattern.first[k + 1]; ++e) {
-      const Eigen::Index row = N * pattern.row[sz(e)];
-      H.block<N, N>(row, column) = equations.H().lower[sz(e)];
-      H.block<N, N>(column, row) = equations.H().lower[sz(e)].transpose();
+      const Eigen::Index row = kN * pattern.row[sz(e)];
+      H.block<kN, kN>(row, column) = equations.H().lower[sz(e)];
+      H.block<kN, kN>(column, row) = equations.H().lower[sz(e)].transpose();
     }
   }
   EXPECT_LT((H - dense.H).norm(), 1e-7 * dense.H.norm());

@@ -240,8 +240,8 @@ TEST(Solve, WeightsAreFactorsAndMayBeZero) {
 template <int D>
 void expectFreeDirections() {
   Dice dice(12);
-  constexpr int N = tangent_size<D>;
-  for (const int free : {0, D - 1, N - 1}) {
+  constexpr int kN = kTangentSize<D>;
+  for (const int free : {0, D - 1, kN - 1}) {
     Problem<D> problem = drawProblem<D>(dice, 12, 5, 0.05, 0.05);
     const Solution<D> without = solve(problem, {});
     problem.poses.push_back(problem.poses.back());

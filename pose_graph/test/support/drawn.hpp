@@ -18,7 +18,7 @@ using urban_nav_core::testing::Dice;
 template <int D>
 Tangent<D> drawTangent(Dice& dice, double metres, double radians) {
   Tangent<D> d;
-  for (int i = 0; i < tangent_size<D>; ++i) d[i] = (i < D ? metres : radians) * dice.normal();
+  for (int i = 0; i < kTangentSize<D>; ++i) d[i] = (i < D ? metres : radians) * dice.normal();
   return d;
 }
 
@@ -29,7 +29,7 @@ Rigid<D> drawRigid(Dice& dice, double metres, double radians) {
 
 /// Full, or of this rank; elongated and with cross terms.
 template <int D>
-TangentMatrix<D> drawInformation(Dice& dice, int rank = tangent_size<D>) {
+TangentMatrix<D> drawInformation(Dice& dice, int rank = kTangentSize<D>) {
   TangentMatrix<D> sum = TangentMatrix<D>::Zero();
   for (int i = 0; i < rank; ++i) {
     const Tangent<D> d = drawTangent<D>(dice, 1.0, 3.0);

@@ -20,7 +20,7 @@ struct PlainResidual {
 template <int D>
 PlainResidual plainChordal(const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
   const double tau = D / edge.information.template topLeftCorner<D, D>().inverse().eval().trace();
-  double kappa = edge.information(tangent_size<D> - 1, tangent_size<D> - 1);
+  double kappa = edge.information(kTangentSize<D> - 1, kTangentSize<D> - 1);
   if constexpr (D == 3) {
     const Eigen::Matrix3d of_quaternion = 4.0 * edge.information.template bottomRightCorner<3, 3>();
     kappa = 3.0 / (2.0 * of_quaternion.inverse().trace());
@@ -42,7 +42,7 @@ PlainResidual plainResidual(Objective objective, const Edge<D>& edge, const Rigi
   if (objective == Objective::Chordal) return plainChordal(edge, from, to);
   const Rigid<D> E = edge.Z.inverse() * (from.inverse() * to);
   PlainResidual made;
-  made.r.resize(tangent_size<D>);
+  made.r.resize(kTangentSize<D>);
   made.W = edge.information;
   if constexpr (D == 2) {
     made.r << E.t, std::atan2(E.R(1, 0), E.R(0, 0));

@@ -43,11 +43,11 @@ struct Drive {
     return made;
   }
   std::vector<SpecificForce> forces(urban_nav_core::testing::Dice& dice) const {
-    constexpr double h = 1e-3;
+    constexpr double kH = 1e-3;
     std::vector<SpecificForce> made;
     for (int i = 0; i < frames; ++i) {
       const double t = i * kStep;
-      const Eigen::Vector3d acceleration = (position(t + h) - 2.0 * position(t) + position(t - h)) / (h * h);
+      const Eigen::Vector3d acceleration = (position(t + kH) - 2.0 * position(t) + position(t - kH)) / (kH * kH);
       made.push_back({i * kStepNs, rotation(t).transpose() * (acceleration + Eigen::Vector3d(0, 0, kGravity)) + fault +
                                        noise * dice.normals<3>()});
     }

@@ -14,7 +14,7 @@ using urban_nav_core::testing::numericJacobian;
 // At large residuals too: the square is the edge's cost, and both derivatives are those of moved poses.
 template <Objective objective, int D>
 void expectSquareAndDerivatives() {
-  constexpr int N = tangent_size<D>;
+  constexpr int kN = kTangentSize<D>;
   Dice dice(7);
   for (int draw = 0; draw < 20; ++draw) {
     Edge<D> edge;
@@ -27,17 +27,17 @@ void expectSquareAndDerivatives() {
     const auto residual = edgeResidual<objective, D>(term, root, from, to);
     const double expected = edgeCost<objective, D>(term, from, to);
     EXPECT_NEAR(residual.r.squaredNorm(), expected, 1e-9 * (1.0 + expected));
-    constexpr int K = residual_size<objective, D>;
+    constexpr int kK = kResidualSize<objective, D>;
     const Tangent<D> none = Tangent<D>::Zero();
     const auto by_from = [&](const Tangent<D>& d) {
-      return Eigen::Matrix<double, K, 1>(edgeResidual<objective, D>(term, root, moved<D>(from, d), to).r);
+      return Eigen::Matrix<double, kK, 1>(edgeResidual<objective, D>(term, root, moved<D>(from, d), to).r);
     };
     const auto by_to = [&](const Tangent<D>& d) {
-      return Eigen::Matrix<double, K, 1>(edgeResidual<objective, D>(term, root, from, moved<D>(to, d)).r);
+      return Eigen::Matrix<double, kK, 1>(edgeResidual<objective, D>(term, root, from, moved<D>(to, d)).r);
     };
     const double scale = 1.0 + root.norm();
-    EXPECT_LT((numericJacobian<K, N>(by_from, none) - residual.J_from).norm(), 1e-5 * scale);
-    EXPECT_LT((numericJacobian<K, N>(by_to, none) - residual.J_to).norm(), 1e-5 * scale);
+    EXPECT_LT((numericJacobian<kK, kN>(by_from, none) - residual.J_from).norm(), 1e-5 * scale);
+    EXPECT_LT((numericJacobian<kK, kN>(by_to, none) - residual.J_to).norm(), 1e-5 * scale);
   }
 }
 

@@ -23,8 +23,8 @@ void expectDenseSolution(int coupled, double damping) {
   Eigen::MatrixXd A = J.transpose() * W * J;
   const Eigen::MatrixXd undamped = A;
   for (int i = 0; i < chain.links; ++i) {
-    constexpr Eigen::Index d = tangent_size<D>;
-    A.block<d, d>(d * i, d * i) += damping * system.blocks()[static_cast<std::size_t>(i)];
+    constexpr Eigen::Index kD = kTangentSize<D>;
+    A.block<kD, kD>(kD * i, kD * i) += damping * system.blocks()[static_cast<std::size_t>(i)];
   }
   Eigen::MatrixXd dense = -J.transpose() * (W * e);
   const Eigen::VectorXd b = dense;

@@ -16,7 +16,7 @@ using test::unstacked;
 // P as a matrix, column by column.
 template <int D>
 Eigen::MatrixXd toMatrix(const Preconditioner<D>& preconditioner, int links) {
-  const Eigen::Index size = tangent_size<D> * links;
+  const Eigen::Index size = kTangentSize<D> * links;
   Eigen::MatrixXd P(size, size);
   Increments<D> result, scratch;
   for (Eigen::Index i = 0; i < size; ++i) {

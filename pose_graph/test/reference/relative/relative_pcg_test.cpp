@@ -23,7 +23,7 @@ double costOfPoses(const Problem<D>& problem, const std::vector<Rigid<D>>& poses
 // the chain but the residual.
 template <int D>
 double denseCost(const Problem<D>& problem) {
-  constexpr Eigen::Index d = tangent_size<D>;
+  constexpr Eigen::Index kD = kTangentSize<D>;
   std::vector<Rigid<D>> poses = problem.poses;
   const Eigen::MatrixXd W = test::computeWeights(problem);
   const auto residuals = [&problem](const std::vector<Rigid<D>>& at) {
@@ -31,18 +31,18 @@ double denseCost(const Problem<D>& problem) {
   };
   const auto shifted = [](std::vector<Rigid<D>> at, const Eigen::VectorXd& step) {
     for (std::size_t i = 1; i < at.size(); ++i)
-      at[i] = moved(at[i], Tangent<D>(step.segment<d>(d * static_cast<Eigen::Index>(i - 1))));
+      at[i] = moved(at[i], Tangent<D>(step.segment<kD>(kD * static_cast<Eigen::Index>(i - 1))));
     return at;
   };
-  const Eigen::Index size = d * static_cast<Eigen::Index>(poses.size() - 1);
+  const Eigen::Index size = kD * static_cast<Eigen::Index>(poses.size() - 1);
   double damping = 1e-6;
   for (int round = 0; round < 100; ++round) {
     const Eigen::VectorXd e = residuals(poses);
     Eigen::MatrixXd J(e.size(), size);
-    constexpr double h = 1e-6;
+    constexpr double kH = 1e-6;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const Eigen::VectorXd unit = h * Eigen::VectorXd::Unit(size, i);
-      J.col(i) = (residuals(shifted(poses, unit)) - residuals(shifted(poses, Eigen::VectorXd(-unit)))) / (2.0 * h);
+      const Eigen::VectorXd unit = kH * Eigen::VectorXd::Unit(size, i);
+      J.col(i) = (residuals(shifted(poses, unit)) - residuals(shifted(poses, Eigen::VectorXd(-unit)))) / (2.0 * kH);
     }
     Eigen::MatrixXd A = J.transpose() * W * J, step = -J.transpose() * (W * e);
     A.diagonal() *= 1.0 + damping;

@@ -19,18 +19,18 @@ class Draw {
   double normal() { return normal_(random_); }
   Tangent<D> tangent(double metres, double radians) {
     Tangent<D> d;
-    for (int i = 0; i < tangent_size<D>; ++i) d[i] = (i < D ? metres : radians) * normal();
+    for (int i = 0; i < kTangentSize<D>; ++i) d[i] = (i < D ? metres : radians) * normal();
     return d;
   }
   Rigid<D> rigid(double metres, double radians) { return moved(Rigid<D>(), tangent(metres, radians)); }
   /// Full, or of rank `rank`.
-  TangentMatrix<D> information(int rank = tangent_size<D>) {
+  TangentMatrix<D> information(int rank = kTangentSize<D>) {
     TangentMatrix<D> sum = TangentMatrix<D>::Zero();
     for (int i = 0; i < rank; ++i) {
       const Tangent<D> d = tangent(1.0, 2.0);
       sum += d * d.transpose();
     }
-    if (rank == tangent_size<D>) sum += TangentMatrix<D>::Identity();
+    if (rank == kTangentSize<D>) sum += TangentMatrix<D>::Identity();
     return sum;
   }
   int below(int limit) { return std::uniform_int_distribution<int>(0, limit - 1)(random_); }
@@ -57,12 +57,12 @@ Problem<D> smallGraph(int poses, int closures, double metres, double radians, un
     const Rigid<D> exact = truth[static_cast<std::size_t>(from)].inverse() * truth[static_cast<std::size_t>(to)];
     problem.edges.push_back({from, to, moved(exact, draw.tangent(metres, radians)), draw.information(rank)});
   };
-  for (int i = 1; i < poses; ++i) i % 4 == 3 ? add(i, i - 1, tangent_size<D>) : add(i - 1, i, tangent_size<D>);
+  for (int i = 1; i < poses; ++i) i % 4 == 3 ? add(i, i - 1, kTangentSize<D>) : add(i - 1, i, kTangentSize<D>);
   if (poses > 3) add(1, 2, 1);
   for (int i = 0; i < closures;) {
     const int from = draw.below(poses), to = draw.below(poses);
     if (std::abs(from - to) < 2) continue;
-    add(from, to, i % 3 == 1 ? D : tangent_size<D>);
+    add(from, to, i % 3 == 1 ? D : kTangentSize<D>);
     ++i;
   }
   problem.poses.resize(1);
@@ -80,13 +80,13 @@ Eigen::VectorXd stacked(const Increments<D>& step) {
 }
 template <int D>
 Increments<D> unstacked(const Eigen::VectorXd& step) {
-  return Eigen::Map<const Increments<D>>(step.data(), tangent_size<D>, step.size() / tangent_size<D>);
+  return Eigen::Map<const Increments<D>>(step.data(), kTangentSize<D>, step.size() / kTangentSize<D>);
 }
 
 /// The increments of a chain drawn anew.
 template <int D>
 Increments<D> drawIncrements(Draw<D>& draw, int links, double size = 1.0) {
-  Increments<D> step(tangent_size<D>, links);
+  Increments<D> step(kTangentSize<D>, links);
   for (int i = 0; i < links; ++i) step.col(i) = draw.tangent(size, size);
   return step;
 }
@@ -94,11 +94,11 @@ Increments<D> drawIncrements(Draw<D>& draw, int links, double size = 1.0) {
 /// All residuals of a state under each other, in the order of the edges.
 template <int D>
 Eigen::VectorXd computeResiduals(const Problem<D>& problem, const ChainState<D>& state) {
-  constexpr Eigen::Index d = tangent_size<D>;
-  Eigen::VectorXd residuals(d * static_cast<Eigen::Index>(problem.edges.size()));
+  constexpr Eigen::Index kD = kTangentSize<D>;
+  Eigen::VectorXd residuals(kD * static_cast<Eigen::Index>(problem.edges.size()));
   for (std::size_t i = 0; i < problem.edges.size(); ++i) {
     const Edge<D>& edge = problem.edges[i];
-    residuals.segment<d>(d * static_cast<Eigen::Index>(i)) = edgeResidual(
+    residuals.segment<kD>(kD * static_cast<Eigen::Index>(i)) = edgeResidual(
         edge, state.poses[static_cast<std::size_t>(edge.from)], state.poses[static_cast<std::size_t>(edge.to)]);
   }
   return residuals;
@@ -107,8 +107,8 @@ Eigen::VectorXd computeResiduals(const Problem<D>& problem, const ChainState<D>&
 /// [H; I] of (19) as a dense matrix, by Richardson's extrapolation of central differences of the residuals.
 template <int D>
 Eigen::MatrixXd numericRows(const Problem<D>& problem, const ChainState<D>& state) {
-  const Eigen::Index columns = tangent_size<D> * static_cast<Eigen::Index>(state.links.size());
-  Eigen::MatrixXd J(tangent_size<D> * static_cast<Eigen::Index>(problem.edges.size()), columns);
+  const Eigen::Index columns = kTangentSize<D> * static_cast<Eigen::Index>(state.links.size());
+  Eigen::MatrixXd J(kTangentSize<D> * static_cast<Eigen::Index>(problem.edges.size()), columns);
   for (Eigen::Index column = 0; column < columns; ++column) {
     const auto central = [&](double h) {
       const Eigen::VectorXd d = h * Eigen::VectorXd::Unit(columns, column);
@@ -124,11 +124,11 @@ Eigen::MatrixXd numericRows(const Problem<D>& problem, const ChainState<D>& stat
 /// The weights of all residuals, block by block.
 template <int D>
 Eigen::MatrixXd computeWeights(const Problem<D>& problem) {
-  constexpr Eigen::Index d = tangent_size<D>;
+  constexpr Eigen::Index kD = kTangentSize<D>;
   const auto count = static_cast<Eigen::Index>(problem.edges.size());
-  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(d * count, d * count);
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(kD * count, kD * count);
   for (Eigen::Index i = 0; i < count; ++i)
-    W.block<d, d>(d * i, d * i) = problem.edges[static_cast<std::size_t>(i)].information;
+    W.block<kD, kD>(kD * i, kD * i) = problem.edges[static_cast<std::size_t>(i)].information;
   return W;
 }
 

@@ -26,7 +26,7 @@ TangentMatrix<D> analytic(const Edge<D>& edge, const std::vector<Rigid<D>>& pose
 template <int D>
 void expectNumericDerivatives(bool backwards) {
   Draw<D> draw(3);
-  constexpr double forty_degrees = 40.0 * M_PI / 180.0;
+  constexpr double kFortyDegrees = 40.0 * M_PI / 180.0;
   std::vector<Rigid<D>> poses = {draw.rigid(20.0, 1.0)};
   for (int i = 0; i < 6; ++i) poses.push_back(poses.back() * draw.rigid(1.0, 0.5));
   const ChainState<D> state = makeState(poses);
@@ -35,7 +35,7 @@ void expectNumericDerivatives(bool backwards) {
   const Rigid<D> T = poses[1].inverse() * poses[5];
   Tangent<D> off = Tangent<D>::Zero();
   off[0] = 0.5;
-  off[tangent_size<D> - 1] = forty_degrees;
+  off[kTangentSize<D> - 1] = kFortyDegrees;
   const Rigid<D> Z = moved(T, off);
   problem.edges.push_back(backwards ? Edge<D>{5, 1, Z.inverse()} : Edge<D>{1, 5, Z});
   const Eigen::MatrixXd J = test::numericRows(problem, state);
@@ -44,7 +44,7 @@ void expectNumericDerivatives(bool backwards) {
     const bool inside = link >= 1 && link < 5;
     TangentMatrix<D> expected = TangentMatrix<D>::Zero();
     if (inside) expected = analytic(problem.edges[0], state.poses, link);
-    const TangentMatrix<D> numeric = J.block<tangent_size<D>, tangent_size<D>>(0, tangent_size<D> * link);
+    const TangentMatrix<D> numeric = J.block<kTangentSize<D>, kTangentSize<D>>(0, kTangentSize<D> * link);
     EXPECT_LE((numeric - expected).norm(), 1e-8) << "link " << link;
     EXPECT_EQ(numeric.norm() > 0.1, inside) << "link " << link;
   }

@@ -69,7 +69,7 @@ std::string covarianceCsv(const FileProblem<D>& file, const std::vector<EdgeAsse
   std::vector<double> weights;
   for (const EdgeAssessment& edge : assessments) weights.push_back(edge.weight);
   const pose_graph::Marginals<D> marginals(file.problem, poses, weights);
-  constexpr int N = pose_graph::tangent_size<D>;
+  constexpr int N = pose_graph::kTangentSize<D>;
   std::string text = "vertex";
   for (int i = 0; i < N * N; ++i) text += ",c" + std::to_string(i);
   text += '\n';
