@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "matcher.hpp"
+#include "own_method.hpp"
+#include "padded.hpp"
 #include "pair_check.hpp"
-#include "paper/paper_matcher.hpp"
 #include "row_offset.hpp"
 #include "sgm/descriptors.hpp"
 #include "sgm/sgm_matcher.hpp"
@@ -27,8 +27,8 @@ constexpr double well_matched = 0.5;         // share of the pixels
 constexpr double largest_row_offset = 0.5;   // px
 constexpr double equal_exposure = 0.05;      // relative: no more than scenes differ by between two views
 
-std::unique_ptr<Matcher> makeMatcher(const Parameters& parameters) {
-  if (parameters.method == "paper") return std::make_unique<PaperMatcher>(parameters);
+std::unique_ptr<Matcher> makeOwnMatcher(const Parameters& parameters) {
+  requireOwnMethod(parameters);
   return std::make_unique<SgmMatcher>(parameters);
 }
 
@@ -42,8 +42,8 @@ const char* toString(Reason reason) {
 
 class DenseStereo::Implementation {
  public:
-  explicit Implementation(const Parameters& parameters)
-      : disparities_(parameters.disparities), matcher_(makeMatcher(parameters)) {}
+  Implementation(const Parameters& parameters, std::unique_ptr<Matcher> matcher)
+      : disparities_(parameters.disparities), matcher_(matcher ? std::move(matcher) : makeOwnMatcher(parameters)) {}
 
   const StereoResult& process(const urban_nav_core::StereoPair& pair) {
     PairCheck check = checkPair(pair);
@@ -132,8 +132,8 @@ class DenseStereo::Implementation {
   StereoResult result_;
 };
 
-DenseStereo::DenseStereo(const Parameters& parameters)
-    : implementation_(std::make_unique<Implementation>(parameters)) {}
+DenseStereo::DenseStereo(const Parameters& parameters, std::unique_ptr<Matcher> matcher)
+    : implementation_(std::make_unique<Implementation>(parameters, std::move(matcher))) {}
 DenseStereo::~DenseStereo() = default;
 DenseStereo::DenseStereo(DenseStereo&&) noexcept = default;
 DenseStereo& DenseStereo::operator=(DenseStereo&&) noexcept = default;

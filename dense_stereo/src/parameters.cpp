@@ -17,7 +17,7 @@ const Table<Parameters>& table() {
       "dense_stereo",
       {
           {"method", &P::method, "", std::string("sgm"), false, false, {"sgm", "paper"},
-           "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison).",
+           "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison; in the command only).",
            "section 6.2; Hirschmueller 2008"},
           {"disparities", &P::disparities, "px", std::int64_t{64}, std::int64_t{16}, std::int64_t{240}, {},
            "Disparities searched, from 0, rounded up to a multiple of 16. Nearer surfaces are not matched.",

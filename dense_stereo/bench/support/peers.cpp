@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "dense_stereo/dense_stereo.hpp"
+#include "dense_stereo_paper/paper_matcher.hpp"
 
 namespace dense_stereo::bench {
 
@@ -27,7 +28,7 @@ class OwnMethod : public Peer {
       Parameters parameters;
       parameters.method = method_;
       parameters.disparities = disparities_ = disparities;
-      stereo_ = std::make_unique<DenseStereo>(parameters);
+      stereo_ = std::make_unique<DenseStereo>(parameters, makePaperMatcher(parameters));
     }
     const auto view = [](const cv::Mat& image) {
       return urban_nav_core::ImageView{image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};

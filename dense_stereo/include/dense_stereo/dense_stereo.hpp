@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "dense_stereo/disparity_image.hpp"
+#include "dense_stereo/matcher.hpp"
 #include "dense_stereo/parameters.hpp"
 #include "urban_nav_core/types/status.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
@@ -37,7 +38,9 @@ struct StereoResult {
 /// thread-safe; different objects are independent.
 class DenseStereo {
  public:
-  explicit DenseStereo(const Parameters& parameters);
+  /// `matcher`: null for the stage's own. Throws UserError if `matcher` is null and `Parameters::method` names another
+  /// method than the stage's own.
+  explicit DenseStereo(const Parameters& parameters, std::unique_ptr<Matcher> matcher = nullptr);
   ~DenseStereo();
   DenseStereo(DenseStereo&&) noexcept;
   DenseStereo& operator=(DenseStereo&&) noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,7 +32,9 @@ double rangeLimit(double max_range, const urban_nav_core::StereoCamera& camera);
 /// independent.
 class NearSceneEstimator {
  public:
-  NearSceneEstimator(const Parameters& parameters, const urban_nav_core::StereoCamera& camera);
+  /// `matcher`: null for the stage's own. Throws UserError like DenseStereo.
+  NearSceneEstimator(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+                     std::unique_ptr<Matcher> matcher = nullptr);
 
   /// Returns the scene of a rectified pair. `up`: opposite of gravity in the left optical frame, as far as it is known;
   /// nullopt: the camera's own upright. The result lives until the next call.

@@ -9,7 +9,7 @@ namespace dense_stereo {
 
 /// What a user may want to change, one member per row of table().
 struct Parameters {
-  std::string method;        // sgm, paper
+  std::string method;        // sgm, paper (DenseStereo needs to be given its matcher)
   int disparities;           // px
   int min_component;         // px
   double max_sigma;          // px

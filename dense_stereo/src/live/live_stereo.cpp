@@ -3,7 +3,11 @@
 
 #include <chrono>
 
+#include "own_method.hpp"
+
 namespace dense_stereo {
+
+LiveStereo::LiveStereo(const Parameters& parameters) : parameters_(parameters) { requireOwnMethod(parameters); }
 
 void LiveStereo::begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left,
                        bool is_mounting_known) {

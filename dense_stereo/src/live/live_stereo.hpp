@@ -15,7 +15,8 @@ namespace dense_stereo {
 /// Dense stereo of a live robot: one estimator for each session, and figures for the operator. Used by one thread.
 class LiveStereo {
  public:
-  explicit LiveStereo(const Parameters& parameters) : parameters_(parameters) {}
+  /// Throws UserError if `Parameters::method` names another method than the stage's own.
+  explicit LiveStereo(const Parameters& parameters);
 
   /// Begins a session. `T_base_left`: pose of the rectified left camera; `is_mounting_known`: false if it is assumed.
   void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 namespace dense_stereo {
 
@@ -49,11 +50,12 @@ double rangeLimit(double max_range, const urban_nav_core::StereoCamera& camera) 
   return std::max(max_range, std::sqrt(depth_error / disparity_error * camera.left.fx * camera.baseline));
 }
 
-NearSceneEstimator::NearSceneEstimator(const Parameters& parameters, const urban_nav_core::StereoCamera& camera)
+NearSceneEstimator::NearSceneEstimator(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+                                       std::unique_ptr<Matcher> matcher)
     : camera_(camera),
       range_(rangeLimit(parameters.max_range, camera)),
       obstacles_(toObstacleOptions(parameters)),
-      stereo_(parameters) {}
+      stereo_(parameters, std::move(matcher)) {}
 
 const NearScene& NearSceneEstimator::process(const urban_nav_core::StereoPair& pair,
                                              const std::optional<Eigen::Vector3d>& up) {

@@ -5,7 +5,6 @@
 #include "filter/components.hpp"
 #include "filter/depth_edges.hpp"
 #include "filter/unsupported_regions.hpp"
-#include "matcher.hpp"
 #include "refine/floats.hpp"
 #include "refine/slanted_alignment.hpp"
 #include "sgm/bytes.hpp"

@@ -8,6 +8,7 @@
 
 #include "support/rendered_pair.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace dense_stereo {
 namespace {
@@ -40,6 +41,18 @@ TEST(GravityFilter, NeedsASecondOfSomethingOfTheSizeOfGravity) {
   GravityFilter units;
   for (int i = 0; i < 200; ++i) units.add({i * tick, {0.0, 0.0, 1.0}});  // in g
   EXPECT_FALSE(units.up(200 * tick));
+}
+
+TEST(LiveStereo, RefusesTheMethodsOfTheCommand) {
+  Parameters parameters;
+  parameters.method = "paper";
+  try {
+    LiveStereo live(parameters);
+    FAIL();
+  } catch (const urban_nav_core::UserError& error) {
+    EXPECT_EQ(error.parts().found, "dense_stereo.method = paper");
+    EXPECT_EQ(error.parts().allowed.substr(0, 4), "sgm;");
+  }
 }
 
 TEST(LiveStereo, ReportsTheGroundThatItSees) {

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "dense_stereo/dense_stereo.hpp"
+#include "dense_stereo/near_scene.hpp"
+#include "dense_stereo_paper/paper_matcher.hpp"
 #include "paper/log_filter.hpp"
 #include "paper/supporting_windows.hpp"
 #include "paper/words.hpp"
 #include "support/padded_images.hpp"
 #include "support/surfaces.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace dense_stereo {
 namespace {
@@ -88,11 +91,22 @@ TEST(LogFilter, DoesNotSeeBrightnessAndMarksSpots) {
   for (int v = 0; v < 20; ++v) ASSERT_TRUE(std::equal(filtered.row(v), filtered.row(v) + 40, brighter.row(v)));
 }
 
+TEST(PaperMethod, IsThatOfTheMatcherHandedIn) {
+  const SlantedPair scene(160, 100, 12.3, 0.02, 0.03, 1.0);
+  Parameters parameters;
+  EXPECT_EQ(makePaperMatcher(parameters), nullptr) << "the stage's own method";
+  parameters.method = "paper";
+  EXPECT_THROW(DenseStereo{parameters}, urban_nav_core::UserError) << "without its matcher";
+  EXPECT_THROW(NearSceneEstimator(parameters, urban_nav_core::StereoCamera()), urban_nav_core::UserError);
+  DenseStereo paper(parameters, makePaperMatcher(parameters)), own{Parameters()};
+  EXPECT_NE(paper.process(scene.pair()).image.disparity, own.process(scene.pair()).image.disparity);
+}
+
 TEST(PaperMethod, MeasuresAPlaneToAQuarterOfAPixel) {
   const SlantedPair scene(200, 120, 20.3, 0.02, 0.03, 1.0);
   Parameters parameters;
   parameters.method = "paper";
-  DenseStereo stereo(parameters);
+  DenseStereo stereo(parameters, makePaperMatcher(parameters));
   const StereoResult& result = stereo.process(scene.pair());
   EXPECT_GT(result.answered, 0.6);
   int good = 0, all = 0;

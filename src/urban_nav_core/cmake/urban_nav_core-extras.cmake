@@ -234,8 +234,8 @@ function(urban_nav_test)
 endfunction()
 
 # urban_nav_sanitized_test(LIBRARY... ROOMS ROOM... [TESTS SOURCE...] [WITHOUT SOURCE...]): PACKAGE-sanitized-test,
-# src/ROOM and test/ROOM compiled under the sanitizers into one gtest binary; all else of the package comes from the
-# libraries, as it is. The sources of the binary go before those of the libraries.
+# src/ROOM, reference/ROOM and test/ROOM compiled under the sanitizers into one gtest binary; all else of the package
+# comes from the libraries, as it is. The sources of the binary go before those of the libraries.
 function(urban_nav_sanitized_test)
   if(NOT CATKIN_ENABLE_TESTING OR NOT URBAN_NAV_SANITIZED_READERS)
     return()
@@ -243,7 +243,8 @@ function(urban_nav_sanitized_test)
   cmake_parse_arguments(arg "" "" "ROOMS;TESTS;WITHOUT" ${ARGN})
   set(sources ${arg_TESTS})
   foreach(room ${arg_ROOMS})
-    file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.cpp ${PROJECT_SOURCE_DIR}/test/${room}/*.cpp)
+    file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.cpp ${PROJECT_SOURCE_DIR}/reference/${room}/*.cpp
+      ${PROJECT_SOURCE_DIR}/test/${room}/*.cpp)
     list(APPEND sources ${room_sources})
   endforeach()
   foreach(source ${arg_WITHOUT})

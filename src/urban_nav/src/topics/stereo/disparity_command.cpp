@@ -7,6 +7,7 @@
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
 #include "dense_stereo/dense_stereo.hpp"
+#include "dense_stereo_paper/paper_matcher.hpp"
 #include "topics/stereo/disparity_files.hpp"
 #include "topics/stereo/stereo.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -85,7 +86,8 @@ int runDisparity(const Arguments& arguments, Console& console) {
   checkDisparityName(output, "--output");
   RectifiedImages images;
   readPair(arguments, images);
-  dense_stereo::DenseStereo stereo(parameters.get(dense_stereo::table()));
+  const dense_stereo::Parameters& own = parameters.get(dense_stereo::table());
+  dense_stereo::DenseStereo stereo(own, dense_stereo::makePaperMatcher(own));
   const auto begin = DisparityClock::now();
   const StereoResult& result = stereo.process(images.pair);
   const double ms = std::chrono::duration<double, std::milli>(DisparityClock::now() - begin).count();

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/plot.hpp"
+#include "dense_stereo_paper/paper_matcher.hpp"
 #include "topics/stereo/disparity_picture.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/io/format_number.hpp"
@@ -142,7 +143,8 @@ StereoMatcher::StereoMatcher(const dense_stereo::Parameters& parameters, const u
           Setting{info.camera, info.T_base_camera, expectedUp(info.T_base_camera), session, parameters.point_spacing})),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {
   for (auto& estimator : estimators_)
-    estimator = std::make_shared<dense_stereo::NearSceneEstimator>(parameters, info.camera);
+    estimator = std::make_shared<dense_stereo::NearSceneEstimator>(parameters, info.camera,
+                                                                   dense_stereo::makePaperMatcher(parameters));
 }
 
 std::optional<StereoOutput> StereoMatcher::add(const urban_nav_core::StereoPairWithMotion& frame, std::int64_t number,

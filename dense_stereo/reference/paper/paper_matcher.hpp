@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "dense_stereo/matcher.hpp"
 #include "dense_stereo/parameters.hpp"
 #include "filter/components.hpp"
-#include "matcher.hpp"
+#include "padded.hpp"
 #include "paper/log_filter.hpp"
 #include "paper/supporting_windows.hpp"
 #include "paper/words.hpp"

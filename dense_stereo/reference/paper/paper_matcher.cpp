@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "dense_stereo_paper/paper_matcher.hpp"
 #include "sgm/semi_global.hpp"
 
 namespace dense_stereo {
@@ -36,6 +37,11 @@ CurveMinimum findMinimum(const std::uint16_t* scores, int disparities) {
 }
 
 }  // namespace
+
+std::unique_ptr<Matcher> makePaperMatcher(const Parameters& parameters) {
+  if (parameters.method != "paper") return nullptr;
+  return std::make_unique<PaperMatcher>(parameters);
+}
 
 void PaperMatcher::match(const MatcherInput& input, DisparityImage& image) {
   const int disparities = std::min((parameters_.disparities + 15) / 16 * 16, 240);
