@@ -27,6 +27,7 @@
 #include "fabmap_node/store/place_rows.hpp"
 #include "fabmap_node/store/place_sessions.hpp"
 #include "live/live_places.hpp"
+#include "reference/features/opencv_features.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/processor_time.hpp"
@@ -250,11 +251,11 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const auto views = panorama(images, 0);
   table.add({"features of a panorama", "five images of 384x512 px",
              cell(medianMs(15, [&] { extractor.extract(views); }), 1)});
-  for (const FeatureKind kind : {FeatureKind::Sift, FeatureKind::Orb}) {
-    const FeatureExtractor peer({FeatureOptions().single, FeatureOptions().panorama, kind});
-    table.add({std::string("features of a panorama by OpenCV: ") + feature_kind_names[static_cast<std::size_t>(kind)],
-               "five images of 384x512 px", cell(medianMs(7, [&] { peer.extract(views); }), 1)});
-  }
+  for (const OpenCvFeature feature : {OpenCvFeature::Sift, OpenCvFeature::Orb})
+    table.add({std::string("features of a panorama by OpenCV: ") + kOpenCvFeatureNames[static_cast<std::size_t>(feature)],
+               "five images of 384x512 px", cell(medianMs(7, [&] {
+                 for (const auto& view : views) openCvObservation(feature, view, FeatureOptions().panorama);
+               }), 1)});
   table.add({"panorama to words and compact descriptors", std::to_string(model.vocabulary.size()) + " words",
              cell(medianMs(15, [&] { describer.describe(views); }), 1)});
   const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "features/descriptor_source.hpp"
-#include "features/opencv_features.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/feature_quadtree.hpp"
 #include "urban_nav_core/image/harris.hpp"
@@ -104,9 +103,7 @@ PlaceObservation FeatureExtractor::extract(const std::vector<ImageView>& images)
   const int wanted = images.size() > 1 ? options_.panorama : options_.single;
   std::vector<std::vector<PlaceFeature>> found(images.size());
   urban_nav_core::forEach(images.size(), 1, [&](std::size_t i) {
-    const auto camera = static_cast<std::uint8_t>(i);
-    found[i] = options_.kind == FeatureKind::Upright ? featuresOfImage(images[i], wanted, camera)
-                                                     : openCvFeatures(options_.kind, images[i], wanted, camera);
+    found[i] = featuresOfImage(images[i], wanted, static_cast<std::uint8_t>(i));
   });
   for (const auto& features : found)
     observation.features.insert(observation.features.end(), features.begin(), features.end());

@@ -19,9 +19,8 @@ using urban_nav_core::DataError;
 
 namespace {
 
-// 1: without sequences; 2: with upright features. Models of those are written as version 2 still, so that equal models
-// are equal bytes.
-constexpr std::uint32_t oldest_version = 1, upright_version = 2, model_version = 3;
+// 1: without sequences. 3: with features of OpenCV, which no describer extracts.
+constexpr std::uint32_t oldest_version = 1, model_version = 2, opencv_version = 3;
 constexpr char model_name[] = "places model";
 constexpr std::size_t most_words = 1'000'000;
 
@@ -88,15 +87,7 @@ void archiveSequence(Archive& archive, std::optional<PlaceCalibration>& calibrat
   if (is_there) archiveCalibration(archive, *calibration, model_version);
 }
 
-void archiveFeatures(Archive& archive, FeatureKind& kind) {
-  auto number = static_cast<std::uint32_t>(kind);
-  archive(number);
-  archive.require(number < feature_kind_names.size(), "an unknown kind of features");
-  kind = static_cast<FeatureKind>(number);
-}
-
 void archiveModel(Archive& archive, PlaceModel& model, std::uint32_t version) {
-  if (version > upright_version) archiveFeatures(archive, model.features);
   archiveCentres(archive, model.vocabulary);
   const std::size_t words = model.vocabulary.size();
   archiveTree(archive, model.tree, words);
@@ -147,8 +138,7 @@ void roundToFile(ChowLiuTree& tree) {
 std::string printModelContent(const PlaceModel& model) { return printVersion(model, model_version); }
 
 std::string printModel(const PlaceModel& model) {
-  const std::uint32_t version = model.features == FeatureKind::Upright ? upright_version : model_version;
-  return urban_nav_core::seal(model_name, version, printVersion(model, version));
+  return urban_nav_core::seal(model_name, model_version, printModelContent(model));
 }
 
 PlaceModel parseModelContent(std::string_view content, const std::string& name) {
@@ -158,10 +148,13 @@ PlaceModel parseModelContent(std::string_view content, const std::string& name) 
 PlaceModel parseModel(std::string_view bytes, const std::string& name) {
   urban_nav_core::UnsealedState state;
   try {
-    state = urban_nav_core::unseal(model_name, oldest_version, model_version, bytes);
+    state = urban_nav_core::unseal(model_name, oldest_version, opencv_version, bytes);
   } catch (const urban_nav_core::Error& error) {
     throw DataError(name, error.what(), "a whole model written by places train");
   }
+  if (state.version == opencv_version)
+    throw DataError(name, "a model of OpenCV's features (sift or orb)",
+                    "a model of upright features, as places train writes it: train it again");
   return parseVersion(state.content, state.version, name);
 }
 

@@ -135,7 +135,6 @@ TrainedModel trainModel(std::vector<TrainingDrive> drives, const TrainingOptions
         std::to_string(descriptors.size()) + " descriptors in " +
             std::to_string(trained.report.observations - trained.report.stationary) + " images that differ",
         "at least " + std::to_string(options.k_means.words) + ", one for each word: more images or fewer words");
-  model.features = options.features;
   model.vocabulary = trainVocabulary(std::move(descriptors), options.k_means, [&step](int done, int total) {
     step("vocabulary", static_cast<double>(done) / total);
   });

@@ -3,43 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "support/block_images.hpp"
 
 namespace fabmap_node {
 namespace {
 
-constexpr int blocks_width = 240, blocks_height = 180;
-
-std::vector<std::uint8_t> drawBlocks(unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<std::uint8_t> pixels(blocks_width * blocks_height, 90);
-  for (int k = 0; k < 120; ++k) {
-    const int u = static_cast<int>(random() % (blocks_width - 20)),
-              v = static_cast<int>(random() % (blocks_height - 20));
-    const int w = 4 + static_cast<int>(random() % 14), h = 4 + static_cast<int>(random() % 14);
-    const auto grey = static_cast<std::uint8_t>(random() % 256);
-    for (int j = v; j < v + h; ++j)
-      for (int i = u; i < u + w; ++i) pixels[static_cast<std::size_t>(j * blocks_width + i)] = grey;
-  }
-  return pixels;
-}
-
-urban_nav_core::ImageView viewOfBlocks(const std::vector<std::uint8_t>& pixels) {
-  return {pixels.data(), blocks_width, blocks_height, blocks_width};
-}
-
-void expectInside(const PlaceFeature& feature) {
-  EXPECT_GE(feature.u, 0.0F);
-  EXPECT_LE(feature.u, 1.0F);
-  EXPECT_GE(feature.v, 0.0F);
-  EXPECT_LE(feature.v, 1.0F);
-}
-
-int squaredLength(const PlaceFeature& feature) {
-  int squares = 0;
-  for (const std::uint8_t x : feature.descriptor) squares += x * x;
-  return squares;
-}
+using testing::drawBlocks;
+using testing::expectInside;
+using testing::squaredLength;
+using testing::viewOfBlocks;
 
 TEST(FeatureExtractor, FindsFeaturesInsideTheImageUpToTheLimit) {
   const auto pixels = drawBlocks(1);
@@ -61,30 +37,6 @@ TEST(FeatureExtractor, EqualImagesGiveEqualFeatures) {
   for (std::size_t i = 0; i < a.features.size(); ++i) EXPECT_EQ(a.features[i].descriptor, b.features[i].descriptor);
 }
 
-TEST(FeatureExtractor, OpenCvFindsItsOwnFeaturesUpToTheLimit) {
-  const auto pixels = drawBlocks(5);
-  const ByteDescriptor upright =
-      FeatureExtractor({120, 60}).extract({viewOfBlocks(pixels)}).features.front().descriptor;
-  for (const FeatureKind kind : {FeatureKind::Sift, FeatureKind::Orb}) {
-    const FeatureExtractor extractor({120, 60, kind});
-    const PlaceObservation observation = extractor.extract({viewOfBlocks(pixels)});
-    EXPECT_GT(observation.features.size(), 40u);
-    EXPECT_LE(observation.features.size(), 120u);
-    const PlaceObservation again = extractor.extract({viewOfBlocks(pixels)});
-    ASSERT_EQ(observation.features.size(), again.features.size());
-    for (std::size_t i = 0; i < observation.features.size(); ++i) {
-      const PlaceFeature& feature = observation.features[i];
-      EXPECT_NE(feature.descriptor, upright);
-      EXPECT_EQ(feature.descriptor, again.features[i].descriptor);
-      expectInside(feature);
-      EXPECT_GT(squaredLength(feature), 200 * 200);
-    }
-    const std::vector<std::uint8_t> blank(blocks_width * blocks_height, 128);
-    EXPECT_TRUE(extractor.extract({viewOfBlocks(blank)}).features.empty());
-    EXPECT_TRUE(extractor.extract({urban_nav_core::ImageView{}}).features.empty());
-  }
-}
-
 TEST(FeatureExtractor, PanoramaIsOneObservationAndContinuesWithoutOneCamera) {
   const auto first = drawBlocks(3), second = drawBlocks(4);
   const PlaceObservation observation =
@@ -98,7 +50,7 @@ TEST(FeatureExtractor, PanoramaIsOneObservationAndContinuesWithoutOneCamera) {
 }
 
 TEST(FeatureExtractor, BlankAndTinyImagesHaveNoFeatures) {
-  const std::vector<std::uint8_t> blank(blocks_width * blocks_height, 128);
+  const std::vector<std::uint8_t> blank(testing::kBlocksWidth * testing::kBlocksHeight, 128);
   EXPECT_TRUE(FeatureExtractor().extract({viewOfBlocks(blank)}).features.empty());
   EXPECT_TRUE(FeatureExtractor().extract({{blank.data(), 8, 8, 8}}).features.empty());
   EXPECT_TRUE(FeatureExtractor().extract({urban_nav_core::ImageView{}}).features.empty());

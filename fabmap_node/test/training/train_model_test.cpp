@@ -5,6 +5,7 @@
 
 #include "fabmap_node/recognition/place_recogniser.hpp"
 #include "support/synthetic_places.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -107,15 +108,16 @@ TEST(PlaceModel, ReadsBackWhatWasPrinted) {
   EXPECT_EQ(read.tree.p, trainedOnce().model.tree.p);
 }
 
-TEST(PlaceModel, KeepsTheKindOfItsFeatures) {
-  PlaceModel model = trainedOnce().model;
-  EXPECT_EQ(parseModel(printModel(model), "model").features, FeatureKind::Upright);
-  model.features = FeatureKind::Orb;
-  const PlaceModel read = parseModel(printModel(model), "model");
-  EXPECT_EQ(read.features, FeatureKind::Orb);
-  EXPECT_EQ(read.tree.p, model.tree.p);
-  model.features = static_cast<FeatureKind>(7);
-  EXPECT_THROW(parseModel(printModel(model), "model"), urban_nav_core::DataError);
+TEST(PlaceModel, ModelsOfOpenCvFeaturesAreRefusedByName) {
+  const std::string orb("\2\0\0\0", 4);  // the kind of features, which version 3 of the file begins with
+  const std::string bytes = urban_nav_core::seal("places model", 3, orb + printModelContent(trainedOnce().model));
+  try {
+    parseModel(bytes, "city.places");
+    ADD_FAILURE();
+  } catch (const urban_nav_core::DataError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"city.places", "OpenCV", "upright"}) EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
 }
 
 TEST(PlaceModel, TruncatedAndDamagedFilesAreRefusedByName) {

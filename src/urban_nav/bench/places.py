@@ -148,8 +148,8 @@ def summary(name, claims, is_calibrated=True):
 
 
 class Bench:
-    def __init__(self, model, folder, models, peers):
-        self.model, self.folder, self.models, self.peers = model, folder, models, peers
+    def __init__(self, model, folder, models, probabilities, peers):
+        self.model, self.folder, self.models, self.probabilities, self.peers = model, folder, models, probabilities, peers
         self.rows, self.claims = [], []  # claims: (world, drives, Claim) with all evidence
 
     def add(self, world, drives, inputs, judge, keep=lambda match: match.drive_b > 0, options=(), is_pooled=True):
@@ -211,9 +211,10 @@ class Bench:
             name, model = other.split("=", 1)
             found = matches(model, [images], self.folder / "matches.csv", ())
             self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(found, positions, stamps)))
-        for peer in self.peers:
-            name, path = peer.split("=", 1)
-            self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(peer_matches(Path(path)), positions, stamps), is_calibrated=False))
+        for peers, is_calibrated in ((self.probabilities, True), (self.peers, False)):
+            for peer in peers:
+                name, path = peer.split("=", 1)
+                self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(peer_matches(Path(path)), positions, stamps), is_calibrated))
 
     def write_claims(self):
         with (self.folder / "claims.csv").open("w", newline="") as file:
@@ -230,12 +231,13 @@ def main():
     parser.add_argument("--kind", action="append", choices=KINDS, help="repeatable (default: all)")
     parser.add_argument("--model", default="default")
     parser.add_argument("--other-model", action="append", default=[], metavar="NAME=MODEL", help="another model for the real images; repeatable")
+    parser.add_argument("--probabilities", action="append", default=[], metavar="NAME=FILE.csv", help="as --peer, with calibrated probabilities as scores, of fabmap_node-bench-opencv_features; repeatable")
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=FILE.csv", help="what another system says of the real images: query,match,score, images counted from 0; repeatable")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    bench = Bench(arguments.model, arguments.folder, arguments.other_model, arguments.peer)
+    bench = Bench(arguments.model, arguments.folder, arguments.other_model, arguments.probabilities, arguments.peer)
     for kind in arguments.kind or KINDS:
         getattr(bench, kind.replace(" ", "_"))()
     bench.write_claims()

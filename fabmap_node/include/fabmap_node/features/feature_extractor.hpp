@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "fabmap_node/features/feature_kind.hpp"
 #include "fabmap_node/features/place_observation.hpp"
 #include "urban_nav_core/image/view.hpp"
 
@@ -12,13 +11,12 @@ namespace fabmap_node {
 struct FeatureOptions {
   int single = 500;    ///< largest number of features of a single image
   int panorama = 250;  ///< largest number of features of one image of a panorama
-  FeatureKind kind = FeatureKind::Upright;
 };
 
-/// Extracts features for place recognition. Upright: FAST corners at several levels of a pyramid, spread by a quadtree,
-/// the best first by Harris score (Newman et al. 2009, section 2.4 (i) and (v)), each with the upright descriptor of
-/// keyframes. Upright suits a robot on wheels, and tells a window sill from a door post. Sift and Orb: as OpenCV finds
-/// them. Equal images give equal features. Thread-safe.
+/// Extracts features for place recognition: FAST corners at several levels of a pyramid, spread by a quadtree, the best
+/// first by Harris score (Newman et al. 2009, section 2.4 (i) and (v)), each with the upright descriptor of keyframes.
+/// Upright descriptors suit a robot on wheels, and distinguish a window sill from a door post. Equal images give equal
+/// features. Thread-safe.
 class FeatureExtractor {
  public:
   explicit FeatureExtractor(const FeatureOptions& options = {}) : options_(options) {}

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "fabmap_node/features/feature_kind.hpp"
 #include "fabmap_node/model/likelihood.hpp"
 #include "fabmap_node/recognition/calibration.hpp"
 #include "fabmap_node/vocabulary/vocabulary.hpp"
@@ -17,7 +16,6 @@ namespace fabmap_node {
 /// the calibrations of probabilities for single images and for panoramas: of an observation alone, and with those
 /// before it. Plain data.
 struct PlaceModel {
-  FeatureKind features = FeatureKind::Upright;  ///< what the words were made of, and must be looked up with
   Vocabulary vocabulary;
   ChowLiuTree tree;  ///< probabilities in single precision, as the file has them
   Detector detector{0.39, 0.05};
@@ -34,7 +32,7 @@ struct PlaceModel {
 /// Returns the bytes of a model: versioned, with a checksum, the same on every machine.
 std::string printModel(const PlaceModel& model);
 /// Returns the model of printModel(). Throws DataError with `name` if the bytes are truncated, damaged, of another
-/// version, or inconsistent.
+/// version, of a model of OpenCV's features, or inconsistent.
 PlaceModel parseModel(std::string_view bytes, const std::string& name);
 /// Returns the bytes of a model without version and checksum: for tests of damaged content.
 std::string printModelContent(const PlaceModel& model);

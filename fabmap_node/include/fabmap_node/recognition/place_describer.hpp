@@ -31,15 +31,11 @@ struct PlaceDescription {
   std::string look;  ///< packLook()
 };
 
-/// Describes observations in the words of a model, with the kind of features that it was trained with. Thread-safe; the
-/// model must outlive it.
+/// Describes observations in the words of a model. Thread-safe; the model must outlive it.
 class PlaceDescriber {
  public:
-  /// Of `features`, the numbers count: the model says which kind.
   PlaceDescriber(const PlaceModel& model, const FeatureOptions& features, std::size_t look_features)
-      : vocabulary_(model.vocabulary),
-        extractor_({features.single, features.panorama, model.features}),
-        look_features_(look_features) {}
+      : vocabulary_(model.vocabulary), extractor_(features), look_features_(look_features) {}
 
   /// `images`: as FeatureExtractor::extract() takes them.
   PlaceDescription describe(const std::vector<urban_nav_core::ImageView>& images) const;

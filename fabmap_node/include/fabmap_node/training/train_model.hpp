@@ -20,7 +20,6 @@ struct TrainingImage {
 using TrainingDrive = std::vector<TrainingImage>;
 
 struct TrainingOptions {
-  FeatureKind features = FeatureKind::Upright;  ///< of the observations; the model keeps it
   KMeansOptions k_means;
   MatcherOptions matcher;
   std::size_t sampled_places = 400;  ///< largest number of observations that the model stores for new places

@@ -51,7 +51,7 @@ PlaceQuery queryPlaces(const fabmap_node::PlaceModel& model, const std::vector<s
   QueryRun run(model, options);
   const fabmap_node::PlaceDescriber describer(model, {}, options.matcher.look_features);
   readPlaceSessions(
-      inputs, topics, console, {&describer, false, model.features},
+      inputs, topics, console, {&describer, false},
       [&](std::size_t, const std::string& name) { run.beginSession(name); },
       [&](StampedObservation observation) { run.add(observation.stamp, observation.description); });
   PlaceQuery query = run.take();
@@ -66,7 +66,7 @@ PlaceRecording recordPlaces(const fabmap_node::PlaceModel& model, const std::vec
   std::size_t unused = 0;
   const fabmap_node::PlaceDescriber describer(model, {}, options.look_features);
   readPlaceSessions(
-      inputs, topics, console, {&describer, true, model.features},
+      inputs, topics, console, {&describer, true},
       [&](std::size_t, const std::string& name) { recording.sessions.push_back(name); },
       [&](StampedObservation observation) {
         unused += observation.description.status != fabmap_node::ObservationStatus::Used ? 1u : 0u;

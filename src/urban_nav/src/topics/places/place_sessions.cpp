@@ -32,9 +32,7 @@ void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector
                        const std::function<void(StampedObservation)>& place) {
   std::vector<std::unique_ptr<PlaceSource>> sources;  // all opened first: a mistake is reported before work begins
   for (const std::string& input : inputs) sources.push_back(openPlaceSource(input, topics));
-  fabmap_node::FeatureOptions options;
-  options.kind = reading.features;
-  const fabmap_node::FeatureExtractor extractor(options);
+  const fabmap_node::FeatureExtractor extractor;
   std::vector<std::string> names;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     names.push_back(urban_nav_input::uniqueName(urban_nav_input::plainName(inputs[s]), names));

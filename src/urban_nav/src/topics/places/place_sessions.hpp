@@ -23,7 +23,6 @@ struct StampedObservation {
 struct PlaceReading {
   const fabmap_node::PlaceDescriber* describer = nullptr;  ///< null: features instead of descriptions
   bool with_thumbnails = false;
-  fabmap_node::FeatureKind features = fabmap_node::FeatureKind::Upright;  ///< without a describer
 };
 
 /// Reads sessions one after the other and extracts their features on several threads. `session` is called with the

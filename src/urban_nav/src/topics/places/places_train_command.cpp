@@ -55,12 +55,6 @@ std::vector<std::size_t> siteNumbers(const std::vector<std::string>& names, std:
   return numbers;
 }
 
-fabmap_node::FeatureKind chosenFeatures(const Arguments& arguments) {
-  const auto& names = fabmap_node::feature_kind_names;
-  const auto found = std::find(names.begin(), names.end(), arguments.get("features", names.front()));
-  return static_cast<fabmap_node::FeatureKind>(found - names.begin());
-}
-
 /// Fits the calibrations of an existing model with days at sites whose positions are known.
 int runRecalibrate(const Arguments& arguments, Console& console) {
   const std::vector<std::string> sources = arguments.all("SRC"), truths = arguments.all("truth");
@@ -77,7 +71,7 @@ int runRecalibrate(const Arguments& arguments, Console& console) {
   std::vector<fabmap_node::LocatedSite> sites(1 + *std::max_element(site_of.begin(), site_of.end()));
   std::size_t source = 0;
   readPlaceSessions(
-      sources, arguments.all("topic"), console, {nullptr, false, model.features},
+      sources, arguments.all("topic"), console, {},
       [&](std::size_t index, const std::string&) {
         source = index;
         sites[site_of[source]].emplace_back();
@@ -109,13 +103,12 @@ int runTrain(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   if (arguments.has("calibrate")) return runRecalibrate(arguments, console);
   fabmap_node::TrainingOptions options;
-  options.features = chosenFeatures(arguments);
   options.k_means.words = static_cast<std::size_t>(arguments.integer("words", 4000, 10, 1'000'000));
   options.sampled_places = static_cast<std::size_t>(arguments.integer("sampled", 400, 1, 1'000'000));
   options.k_means.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
   std::vector<fabmap_node::TrainingDrive> drives;
   readPlaceSessions(
-      arguments.all("SRC"), arguments.all("topic"), console, {nullptr, false, options.features},
+      arguments.all("SRC"), arguments.all("topic"), console, {},
       [&drives](std::size_t, const std::string&) { drives.emplace_back(); },
       [&drives](StampedObservation place) {
         drives.back().push_back({place.stamp, std::move(place.observation)});
@@ -161,12 +154,7 @@ Command placesTrainAction() {
       {"SRC", "", "folders of images, or bags; each is a drive, of other places than the others", true, true, {}},
       {"-o,--output", "MODEL", "model to write", true, false, {}},
       {"--words", "N", "size of the vocabulary, 10 ... 1000000 (default 4000)", false, false, {}},
-      {"--features",
-       "KIND",
-       "detector and descriptor (default upright); sift and orb are OpenCV's, for comparison; the model keeps the choice",
-       false,
-       false,
-       {fabmap_node::feature_kind_names.begin(), fabmap_node::feature_kind_names.end()}},
+      {"--features", "KIND", "detector and descriptor: upright, the only kind", false, false, {"upright"}},
       {"--sampled", "N", "observations stored for the likelihood of a new place (default 400)", false, false, {}},
       {"--calibrate",
        "MODEL",

@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "fabmap_node/training/train_model.hpp"
 #include "support/place_images.hpp"
 #include "topics/places/place_evaluation.hpp"
 #include "topics/places/place_sessions.hpp"
@@ -67,38 +64,6 @@ TEST_F(PlaceQueryTest, RevisitsOfAnotherSessionAreTheLikeliestEarlierPlaces) {
   }
   EXPECT_EQ(query.unused, 1u);
   EXPECT_EQ(query.rows[12].recognition.status, fabmap_node::ObservationStatus::Dark);
-}
-
-std::size_t sharedWords(const PlaceRecording& recording, std::size_t i, std::size_t j) {
-  const fabmap_node::WordSet &a = recording.places[i].description.words, &b = recording.places[j].description.words;
-  fabmap_node::WordSet both;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
-  return both.size();
-}
-
-TEST_F(PlaceQueryTest, ModelsOfOpenCvFeaturesLookUpWithThem) {
-  for (unsigned i = 0; i < 24; ++i) write("other_streets", i, sceneImage(100 + i));
-  for (const fabmap_node::FeatureKind kind : {fabmap_node::FeatureKind::Sift, fabmap_node::FeatureKind::Orb}) {
-    fabmap_node::TrainingOptions training;
-    training.features = kind;
-    training.k_means.words = 800;
-    std::vector<fabmap_node::TrainingDrive> drives;
-    readPlaceSessions(
-        {inputs_[0]}, {}, console_, {nullptr, false, kind},
-        [&](std::size_t, const std::string&) { drives.emplace_back(); },
-        [&](StampedObservation place) {
-          drives.back().push_back({place.stamp, std::move(place.observation)});
-        });
-    const fabmap_node::PlaceModel model = fabmap_node::trainModel(std::move(drives), training).model;
-    const PlaceRecording recording = recordPlaces(model, inputs_, {}, options_.matcher, console_);
-    ASSERT_EQ(recording.places.size(), 13u);
-    for (std::size_t i = 8; i < 11; ++i) {
-      std::vector<std::size_t> shared;  // words, with each place of monday
-      for (std::size_t j = 0; j < 8; ++j) shared.push_back(sharedWords(recording, i, j));
-      const auto most = std::max_element(shared.begin(), shared.end());
-      EXPECT_EQ(most - shared.begin(), static_cast<std::ptrdiff_t>(i) - 4) << static_cast<int>(kind);
-    }
-  }
 }
 
 TEST_F(PlaceQueryTest, ARecordingGivesTheSameOnAnyNumberOfThreads) {
