@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "dense_stereo/matcher.hpp"
 #include "dense_stereo/parameters.hpp"
 #include "filter/components.hpp"
 #include "filter/depth_edges.hpp"
