@@ -76,7 +76,7 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   if (!nodelet_.gravity) return;
   urban_nav_ros::TopicOptions unmonitored;  // an IMU need not be there
   unmonitored.is_monitored = false;
-  node.subscribeInput<sensor_msgs::Imu>(urban_nav_ros::topics::imu, unmonitored,
+  node.subscribeInput<sensor_msgs::Imu>(urban_nav_ros::topics::kImu, unmonitored,
                                         [](const auto& message) { return Input(message); });
 }
 

@@ -10,10 +10,10 @@ namespace topics = urban_nav_ros::topics;
 
 Publisher::Publisher(urban_nav_ros::StageNode& node)
     : node_(node),
-      disparity_(node.nh().advertise<stereo_msgs::DisparityImage>(topics::stereo_disparity, 5)),
-      points_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::stereo_points, 5)),
-      ground_(node.nh().advertise<urban_nav_msgs::GroundPlane>(topics::ground_plane, 20)),
-      obstacles_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::obstacles, 5)) {}
+      disparity_(node.nh().advertise<stereo_msgs::DisparityImage>(topics::kStereoDisparity, 5)),
+      points_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::kStereoPoints, 5)),
+      ground_(node.nh().advertise<urban_nav_msgs::GroundPlane>(topics::kGroundPlane, 20)),
+      obstacles_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::kObstacles, 5)) {}
 
 void Publisher::startSession(const std::string& frame, const urban_nav_core::StereoCamera& camera, int disparities) {
   frame_ = frame;

@@ -146,20 +146,20 @@ std::vector<urban_nav_registration::SearchedKeyframe> writeKeyframes(const std::
                                                                      std::size_t count) {
   const PlaceModel model = defaultModel();
   const std::string hash = modelHash(defaultModelBytes());
-  const PlaceDescriber describer(model, {}, keyframe_look_features);
+  const PlaceDescriber describer(model, {}, kKeyframeLookFeatures);
   std::vector<urban_nav_registration::SearchedKeyframe> keyframes;
   urban_nav_store::Store store(path, urban_nav_store::Access::Write);
   store.sessions().put(urban_nav_store::Session{"s", "day", "", "", 0, true});
   urban_nav_store::TableStore<urban_nav_store::StoredModel>(store).put(
       {"s", hash, "fabmap_node", std::string(defaultModelBytes())});
   urban_nav_store::TableStore<urban_nav_store::StoredKeyframePlace> rows(store);
-  constexpr std::size_t described = 200;
+  constexpr std::size_t kDescribed = 200;
   std::vector<PlaceDescription> descriptions;
-  for (std::size_t k = 0; k < described; ++k)
+  for (std::size_t k = 0; k < kDescribed; ++k)
     descriptions.push_back(describer.describe({toView(images[(k + 1) % images.size()])}));
   for (std::size_t i = 0; i < count; ++i) {
     const auto stamp = static_cast<urban_nav_core::StampNs>(i + 1);
-    rows.put({toStoredPlace("s", stamp, descriptions[i % described], hash)});
+    rows.put({toStoredPlace("s", stamp, descriptions[i % kDescribed], hash)});
     keyframes.push_back({{"s", stamp}, nullptr});
   }
   store.commit();
@@ -168,10 +168,10 @@ std::vector<urban_nav_registration::SearchedKeyframe> writeKeyframes(const std::
 
 /// Returns the memory per keyframe, kB.
 double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
-  constexpr std::size_t count = 10000;
+  constexpr std::size_t kCount = 10000;
   std::string folder = (std::filesystem::temp_directory_path() / "places_speed_XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr) return 0.0;
-  const auto keyframes = writeKeyframes(folder + "/map.db", images, count);
+  const auto keyframes = writeKeyframes(folder + "/map.db", images, kCount);
   urban_nav_registration::Keyframe query;
   query.image = urban_nav_registration::encodeJpeg(toView(images[0]), 90);
   query.width = images[0].cols;
@@ -184,9 +184,9 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
     places.open(store, keyframes);
     while (places.readNext()) {
     }
-    table.add({"keyframes of a map ready for localization", std::to_string(count), cell(threadMs() - begin, 0)});
-    memory = (heapKb() - before) / static_cast<double>(count);
-    table.add({"search for a keyframe among them", std::to_string(count) + ", image decoded and described",
+    table.add({"keyframes of a map ready for localization", std::to_string(kCount), cell(threadMs() - begin, 0)});
+    memory = (heapKb() - before) / static_cast<double>(kCount);
+    table.add({"search for a keyframe among them", std::to_string(kCount) + ", image decoded and described",
                cell(medianMs(15, [&] { places.find(query, 3); }), 1)});
   }
   std::filesystem::remove_all(folder);
@@ -260,18 +260,18 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
              cell(medianMs(15, [&] { describer.describe(views); }), 1)});
   const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);
   PlaceMatcher matcher(likelihoods, model.sampled_places, options);
-  constexpr std::size_t described = 40, map_places = 4000;
+  constexpr std::size_t kDescribed = 40, kMapPlaces = 4000;
   std::vector<PlaceDescription> descriptions;
-  for (std::size_t k = 0; k < described; ++k) descriptions.push_back(describer.describe(panorama(images, 5 * k)));
-  for (std::size_t i = 0; i < map_places; ++i) {
-    const PlaceDescription& one = descriptions[1 + i % (described - 1)];
+  for (std::size_t k = 0; k < kDescribed; ++k) descriptions.push_back(describer.describe(panorama(images, 5 * k)));
+  for (std::size_t i = 0; i < kMapPlaces; ++i) {
+    const PlaceDescription& one = descriptions[1 + i % (kDescribed - 1)];
     matcher.add({0, static_cast<urban_nav_core::StampNs>(i) * 1'000'000'000, one.words, one.look});
   }
   const LookFeatures a = unpackLook(descriptions[0].look, "a"), b = unpackLook(descriptions[1].look, "b");
   table.add({"second look at one place", std::to_string(a.size()) + " descriptors",
              cell(medianMs(21, [&] { secondLook(a, b); }), 2)});
   const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};
-  table.add({"match of a panorama, all in one", std::to_string(map_places) + " places",
+  table.add({"match of a panorama, all in one", std::to_string(kMapPlaces) + " places",
              cell(medianMs(15, [&] { matcher.match(query, [](std::size_t) { return true; }); }), 1)});
   for (const std::size_t places : {std::size_t{10'000}, std::size_t{100'000}})
     addStoredPlaces(descriptions, places, table);

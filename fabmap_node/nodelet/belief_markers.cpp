@@ -13,8 +13,8 @@ using urban_nav_ros::toColour;
 
 namespace {
 
-constexpr double dot = 0.25, certain_place = 1.2, line_width = 0.08, text_height = 0.5;  // m
-const Eigen::Vector3d above_robot(0.0, 0.0, 2.0);                                        // m
+constexpr double kDot = 0.25, kCertainPlace = 1.2, kLineWidth = 0.08, kTextHeight = 0.5;  // m
+const Eigen::Vector3d kAboveRobot(0.0, 0.0, 2.0);                                         // m
 
 std_msgs::ColorRGBA knowledgeColour(PlaceKnowledge knowledge, double alpha = 1.0) {
   if (knowledge == PlaceKnowledge::Known) return toColour(0.2, 0.8, 0.3, alpha);
@@ -39,15 +39,15 @@ visualization_msgs::MarkerArray toMarkers(const BeliefTrail& trail, const std::s
     std::vector<Eigen::Vector3d> points;
     for (const BeliefTrail::Point& point : trail.points())
       if (point.knowledge == knowledge) points.push_back(point.p_odom);
-    markers.addSpheres(toString(knowledge), points, dot, knowledgeColour(knowledge));
+    markers.addSpheres(toString(knowledge), points, kDot, knowledgeColour(knowledge));
   }
-  markers.addText("belief", printBelief(last), last.p_odom + above_robot, text_height, knowledgeColour(last.knowledge));
+  markers.addText("belief", printBelief(last), last.p_odom + kAboveRobot, kTextHeight, knowledgeColour(last.knowledge));
   if (!last.likeliest || !last.likeliest->at.session.empty()) return markers.message();
   const BeliefTrail::Point* place = trail.find(last.likeliest->at.stamp);
   if (place == nullptr) return markers.message();
-  markers.addSpheres("likeliest place", {place->p_odom}, dot + certain_place * last.likeliest->probability,
+  markers.addSpheres("likeliest place", {place->p_odom}, kDot + kCertainPlace * last.likeliest->probability,
                      knowledgeColour(last.knowledge, 0.5));
-  markers.addLines("match", {last.p_odom, place->p_odom}, line_width, knowledgeColour(last.knowledge));
+  markers.addLines("match", {last.p_odom, place->p_odom}, kLineWidth, knowledgeColour(last.knowledge));
   return markers.message();
 }
 

@@ -29,10 +29,10 @@ using urban_nav_ros::RecordedImage;
 
 namespace {
 
-constexpr double image_timeout = 2.0;     // s
-constexpr double odometry_timeout = 5.0;  // s
+constexpr double kImageTimeout = 2.0;     // s
+constexpr double kOdometryTimeout = 5.0;  // s
 // Writes of some 25 kB that wait for a commit, beside those that LivePlaces holds while the disk takes none.
-constexpr std::size_t waiting_places = 1000;
+constexpr std::size_t kWaitingPlaces = 1000;
 
 /// Image of one camera of the head.
 struct CameraImage {
@@ -47,7 +47,7 @@ struct OdometryPose {
 
 urban_nav_live::StoreWriterLink::Options storeOptions() {
   urban_nav_live::StoreWriterLink::Options options;
-  options.writer.capacity = waiting_places;
+  options.writer.capacity = kWaitingPlaces;
   return options;
 }
 
@@ -115,9 +115,9 @@ FabmapStage::FabmapStage(Node& node) : node_(node) {
                                          nodelet_.store, storeOptions());
   loadMap();
   startFeed();
-  belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(urban_nav_ros::topics::place_belief, 100);
-  closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::place_closure, 1000);
-  markers_ = node.nh().advertise<visualization_msgs::MarkerArray>(urban_nav_ros::topics::place_markers, 1, true);
+  belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(urban_nav_ros::topics::kPlaceBelief, 100);
+  closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::kPlaceClosure, 1000);
+  markers_ = node.nh().advertise<visualization_msgs::MarkerArray>(urban_nav_ros::topics::kPlaceMarkers, 1, true);
   advertiseFiles();
   subscribeOdometry();
   if (nodelet_.compressed) subscribeCameras<sensor_msgs::CompressedImage>();
@@ -127,11 +127,11 @@ FabmapStage::FabmapStage(Node& node) : node_(node) {
 template <typename Message>
 void FabmapStage::subscribeCameras() {
   urban_nav_ros::TopicOptions options;
-  options.timeout = image_timeout;
+  options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
   for (int camera = 0; camera < nodelet_.cameras; ++camera) {
     std::string image = nodelet_.cameras > 1 ? "ladybug/camera" + std::to_string(camera) + "/image_raw"
-                                             : std::string(urban_nav_ros::topics::left_image);
+                                             : std::string(urban_nav_ros::topics::kLeftImage);
     if (nodelet_.compressed) image += "/compressed";
     node_.subscribeInput<Message>(image, options, [camera](const boost::shared_ptr<const Message>& message) {
       return Input(CameraImage{static_cast<std::size_t>(camera), RecordedImage(message)});
@@ -141,11 +141,11 @@ void FabmapStage::subscribeCameras() {
 
 void FabmapStage::subscribeOdometry() {
   urban_nav_ros::TopicOptions options;
-  options.timeout = odometry_timeout;
+  options.timeout = kOdometryTimeout;
   options.queue = nodelet_.queue_size;
   options.is_paused = false;
   node_.subscribeInput<nav_msgs::Odometry>(
-      urban_nav_ros::topics::vo_odometry, options,
+      urban_nav_ros::topics::kVoOdometry, options,
       [](const nav_msgs::OdometryConstPtr& message) -> std::optional<OdometryPose> {
         const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose);
         if (!T_odom_base) return std::nullopt;

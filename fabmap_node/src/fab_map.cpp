@@ -13,11 +13,11 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int second_look_candidates = 10;
+constexpr int kSecondLookCandidates = 10;
 
 RecogniserOptions recogniserOptions(const Parameters& parameters) {
   RecogniserOptions options;
-  options.matcher.second_looks = parameters.second_look ? second_look_candidates : 0;
+  options.matcher.second_looks = parameters.second_look ? kSecondLookCandidates : 0;
   options.sequence = parameters.sequence;
   options.detects_stationary = false;  // process() passes on observations of a moving camera only
   options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));
@@ -27,8 +27,8 @@ RecogniserOptions recogniserOptions(const Parameters& parameters) {
 }  // namespace
 
 const char* toString(PlaceKnowledge knowledge) {
-  constexpr std::array<const char*, 3> names = {"KNOWN", "UNSURE", "NEW"};
-  return names[static_cast<std::size_t>(knowledge)];
+  constexpr std::array<const char*, 3> kNames = {"KNOWN", "UNSURE", "NEW"};
+  return kNames[static_cast<std::size_t>(knowledge)];
 }
 
 FabMap::FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look)

@@ -16,14 +16,14 @@ namespace {
 using testing::syntheticPlace;
 using urban_nav_core::StampNs;
 
-constexpr StampNs place_second = 1'000'000'000;
+constexpr StampNs kPlaceSecond = 1'000'000'000;
 
 /// Model of synthetic places, with a calibration that announces what clearly agrees.
 const PlaceModel& syntheticModel() {
   static const PlaceModel model = [] {
     std::vector<TrainingDrive> drives(3);
     for (std::uint32_t d = 0; d < 3; ++d)
-      for (std::uint32_t i = 0; i < 40; ++i) drives[d].push_back({i * place_second, syntheticPlace(1000 * d + i, 0)});
+      for (std::uint32_t i = 0; i < 40; ++i) drives[d].push_back({i * kPlaceSecond, syntheticPlace(1000 * d + i, 0)});
     TrainingOptions options;
     options.k_means.words = 300;
     PlaceModel made = trainModel(std::move(drives), options).model;
@@ -52,7 +52,7 @@ TEST(FabMap, GivesTheSameWithLooksThatAreReadBack) {
     plain.beginSession("day");
     reading.beginSession("day");
     for (std::uint32_t i = 0; i < 30; ++i) {
-      const StampNs stamp = (1000 * day + i) * place_second;
+      const StampNs stamp = (1000 * day + i) * kPlaceSecond;
       const PlaceDescription description = describeNumber(5000 + i, day);
       const PlaceOutput a = plain.process(stamp, description, 6.0 * i),
                         b = reading.process(stamp, description, 6.0 * i);
@@ -72,18 +72,18 @@ TEST(FabMap, AnnouncesARevisitAndProposesItOnce) {
   FabMap map(syntheticModel(), Parameters());
   map.beginSession("monday");
   for (std::uint32_t i = 0; i < 40; ++i) {
-    const PlaceOutput output = map.process(i * place_second, describeNumber(5000 + i, 0), 6.0 * i);
+    const PlaceOutput output = map.process(i * kPlaceSecond, describeNumber(5000 + i, 0), 6.0 * i);
     EXPECT_EQ(output.belief.knowledge, PlaceKnowledge::New) << i;
     EXPECT_TRUE(output.closures.empty()) << i;
   }
   map.beginSession("tuesday");
   for (std::uint32_t i = 10; i < 20; ++i) {
     const PlaceOutput output =
-        map.process(1000 * place_second + i * place_second, describeNumber(5000 + i, 1), 6.0 * (i - 10));
+        map.process(1000 * kPlaceSecond + i * kPlaceSecond, describeNumber(5000 + i, 1), 6.0 * (i - 10));
     EXPECT_EQ(output.belief.knowledge, PlaceKnowledge::Known) << i;
     ASSERT_EQ(output.closures.size(), 1u) << i;
     EXPECT_EQ(output.closures[0].a.session, "monday");
-    EXPECT_EQ(output.closures[0].a.stamp, i * place_second);
+    EXPECT_EQ(output.closures[0].a.stamp, i * kPlaceSecond);
     EXPECT_EQ(output.closures[0].b.session, "tuesday");
     EXPECT_EQ(output.closures[0].probability, output.belief.likeliest.at(0).probability);
     EXPECT_NEAR(output.belief.p_new + output.closures[0].probability, 1.0, 1e-12);
@@ -93,19 +93,19 @@ TEST(FabMap, AnnouncesARevisitAndProposesItOnce) {
 TEST(FabMap, APlacePassedAgainOnOneDayIsProposedForAnotherDay) {
   FabMap map(syntheticModel(), Parameters());
   map.beginSession("monday");
-  for (std::uint32_t i = 0; i < 40; ++i) map.process(i * place_second, describeNumber(5000 + i, 0), 6.0 * i);
+  for (std::uint32_t i = 0; i < 40; ++i) map.process(i * kPlaceSecond, describeNumber(5000 + i, 0), 6.0 * i);
   map.beginSession("tuesday");
   const auto drive = [&map](std::uint32_t number, std::uint32_t noise, std::uint32_t i) {
-    return map.process((1000 + i) * place_second, describeNumber(number, noise), 6.0 * i);
+    return map.process((1000 + i) * kPlaceSecond, describeNumber(number, noise), 6.0 * i);
   };
   for (std::uint32_t i = 0; i < 10; ++i) drive(5010 + i, 3, i);
   for (std::uint32_t i = 10; i < 35; ++i) drive(9000 + i, 3, i);
   const PlaceOutput output = drive(5012, 4, 35);
   ASSERT_EQ(output.closures.size(), 2u);
   EXPECT_EQ(output.closures[0].a.session, "tuesday");
-  EXPECT_EQ(output.closures[0].a.stamp, 1002 * place_second);
+  EXPECT_EQ(output.closures[0].a.stamp, 1002 * kPlaceSecond);
   EXPECT_EQ(output.closures[1].a.session, "monday");
-  EXPECT_EQ(output.closures[1].a.stamp, 12 * place_second);
+  EXPECT_EQ(output.closures[1].a.stamp, 12 * kPlaceSecond);
   EXPECT_EQ(output.belief.likeliest.size(), 1u);
 }
 
@@ -113,7 +113,7 @@ TEST(FabMap, StationaryRobotCountsOnce) {
   FabMap map(syntheticModel(), Parameters());
   map.beginSession("monday");
   for (std::uint32_t i = 0; i < 60; ++i) {
-    const PlaceOutput output = map.process(i * place_second, describeNumber(7, 0), 0.0);
+    const PlaceOutput output = map.process(i * kPlaceSecond, describeNumber(7, 0), 0.0);
     EXPECT_EQ(output.belief.is_stationary, i > 0);
     EXPECT_TRUE(output.closures.empty());
   }

@@ -121,12 +121,12 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
   options.is_monitored = options.is_paused = false;
   options.queue = nodelet_.queue_size;
   node.subscribeInput<urban_nav_msgs::GraphUpdate>(
-      urban_nav_ros::topics::graph_update, options,
+      urban_nav_ros::topics::kGraphUpdate, options,
       [](const urban_nav_msgs::GraphUpdateConstPtr& message) { return urban_nav_ros::toGraphUpdate(*message); });
   if (!nodelet_.live_constraints) return;
-  constraints_ = node.nh().advertise<urban_nav_msgs::RelativeConstraint>(urban_nav_ros::topics::map_constraints, 1000);
+  constraints_ = node.nh().advertise<urban_nav_msgs::RelativeConstraint>(urban_nav_ros::topics::kMapConstraints, 1000);
   node.subscribeInput<urban_nav_msgs::MetricClosure>(
-      urban_nav_ros::topics::metric_closure, options,
+      urban_nav_ros::topics::kMetricClosure, options,
       [](const urban_nav_msgs::MetricClosureConstPtr& message) { return urban_nav_ros::toMetricClosure(*message); });
 }
 
@@ -248,8 +248,8 @@ std::string LaserMapperStage::reset() {
 
 urban_nav_live::StageReport LaserMapperStage::report() const {
   const urban_nav_live::TopicMonitor& monitor = node_.monitor();
-  const std::string odometry = monitor.fault(urban_nav_ros::topic_groups::odometry);
-  const std::string lasers = monitor.fault(urban_nav_ros::topic_groups::lasers);
+  const std::string odometry = monitor.fault(urban_nav_ros::topic_groups::kOdometry);
+  const std::string lasers = monitor.fault(urban_nav_ros::topic_groups::kLasers);
   MapFault fault = MapFault::None;
   std::string sentence;
   const auto set = [&](MapFault as, const std::string& text) {

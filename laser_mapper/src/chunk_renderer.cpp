@@ -91,8 +91,8 @@ class ChunkGrid {
   static std::uint64_t orderKey(const Cell& cell) {
     const Tile tile = tileAt(cell);
     const auto part = [](int value, int bias) { return static_cast<std::uint64_t>(value + bias); };
-    constexpr int farthest_tile = (urban_nav_registration::kFarthestCell + kTileCells) / kTileCells;
-    return part(tile.y, farthest_tile) << 45U | part(tile.x, farthest_tile) << 32U |
+    constexpr int kFarthestTile = (urban_nav_registration::kFarthestCell + kTileCells) / kTileCells;
+    return part(tile.y, kFarthestTile) << 45U | part(tile.x, kFarthestTile) << 32U |
            part(cell.z, kMaxHeightCell + 1) << 16U | part(cell.y - tile.y * kTileCells, 0) << 8U |
            part(cell.x - tile.x * kTileCells, 0);
   }

@@ -90,9 +90,9 @@ std::string packChunkPoses(const Trajectory& T_map_base, StampNs begin, StampNs 
 }
 
 double chunkShift(const std::string& packed, const Trajectory& T_map_base, StampNs begin, StampNs max_gap) {
-  constexpr double other = std::numeric_limits<double>::infinity();
+  constexpr double kOther = std::numeric_limits<double>::infinity();
   const std::string now = packChunkPoses(T_map_base, begin, max_gap);
-  if (now.size() != packed.size() || now.size() % kPoseBytes != 0) return other;
+  if (now.size() != packed.size() || now.size() % kPoseBytes != 0) return kOther;
   urban_nav_store::ByteReader before(packed), after(now);
   const auto readPose = [](urban_nav_store::ByteReader& reader) {
     double value[7];
@@ -102,7 +102,7 @@ double chunkShift(const std::string& packed, const Trajectory& T_map_base, Stamp
   };
   double largest = 0.0;
   while (after.left() > 0) {
-    if (before.integer() != after.integer()) return other;
+    if (before.integer() != after.integer()) return kOther;
     const Pose a = readPose(before), b = readPose(after);
     largest = std::max(largest, distanceBetween(a, b) + kLever * angleBetween(a, b));
   }

@@ -89,7 +89,7 @@ std::optional<LocalPlane> LocalPlanes::fitPlane(int level, const Cell& cube) con
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const std::uint32_t number = at.table.find(keyBeside(key, {dx, dy, dz}));
-        if (number == urban_nav_registration::CellTable::none) continue;
+        if (number == urban_nav_registration::CellTable::kNone) continue;
         sums.add(at.cubes[number],
                  at.edge * Vector3f(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz)));
         ++cubes;
@@ -124,7 +124,7 @@ std::optional<LocalPlane> LocalPlanes::planeAt(int level, const Cell& cell) {
   if (level == 0) return fitPlane(level, cube);
   Level& at = levels_[static_cast<std::size_t>(level)];
   const std::uint32_t number = at.table.find(toKey(cube));
-  if (number == urban_nav_registration::CellTable::none) return fitPlane(level, cube);
+  if (number == urban_nav_registration::CellTable::kNone) return fitPlane(level, cube);
   if (at.plane_of.empty()) at.plane_of.assign(at.cubes.size(), kUnknown);
   std::int32_t& known = at.plane_of[number];
   if (known == kUnknown) {
@@ -145,7 +145,7 @@ std::optional<LocalPlane> LocalPlanes::around(const MergedCell& cell) {
 
 bool LocalPlanes::hasMoreBeams(const Cell& other, const MergedCell& cell) const {
   const std::uint32_t number = levels_[0].table.find(toKey(other));
-  if (number == urban_nav_registration::CellTable::none) return false;
+  if (number == urban_nav_registration::CellTable::kNone) return false;
   return counts_[number] > cell.count || (counts_[number] == cell.count && toKey(other) < toKey(local(cell.cell)));
 }
 
@@ -160,7 +160,7 @@ bool LocalPlanes::belongsToAnother(const MergedCell& cell, const Vector3f& posit
   for (const int step : {-1, 1}) {
     const Cell beside{own.x + (axis == 0 ? step : 0), own.y + (axis == 1 ? step : 0), own.z + (axis == 2 ? step : 0)};
     const std::uint32_t number = levels_[0].table.find(toKey(beside));
-    if (number == urban_nav_registration::CellTable::none || !hasMoreBeams(beside, cell)) continue;
+    if (number == urban_nav_registration::CellTable::kNone || !hasMoreBeams(beside, cell)) continue;
     const Moments& moments = levels_[0].cubes[number];
     const Vector3f mean = voxel_ * Vector3f(static_cast<float>(beside.x) + 0.5F, static_cast<float>(beside.y) + 0.5F,
                                             static_cast<float>(beside.z) + 0.5F) +

@@ -24,8 +24,8 @@ constexpr std::size_t kBatch = 8;      // chunks read before they are rendered, 
 constexpr double kLongestPause = 0.5;  // s between scans of a laser that runs
 
 int laserNumber(const std::string& frame, std::size_t index) {
-  if (frame == urban_nav_core::frames::laser_left) return 0;
-  if (frame == urban_nav_core::frames::laser_right) return 1;
+  if (frame == urban_nav_core::frames::kLaserLeft) return 0;
+  if (frame == urban_nav_core::frames::kLaserRight) return 1;
   return static_cast<int>(2 + index);
 }
 

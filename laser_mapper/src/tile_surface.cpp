@@ -63,7 +63,7 @@ class SeenByLasers {
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
           if (table_.find(urban_nav_registration::keyBeside(key(cell), {dx, dy, dz})) !=
-              urban_nav_registration::CellTable::none)
+              urban_nav_registration::CellTable::kNone)
             return true;
     return false;
   }

@@ -25,7 +25,7 @@ using urban_nav_ros::InfoInput;
 namespace {
 
 // A reset waits for the candidates that wait, a caller of the service no longer than this.
-constexpr std::chrono::seconds reset_timeout{25};
+constexpr std::chrono::seconds kResetTimeout{25};
 
 StoreWriterLink::Options storeOptions() {
   StoreWriterLink::Options options;
@@ -99,7 +99,7 @@ void LoopMetricStage::subscribeCandidates() {
   options.queue = nodelet_.queue_size;
   options.is_monitored = false;
   node_.subscribe<urban_nav_msgs::TopologicalClosure>(
-      urban_nav_ros::topics::place_closure, options, [this](const auto& message) {
+      urban_nav_ros::topics::kPlaceClosure, options, [this](const auto& message) {
         if (const auto closure = urban_nav_ros::toTopologicalClosure(*message)) {
           ++candidates_;
           return verifier_->push(ClosureVerifier::Candidate{*closure, std::chrono::steady_clock::now()});
@@ -121,7 +121,7 @@ bool LoopMetricStage::idle() {
 
 std::string LoopMetricStage::reset() {
   recorder_->end();
-  if (!verifier_->finishSession(reset_timeout))
+  if (!verifier_->finishSession(kResetTimeout))
     throw urban_nav_core::UserError("", "candidates are still being measured; ask again", "");
   return "waiting candidates have their verdicts, the next step of odometry begins a new session";
 }
@@ -154,9 +154,9 @@ LoopsState LoopMetricStage::state() const {
   state.verifier = verifier_->counts();
   state.store = store_->state();
   const urban_nav_live::TopicMonitor& monitor = node_.monitor();
-  state.odometry_fault = monitor.fault(urban_nav_ros::topic_groups::odometry);
-  state.image_fault = monitor.fault(urban_nav_ros::topic_groups::images);
-  state.laser_fault = monitor.fault(urban_nav_ros::topic_groups::lasers);
+  state.odometry_fault = monitor.fault(urban_nav_ros::topic_groups::kOdometry);
+  state.image_fault = monitor.fault(urban_nav_ros::topic_groups::kImages);
+  state.laser_fault = monitor.fault(urban_nav_ros::topic_groups::kLasers);
   state.camera_fault = inputs_->sessions().fault();
   state.laser_pose_fault = inputs_->laserFault();
   state.camera = inputs_->mountingFault();

@@ -20,13 +20,13 @@ namespace loop_metric {
 using urban_nav_registration::CloudPictureOptions;
 using urban_nav_registration::drawClouds;
 using urban_nav_registration::drawMatches;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::MatchPictureOptions;
 using urban_nav_registration::Picture;
 
 namespace {
 
-constexpr double metres_per_radian = 10.0;  // of the covariance for display: what is matched is some ten metres away
+constexpr double kMetresPerRadian = 10.0;  // of the covariance for display: what is matched is some ten metres away
 
 std::string makeTitle(const urban_nav_core::PoseRef& at) {
   return (at.session.empty() ? "" : at.session + " ") + urban_nav_core::printStamp(at.stamp) + " s";
@@ -59,11 +59,11 @@ Picture drawAlignment(const ClosureVerifier::Verdict& verdict) {
 
 Publisher::Publisher(ros::NodeHandle& nh, std::string base_frame)
     : base_frame_(std::move(base_frame)),
-      metric_(nh.advertise<urban_nav_msgs::MetricClosure>(urban_nav_ros::topics::metric_closure, 1000)),
+      metric_(nh.advertise<urban_nav_msgs::MetricClosure>(urban_nav_ros::topics::kMetricClosure, 1000)),
       matches_(nh.advertise<sensor_msgs::Image>("loops/matches", 5)) {}
 
 void Publisher::publish(const ClosureVerifier::Verdict& verdict) {
-  metric_.publish(urban_nav_ros::toMetricClosureMessage(verdict.metric, base_frame_, metres_per_radian));
+  metric_.publish(urban_nav_ros::toMetricClosureMessage(verdict.metric, base_frame_, kMetresPerRadian));
   if (matches_.getNumSubscribers() > 0 && (verdict.closure.icp || !verdict.closure.stereo.empty()))
     publishPicture(verdict);
 }
@@ -77,7 +77,7 @@ void Publisher::publishPicture(const ClosureVerifier::Verdict& verdict) {
   }
   sensor_msgs::Image message;
   message.header.stamp = urban_nav_ros::toRosTime(verdict.metric.b.stamp);
-  message.header.frame_id = verdict.closure.icp ? base_frame_ : keyframe_camera;
+  message.header.frame_id = verdict.closure.icp ? base_frame_ : kKeyframeCamera;
   message.width = static_cast<std::uint32_t>(picture.width);
   message.height = static_cast<std::uint32_t>(picture.height);
   message.encoding = sensor_msgs::image_encodings::BGR8;

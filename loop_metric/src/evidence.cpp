@@ -22,11 +22,11 @@ using urban_nav_registration::StereoClosure;
 
 namespace {
 
-constexpr std::size_t most_pixels = 100;
+constexpr std::size_t kMostPixels = 100;
 // One header for all kinds of lines, so that any program reads the table: what a kind has no use for is empty.
-constexpr const char* header =
+constexpr const char* kHeader =
     "kind,name,value,threshold,at_least,passed,session_a,stamp_a_ns,session_b,stamp_b_ns,text\n";
-constexpr std::size_t columns = 11;
+constexpr std::size_t kColumns = 11;
 
 using Cells = std::vector<std::string>;
 
@@ -34,7 +34,7 @@ using Cells = std::vector<std::string>;
 std::string cell(double value) { return printNumber(std::clamp(value == value ? value : 1e300, -1e300, 1e300)); }
 
 void print(std::string& text, Cells cells) {
-  cells.resize(columns);
+  cells.resize(kColumns);
   text += urban_nav_core::printCsvRow(cells);
 }
 
@@ -60,7 +60,7 @@ Evidence::Try toTry(const StereoAttempt& made) {
   its.reason = toString(result.reason);
   its.sentence = result.sentence;
   its.tests = result.tests;
-  const std::size_t step = 1 + result.pixels.size() / most_pixels;
+  const std::size_t step = 1 + result.pixels.size() / kMostPixels;
   for (std::size_t i = 0; i < result.pixels.size(); i += step) its.pixels.push_back(result.pixels[i]);
   return its;
 }
@@ -83,7 +83,7 @@ Evidence::Try toTry(const Alignment& alignment, const LoopClosure& closure) {
 class Reader {
  public:
   explicit Reader(std::string_view text) : table_(CsvTable::parse(text, "evidence")) {
-    if (table_.header().size() != columns) refuse(0, "has other columns");
+    if (table_.header().size() != kColumns) refuse(0, "has other columns");
   }
 
   Evidence read() {
@@ -166,7 +166,7 @@ Evidence collectEvidence(const LoopClosure& closure) {
 }
 
 std::string printEvidence(const Evidence& evidence) {
-  std::string text = header;
+  std::string text = kHeader;
   for (const Evidence::Try& each : evidence.tries) {
     print(text, {"try", each.method, "", "", "", "", each.keyframe_a.session, std::to_string(each.keyframe_a.stamp),
                  each.keyframe_b.session, std::to_string(each.keyframe_b.stamp)});
@@ -191,7 +191,7 @@ Evidence parseEvidence(std::string_view text) {
 }
 
 std::string_view evidenceIn(std::string_view text) {
-  const std::string_view begin = header;
+  const std::string_view begin = kHeader;
   if (text.substr(0, begin.size()) == begin) return text;
   const std::size_t place = text.find("\n" + std::string(begin));
   return place == std::string_view::npos ? std::string_view() : text.substr(place + 1);

@@ -32,7 +32,7 @@ using urban_nav_registration::StereoClosure;
 
 namespace {
 
-constexpr std::size_t kept_matches = 8;  // some 50 kB each
+constexpr std::size_t kKeptMatches = 8;  // some 50 kB each
 
 std::string closureReason(const char* format, double value, double threshold) {
   std::array<char, 200> text{};
@@ -220,7 +220,7 @@ const StereoClosure& LoopMetric::match(const NearbyKeyframe& a, const NearbyKeyf
   for (const StereoAttempt& known : matched_)
     if (known.keyframe_a.at == a.at && known.keyframe_b.at == b.at) return known.result;
   matched_.push_front({a, b, matcher_.match(place_data.keyframe(a.at), place_data.keyframe(b.at))});
-  if (matched_.size() > kept_matches) matched_.pop_back();
+  if (matched_.size() > kKeptMatches) matched_.pop_back();
   return matched_.front().result;
 }
 

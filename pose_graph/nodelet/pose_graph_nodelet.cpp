@@ -106,15 +106,15 @@ void PoseGraphStage::subscribe() {
   steady.queue = occasional.queue = nodelet_.queue_size;
   occasional.is_monitored = false;
   node_.subscribeInput<urban_nav_msgs::RelativePose>(
-      topics::vo_relative_pose, steady, [](const auto& message) { return urban_nav_ros::toRelativePose(*message); });
+      topics::kVoRelativePose, steady, [](const auto& message) { return urban_nav_ros::toRelativePose(*message); });
   node_.subscribeInput<urban_nav_msgs::MetricClosure>(
-      topics::metric_closure, occasional, [](const auto& message) { return urban_nav_ros::toMetricClosure(*message); });
+      topics::kMetricClosure, occasional, [](const auto& message) { return urban_nav_ros::toMetricClosure(*message); });
   node_.subscribeInput<urban_nav_msgs::RelativeConstraint>(
-      topics::map_constraints, occasional,
+      topics::kMapConstraints, occasional,
       [](const auto& message) { return urban_nav_ros::toRelativeConstraint(*message); });
   TopicOptions always = occasional;
   always.is_paused = false;
-  node_.subscribe<nav_msgs::Odometry>(topics::vo_odometry, always, [this](const nav_msgs::OdometryConstPtr& message) {
+  node_.subscribe<nav_msgs::Odometry>(topics::kVoOdometry, always, [this](const nav_msgs::OdometryConstPtr& message) {
     const StampNs stamp = urban_nav_ros::toStampNs(message->header.stamp);
     if (const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose))
       node_.push(urban_nav_core::StampedPose{stamp, *T_odom_base});
@@ -129,27 +129,27 @@ void PoseGraphStage::subscribeGps() {
   TopicOptions options;
   options.is_monitored = options.is_paused = false;
   options.queue = nodelet_.queue_size;
-  node_.subscribe<sensor_msgs::NavSatFix>(topics::gps_fix, options,
+  node_.subscribe<sensor_msgs::NavSatFix>(topics::kGpsFix, options,
                                           [this](const auto& message) { pushAll(fixes_->add(*message)); });
 }
 
 void PoseGraphStage::subscribeGravity() {
   TopicOptions options;
   options.is_monitored = options.is_paused = false;
-  node_.subscribe<tf2_msgs::TFMessage>(topics::static_transforms, options, [this](const auto& message) {
+  node_.subscribe<tf2_msgs::TFMessage>(topics::kStaticTransforms, options, [this](const auto& message) {
     pushAll(accelerometer_->add(*message));
     pushAll(ground_->add(*message));
     if (fixes_) pushAll(fixes_->add(*message));
   });
   options.queue = nodelet_.queue_size;
-  node_.subscribe<sensor_msgs::Imu>(topics::imu, options, [this](const auto& message) {
+  node_.subscribe<sensor_msgs::Imu>(topics::kImu, options, [this](const auto& message) {
     if (pushAll(accelerometer_->add(*message))) ground_subscriber_.shutdown();
   });
   if (!nodelet_.ground) return;
   const boost::function<void(const urban_nav_msgs::GroundPlaneConstPtr&)> add =
       [this](const urban_nav_msgs::GroundPlaneConstPtr& message) { pushAll(ground_->add(*message)); };
   ground_subscriber_ = node_.nh().subscribe<urban_nav_msgs::GroundPlane>(
-      topics::ground_plane, static_cast<std::uint32_t>(nodelet_.queue_size), add);
+      topics::kGroundPlane, static_cast<std::uint32_t>(nodelet_.queue_size), add);
 }
 
 GraphWorker::Listener PoseGraphStage::listener() {

@@ -44,11 +44,11 @@ urban_nav_msgs::GraphState toStateMessage(const Figures& figures, double relax_m
 
 Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
     : parameters_(parameters),
-      update_(nh.advertise<urban_nav_msgs::GraphUpdate>(topics::graph_update, 100)),
-      jump_(nh.advertise<urban_nav_msgs::MapJump>(topics::graph_jump, 100)),
-      path_(nh.advertise<nav_msgs::Path>(topics::graph_path, 1, true)),
-      state_(nh.advertise<urban_nav_msgs::GraphState>(topics::graph_state, 1, true)),
-      markers_(nh.advertise<visualization_msgs::MarkerArray>(topics::graph_markers, 1, true)),
+      update_(nh.advertise<urban_nav_msgs::GraphUpdate>(topics::kGraphUpdate, 100)),
+      jump_(nh.advertise<urban_nav_msgs::MapJump>(topics::kGraphJump, 100)),
+      path_(nh.advertise<nav_msgs::Path>(topics::kGraphPath, 1, true)),
+      state_(nh.advertise<urban_nav_msgs::GraphState>(topics::kGraphState, 1, true)),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>(topics::kGraphMarkers, 1, true)),
       map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
 
 void Publisher::sendTransform(StampNs stamp) {

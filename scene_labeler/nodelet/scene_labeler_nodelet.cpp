@@ -33,12 +33,12 @@ namespace scene_labeler {
 
 namespace {
 
-constexpr const char* image_topic = "labels/image";
-constexpr const char* cloud_topic = "labels/cloud";
-constexpr const char* click_topic = "/clicked_point";  // of the tool publish_point of rviz
-constexpr std::array<int, 2> side_cameras = {4, 1};    // of the panoramic head, left and right
-constexpr double camera_timeout = 5.0;                 // s
-constexpr std::chrono::milliseconds training_poll{20};
+constexpr const char* kImageTopic = "labels/image";
+constexpr const char* kCloudTopic = "labels/cloud";
+constexpr const char* kClickTopic = "/clicked_point";  // of the tool publish_point of rviz
+constexpr std::array<int, 2> kSideCameras = {4, 1};    // of the panoramic head, left and right
+constexpr double kCameraTimeout = 5.0;                 // s
+constexpr std::chrono::milliseconds kTrainingPoll{20};
 
 struct CameraImage {
   std::size_t side = 0;
@@ -123,8 +123,8 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
   labels_ = std::make_unique<LiveLabels>(parameters, readNodeletModel(parameters.model), outputs());
-  image_ = node.nh().advertise<sensor_msgs::Image>(image_topic, 10);
-  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(cloud_topic, 10);
+  image_ = node.nh().advertise<sensor_msgs::Image>(kImageTopic, 10);
+  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 10);
   subscribeRobot(node, nodelet_.queue_size, false, false, true);
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
     if (nodelet_.compressed) subscribeCamera<sensor_msgs::CompressedImage>(side);
@@ -138,7 +138,7 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
         parameters.class_topic, options,
         [](const sensor_msgs::ImageConstPtr& message) { return Input(ClassImage{message}); });
   node.subscribeInput<geometry_msgs::PointStamped>(
-      click_topic, options, [](const geometry_msgs::PointStampedConstPtr& message) { return Input(message); });
+      kClickTopic, options, [](const geometry_msgs::PointStampedConstPtr& message) { return Input(message); });
   advertiseServices();
 }
 
@@ -178,9 +178,9 @@ void SceneLabelerStage::adoptTaughtModel() {
 
 template <typename Message>
 void SceneLabelerStage::subscribeCamera(std::size_t side) {
-  const std::string camera = "ladybug/camera" + std::to_string(side_cameras[side]);
+  const std::string camera = "ladybug/camera" + std::to_string(kSideCameras[side]);
   urban_nav_ros::TopicOptions options;
-  options.timeout = camera_timeout;
+  options.timeout = kCameraTimeout;
   options.queue = 20;
   options.is_monitored = false;  // without images, returns are labelled by shape
   node_.subscribeInput<Message>(camera + "/image_raw" + (nodelet_.compressed ? "/compressed" : ""), options,
@@ -272,7 +272,7 @@ bool SceneLabelerStage::idle() {
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, labels_->newest());
   if (!labels_->teaching().isTraining()) return false;
-  std::this_thread::sleep_for(training_poll);  // progress and the taught model do not wait for the next input
+  std::this_thread::sleep_for(kTrainingPoll);  // progress and the taught model do not wait for the next input
   return true;
 }
 
@@ -283,8 +283,8 @@ std::string SceneLabelerStage::reset() {
 }
 
 urban_nav_live::StageReport SceneLabelerStage::report() const {
-  const std::string odometry = node_.monitor().fault(urban_nav_ros::topic_groups::odometry);
-  const std::string lasers = node_.monitor().fault(urban_nav_ros::topic_groups::lasers);
+  const std::string odometry = node_.monitor().fault(urban_nav_ros::topic_groups::kOdometry);
+  const std::string lasers = node_.monitor().fault(urban_nav_ros::topic_groups::kLasers);
   urban_nav_live::StageReport report;
   const auto set = [&](int reason, const char* reason_name, const std::string& sentence) {
     if (sentence.empty() || report.status.reason != 0 || node_.gate().isPaused()) return;

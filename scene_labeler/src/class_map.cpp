@@ -23,7 +23,7 @@ ClassMap::ClassMap(const std::string& path) : path_(path) {
 
 std::optional<SceneClass> ClassMap::classOf(std::int64_t label) const {
   if (path_.empty()) {
-    const bool is_known = (label >= 0 && label < static_cast<std::int64_t>(class_count)) || label == 255;
+    const bool is_known = (label >= 0 && label < static_cast<std::int64_t>(kClassCount)) || label == 255;
     return is_known ? std::optional(static_cast<SceneClass>(label)) : std::nullopt;
   }
   const auto found = classes_.find(label);

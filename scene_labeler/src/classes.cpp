@@ -8,23 +8,23 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::array<const char*, class_count> names_by_index = {
+constexpr std::array<const char*, kClassCount> kNamesByIndex = {
     "other", "grass", "paved", "dirt_path", "textured_wall", "smooth_wall", "foliage", "vehicle", "wall"};
 
 }  // namespace
 
 const char* toString(SceneClass scene_class) {
-  return scene_class == SceneClass::None ? "none" : names_by_index[toIndex(scene_class)];
+  return scene_class == SceneClass::None ? "none" : kNamesByIndex[toIndex(scene_class)];
 }
 
 std::optional<SceneClass> classFromName(std::string_view name) {
-  for (std::size_t i = 0; i < class_count; ++i)
-    if (name == names_by_index[i]) return static_cast<SceneClass>(i);
+  for (std::size_t i = 0; i < kClassCount; ++i)
+    if (name == kNamesByIndex[i]) return static_cast<SceneClass>(i);
   return std::nullopt;
 }
 
 std::string classNames() {
-  return urban_nav_core::joined(std::vector<std::string>(names_by_index.begin(), names_by_index.end()));
+  return urban_nav_core::joined(std::vector<std::string>(kNamesByIndex.begin(), kNamesByIndex.end()));
 }
 
 SceneClass withOneWall(SceneClass scene_class) {

@@ -35,8 +35,8 @@ ViewCamera cameraOfProjection(const Eigen::Matrix<double, 3, 4>& projection, con
 }  // namespace
 
 void projectScene(const Eigen::Matrix<double, 3, 4>& projection, Scene& scene) {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  scene.view.pixels.assign(scene.points.size(), {nan, nan});
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  scene.view.pixels.assign(scene.points.size(), {kNan, kNan});
   scene.view.depths.assign(scene.points.size(), 0.0F);
   const double length = projection.row(2).head<3>().norm();
   const Eigen::Matrix<double, 3, 4> scaled = projection / (length > 0.0 ? length : 1.0);
@@ -51,15 +51,15 @@ void projectScene(const Eigen::Matrix<double, 3, 4>& projection, Scene& scene) {
 }
 
 bool isUsable(const cv::Mat& image) {
-  constexpr int black = 8, saturated = 250;  // of 255, brightest channel
-  constexpr int step = 7;                    // every 49th pixel is enough
+  constexpr int kBlack = 8, kSaturated = 250;  // of 255, brightest channel
+  constexpr int kStep = 7;                     // every 49th pixel is enough
   std::size_t seen = 0, usable = 0;
-  for (int y = 0; y < image.rows; y += step)
-    for (int x = 0; x < image.cols; x += step) {
+  for (int y = 0; y < image.rows; y += kStep)
+    for (int x = 0; x < image.cols; x += kStep) {
       const cv::Vec3b& colour = image.at<cv::Vec3b>(y, x);
       const int brightest = std::max({colour[0], colour[1], colour[2]});
       ++seen;
-      usable += brightest > black && brightest < saturated ? 1U : 0U;
+      usable += brightest > kBlack && brightest < kSaturated ? 1U : 0U;
     }
   return seen > 0 && 10 * usable >= seen;
 }

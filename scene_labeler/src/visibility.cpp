@@ -12,10 +12,10 @@ namespace {
 
 using urban_nav_registration::ImagePoint;
 
-constexpr double return_spacing = 0.05;   // m, between the returns of a scene
-constexpr double beam_spacing = 0.01745;  // rad: 1 deg, of the LMS291 (its data sheet)
+constexpr double kReturnSpacing = 0.05;   // m, between the returns of a scene
+constexpr double kBeamSpacing = 0.01745;  // rad: 1 deg, of the LMS291 (its data sheet)
 /// Laser and camera see a scene from different places and at different times.
-constexpr urban_nav_registration::DepthTolerance scene_tolerance{0.5F, 0.5F, 0.1F};
+constexpr urban_nav_registration::DepthTolerance kSceneTolerance{0.5F, 0.5F, 0.1F};
 
 bool isInImage(const SceneView& view, std::size_t i) {
   const Eigen::Vector2f& pixel = view.pixels[i];
@@ -36,11 +36,11 @@ void findVisible(const ViewCamera& camera, Scene& scene) {
     return ImagePoint{static_cast<double>(view.pixels[i].x()), static_cast<double>(view.pixels[i].y()), p_cam.norm()};
   };
   const std::vector<Eigen::Vector3f> normals = measureNormals(scene.points);
-  urban_nav_registration::DepthMap map(camera.pinhole, scene_tolerance);
+  urban_nav_registration::DepthMap map(camera.pinhole, kSceneTolerance);
   for (std::size_t i = 0; i < scene.points.size(); ++i)
     if (isInImage(view, i)) {
       const ImagePoint place = toPlace(i, toCamera(i));
-      map.add(place, std::max(return_spacing, beam_spacing * place.depth));
+      map.add(place, std::max(kReturnSpacing, kBeamSpacing * place.depth));
     }
   urban_nav_core::forEach(scene.points.size(), 2048, [&](std::size_t i) {
     if (!isInImage(view, i)) return;

@@ -20,7 +20,7 @@ using segway_drivers::TimeNs;
 using urban_nav_core::testing::cell;
 using Delay = std::function<double(double, std::mt19937&)>;
 
-constexpr double duration = 240.0, least_delay = 1e-3;  // s
+constexpr double kDuration = 240.0, kLeastDelay = 1e-3;  // s
 
 struct DelayCase {
   std::string name;
@@ -35,7 +35,7 @@ struct StampErrors {
 };
 
 double longTail(double, std::mt19937& random) {
-  return least_delay + std::min(std::exponential_distribution<double>(1.0 / 3e-3)(random), 19e-3);
+  return kLeastDelay + std::min(std::exponential_distribution<double>(1.0 / 3e-3)(random), 19e-3);
 }
 
 double uniform(double, std::mt19937& random) { return std::uniform_real_distribution<double>(1e-3, 20e-3)(random); }
@@ -51,12 +51,12 @@ void runTrial(const DelayCase& which, double period, unsigned seed, StampErrors&
   options.period = period;
   segway_drivers::ClockFilter filter(options);
   double last = 0.0;
-  for (int i = 0; i * period < duration; ++i) {
+  for (int i = 0; i * period < kDuration; ++i) {
     const double t = i * period;
     last = std::max(last, t + which.delay(t, random));
     const auto estimate = filter.add(t * (1.0 + skew), static_cast<TimeNs>(std::llround(1e9 * last)));
     if (!estimate.time || t < which.known) continue;
-    const double error = std::abs(1e-9 * static_cast<double>(*estimate.time) - t - least_delay);
+    const double error = std::abs(1e-9 * static_cast<double>(*estimate.time) - t - kLeastDelay);
     errors.early = std::max(errors.early, error);
     if (t > which.settled) errors.settled = std::max(errors.settled, error);
     ++errors.judged;

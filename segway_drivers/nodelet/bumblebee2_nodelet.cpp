@@ -24,7 +24,7 @@ namespace frames = urban_nav_core::frames;
 
 namespace {
 
-constexpr TimeNs stereo_stalled = 500'000'000;  // ns
+constexpr TimeNs kStereoStalled = 500'000'000;  // ns
 
 const char* encodingOfMosaic(MosaicPattern pattern) {
   switch (pattern) {
@@ -50,7 +50,7 @@ class Bumblebee2Nodelet : public CameraNodelet {
   std::string model() const override { return "Bumblebee2"; }
   FrameReader readBag(const std::string& bag) override { return readStereoFrames(bag); }
   SimCameraOptions::Model simulatedModel() const override { return SimCameraOptions::Model::Bumblebee2; }
-  TimeNs stalledAfter() const override { return stereo_stalled; }
+  TimeNs stalledAfter() const override { return kStereoStalled; }
   bool start(std::string& error) override { return camera_->start(error); }
   const std::string& identity() const override { return camera_->identity(); }
   const DeviceCounters& counters() const override { return camera_->counters(); }
@@ -61,11 +61,11 @@ class Bumblebee2Nodelet : public CameraNodelet {
     if (rectified) loadCalibration();
     else loadInfos();
     ros::NodeHandle& handle = getNodeHandle();
-    left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::left_rectified : topics::left_image, 10);
-    right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::right_rectified : topics::right_image, 10);
+    left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kLeftRectified : topics::kLeftImage, 10);
+    right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kRightRectified : topics::kRightImage, 10);
     if (!left_info_) return;
-    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::left_info, 10);
-    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::right_info, 10);
+    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kLeftInfo, 10);
+    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kRightInfo, 10);
   }
 
   void makeCamera(FrameSource& source) override {
@@ -79,8 +79,8 @@ class Bumblebee2Nodelet : public CameraNodelet {
     const std::string& file = parameters().bumblebee2_calibration;
     if (file.empty()) throw urban_nav_core::UserError("~calibration", "empty", "the file of the factory calibration");
     const FactoryCalibration calibration = parseFactoryCalibration(urban_nav_core::readTextFile(file), file);
-    left_map_ = makeRectifyingMap(calibration.left, {bb2_width, bb2_height});
-    right_map_ = makeRectifyingMap(calibration.right, {bb2_width, bb2_height});
+    left_map_ = makeRectifyingMap(calibration.left, {kBb2Width, kBb2Height});
+    right_map_ = makeRectifyingMap(calibration.right, {kBb2Width, kBb2Height});
     left_info_ = makeInfo(calibration, 0.0);
     right_info_ = makeInfo(calibration, calibration.baseline);
   }
@@ -106,13 +106,13 @@ class Bumblebee2Nodelet : public CameraNodelet {
     const auto pair = camera_->next(wait);
     if (!pair) return;
     const ros::Time stamp = toRos(pair->stamp);
-    publishImage(pair->frame.left, left_map_, stamp, frames::stereo_left, left_);
-    publishImage(pair->frame.right, right_map_, stamp, frames::stereo_right, right_);
-    publishTimeReference(frames::stereo_left, pair->arrival, *pair->frame.bus_time);
+    publishImage(pair->frame.left, left_map_, stamp, frames::kStereoLeft, left_);
+    publishImage(pair->frame.right, right_map_, stamp, frames::kStereoRight, right_);
+    publishTimeReference(frames::kStereoLeft, pair->arrival, *pair->frame.bus_time);
     if (!left_info_) return;
     left_info_->header.stamp = right_info_->header.stamp = stamp;
-    left_info_->header.frame_id = frames::stereo_left;
-    right_info_->header.frame_id = frames::stereo_right;
+    left_info_->header.frame_id = frames::kStereoLeft;
+    right_info_->header.frame_id = frames::kStereoRight;
     left_infos_.publish(*left_info_);
     right_infos_.publish(*right_info_);
   }
@@ -134,12 +134,12 @@ class Bumblebee2Nodelet : public CameraNodelet {
 
   static sensor_msgs::CameraInfo makeInfo(const FactoryCalibration& calibration, double baseline) {
     sensor_msgs::CameraInfo info;
-    info.width = bb2_width;
-    info.height = bb2_height;
+    info.width = kBb2Width;
+    info.height = kBb2Height;
     info.distortion_model = "plumb_bob";
     info.D.assign(5, 0.0);
-    const double fx = calibration.fx * bb2_width, fy = calibration.fy * bb2_height;
-    const double cx = calibration.cx * bb2_width, cy = calibration.cy * bb2_height;
+    const double fx = calibration.fx * kBb2Width, fy = calibration.fy * kBb2Height;
+    const double cx = calibration.cx * kBb2Width, cy = calibration.cy * kBb2Height;
     info.K = {fx, 0, cx, 0, fy, cy, 0, 0, 1};
     info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     info.P = {fx, 0, cx, -fx * baseline, 0, fy, cy, 0, 0, 0, 1, 0};

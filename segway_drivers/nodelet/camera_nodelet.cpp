@@ -16,9 +16,9 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs session_lead = 4'000'000'000;                                         // ns
-constexpr TimeNs frame_wait = 100'000'000;                                             // ns
-constexpr TimeNs least_camera_pause = 200'000'000, most_camera_pause = 2'000'000'000;  // ns
+constexpr TimeNs kSessionLead = 4'000'000'000;                                       // ns
+constexpr TimeNs kFrameWait = 100'000'000;                                           // ns
+constexpr TimeNs kLeastCameraPause = 200'000'000, kMostCameraPause = 2'000'000'000;  // ns
 
 }  // namespace
 
@@ -64,7 +64,7 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   options.model = simulatedModel();
   try {
     if (!nodelet_.session_begin.empty())
-      options.begin = urban_nav_core::agreeOnNumber(nodelet_.session_begin, steadyTime() + session_lead);
+      options.begin = urban_nav_core::agreeOnNumber(nodelet_.session_begin, steadyTime() + kSessionLead);
     return std::make_unique<SimSource>(readBag(nodelet_.port), options, realSimClock());
   } catch (const urban_nav_core::UserError& no_pictures) {
     error = no_pictures.what();
@@ -73,16 +73,16 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
 }
 
 void CameraNodelet::run() {
-  TimeNs wait = least_camera_pause;
+  TimeNs wait = kLeastCameraPause;
   while (!stop_) {
     std::string error;
     if (!start(error)) {
       setState(openings_ == 0 ? DriverState::Absent : DriverState::Lost, error);
       pause(wait);
-      wait = std::min(wait + least_camera_pause, most_camera_pause);
+      wait = std::min(wait + kLeastCameraPause, kMostCameraPause);
       continue;
     }
-    wait = least_camera_pause;
+    wait = kLeastCameraPause;
     setState(DriverState::Configuring, "");
     stream(*source_);
     source_->stop();
@@ -96,7 +96,7 @@ void CameraNodelet::stream(FrameSource& source) {
   bool streams = false;
   while (!stop_ && !source.isGone() && steadyTime() - last < stalledAfter()) {
     const std::int64_t frames = counters().frames;
-    step(frame_wait);
+    step(kFrameWait);
     if (counters().frames != frames) {
       last = steadyTime();
       if (!std::exchange(streams, true)) ++openings_;

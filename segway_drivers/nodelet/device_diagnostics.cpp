@@ -7,11 +7,11 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr unsigned char level_ok = 0, level_warning = 1, level_error = 2;
+constexpr unsigned char kLevelOk = 0, kLevelWarning = 1, kLevelError = 2;
 
 unsigned char toLevel(DriverState state) {
-  if (state == DriverState::Streaming) return level_ok;
-  return state == DriverState::Absent || state == DriverState::Lost ? level_error : level_warning;
+  if (state == DriverState::Streaming) return kLevelOk;
+  return state == DriverState::Absent || state == DriverState::Lost ? kLevelError : kLevelWarning;
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs reader_wait = 2'000'000;        // ns
-constexpr TimeNs snapshot_period = 100'000'000;  // ns, between updates of what the diagnostics show
+constexpr TimeNs kReaderWait = 2'000'000;        // ns
+constexpr TimeNs kSnapshotPeriod = 100'000'000;  // ns, between updates of what the diagnostics show
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void DriverNodelet::run() {
   while (!stop_) {
     const TimeNs now = steadyTime();
     beforeStep(now);
-    loop.step(reader_wait);
+    loop.step(kReaderWait);
     if (const TimeNs step = clock_.follow(); step != 0)
       NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(step / 1'000'000));
     for (const DriverEvent& event : driver_->takeEvents()) {
@@ -67,7 +67,7 @@ void DriverNodelet::run() {
       last_warning_ = event.text;
     }
     if (now < next_snapshot) continue;
-    next_snapshot = now + snapshot_period;
+    next_snapshot = now + kSnapshotPeriod;
     takeSnapshot(loop.remark());
   }
 }

@@ -13,8 +13,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double gps_radian = 3.14159265358979323846 / 180.0;
-constexpr double least_speed = 0.5;  // m/s, below which the course is noise
+constexpr double kGpsRadian = 3.14159265358979323846 / 180.0;
+constexpr double kLeastSpeed = 0.5;  // m/s, below which the course is noise
 
 sensor_msgs::NavSatFix toNavSatFix(const GpsFix& fix) {
   sensor_msgs::NavSatFix message;
@@ -60,11 +60,11 @@ class GpsNodelet : public DriverNodelet {
     message.header.stamp = toRos(*stamp);
     message.header.frame_id = frame_;
     publish([this, message] { fix_.publish(message); });
-    if (fix.mode == GpsFix::Mode::None || !fix.speed || !fix.track || *fix.speed < least_speed) return;
+    if (fix.mode == GpsFix::Mode::None || !fix.speed || !fix.track || *fix.speed < kLeastSpeed) return;
     geometry_msgs::TwistStamped velocity;
     velocity.header = message.header;
-    velocity.twist.linear.x = *fix.speed * std::sin(gps_radian * *fix.track);
-    velocity.twist.linear.y = *fix.speed * std::cos(gps_radian * *fix.track);
+    velocity.twist.linear.x = *fix.speed * std::sin(kGpsRadian * *fix.track);
+    velocity.twist.linear.y = *fix.speed * std::cos(kGpsRadian * *fix.track);
     velocity.twist.linear.z = fix.climb.value_or(0.0);
     publish([this, velocity] { velocity_.publish(velocity); });
   }

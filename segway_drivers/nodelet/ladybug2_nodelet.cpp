@@ -18,9 +18,9 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs panorama_stalled = 2'500'000'000;  // ns, five periods at 2 Hz
-constexpr int colour_quality = 90;
-constexpr std::size_t ring_cameras = 5;
+constexpr TimeNs kPanoramaStalled = 2'500'000'000;  // ns, five periods at 2 Hz
+constexpr int kColourQuality = 90;
+constexpr std::size_t kRingCameras = 5;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ class Ladybug2Nodelet : public CameraNodelet {
   std::string model() const override { return "Compressor"; }
   FrameReader readBag(const std::string& bag) override { return readLadybugFrames(bag); }
   SimCameraOptions::Model simulatedModel() const override { return SimCameraOptions::Model::Ladybug2; }
-  TimeNs stalledAfter() const override { return panorama_stalled; }
+  TimeNs stalledAfter() const override { return kPanoramaStalled; }
   bool start(std::string& error) override { return camera_->start(error); }
   const std::string& identity() const override { return camera_->identity(); }
   const DeviceCounters& counters() const override { return camera_->counters(); }
@@ -44,7 +44,7 @@ class Ladybug2Nodelet : public CameraNodelet {
   void prepare() override {
     ros::NodeHandle& handle = getNodeHandle();
     raw_ = handle.advertise<urban_nav_msgs::RawFrame>("ladybug/raw", 10);
-    for (std::size_t i = 0; i < ring_cameras; ++i) {
+    for (std::size_t i = 0; i < kRingCameras; ++i) {
       const std::string topic = "ladybug/camera" + std::to_string(i) + "/image_raw";
       images_[i] = handle.advertise<sensor_msgs::Image>(topic, 5);
       compressed_[i] = handle.advertise<sensor_msgs::CompressedImage>(topic + "/compressed", 5);
@@ -78,7 +78,7 @@ class Ladybug2Nodelet : public CameraNodelet {
 
   void publishColour(const Bytes& bytes, const ros::Time& stamp) const {
     std::optional<LadybugFrame> frame;
-    for (std::size_t i = 0; i < ring_cameras; ++i) {
+    for (std::size_t i = 0; i < kRingCameras; ++i) {
       const bool plain = images_[i].getNumSubscribers() > 0, compressed = compressed_[i].getNumSubscribers() > 0;
       if (!plain && !compressed) continue;
       if (!frame) frame = splitLadybugFrame(bytes, parameters().ladybug2_camera_order == "backward");
@@ -99,7 +99,7 @@ class Ladybug2Nodelet : public CameraNodelet {
       auto message = boost::make_shared<sensor_msgs::CompressedImage>();
       message->header = header;
       message->format = "bgr8; jpeg compressed bgr8";
-      cv::imencode(".jpg", image, message->data, {cv::IMWRITE_JPEG_QUALITY, colour_quality});
+      cv::imencode(".jpg", image, message->data, {cv::IMWRITE_JPEG_QUALITY, kColourQuality});
       compressed_[i].publish(message);
     }
   }
@@ -111,7 +111,7 @@ class Ladybug2Nodelet : public CameraNodelet {
   std::unique_ptr<LadybugCamera> camera_;
   std::atomic<std::int64_t> bad_channels_{0};
   ros::Publisher raw_;
-  std::array<ros::Publisher, ring_cameras> images_, compressed_;
+  std::array<ros::Publisher, kRingCameras> images_, compressed_;
 };
 
 }  // namespace segway_drivers

@@ -12,8 +12,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr float laser_angle_first = -0.785398163F, laser_angle_step = 0.00872664626F;  // rad; x along beam 90
-constexpr double beams_per_turn = 720.0;
+constexpr float kLaserAngleFirst = -0.785398163F, kLaserAngleStep = 0.00872664626F;  // rad; x along beam 90
+constexpr double kBeamsPerTurn = 720.0;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ class Lms291Nodelet : public DriverNodelet {
   }
 
   void take(const LmsStampedScan& scan) {
-    publishTimeReference(frame_, scan.arrival, static_cast<double>(scan.count) * lms_period);
+    publishTimeReference(frame_, scan.arrival, static_cast<double>(scan.count) * kLmsPeriod);
     {
       const std::lock_guard<std::mutex> guard(lock());
       polluted_ = scan.scan.polluted();
@@ -47,11 +47,11 @@ class Lms291Nodelet : public DriverNodelet {
     auto message = boost::make_shared<sensor_msgs::LaserScan>();
     message->header.stamp = toRos(*scan.stamp);
     message->header.frame_id = frame_;
-    message->angle_min = laser_angle_first;
-    message->angle_increment = laser_angle_step;
-    message->angle_max = laser_angle_first + laser_angle_step * static_cast<float>(scan.scan.ranges.size() - 1);
-    message->time_increment = static_cast<float>(lms_period / beams_per_turn);
-    message->scan_time = static_cast<float>(lms_period);
+    message->angle_min = kLaserAngleFirst;
+    message->angle_increment = kLaserAngleStep;
+    message->angle_max = kLaserAngleFirst + kLaserAngleStep * static_cast<float>(scan.scan.ranges.size() - 1);
+    message->time_increment = static_cast<float>(kLmsPeriod / kBeamsPerTurn);
+    message->scan_time = static_cast<float>(kLmsPeriod);
     message->range_min = 0.05F;
     message->range_max = range_max_;
     message->ranges = scan.scan.ranges;

@@ -17,8 +17,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double odometry_variance_per_metre = 0.0025;  // m^2/m and rad^2/m: 5 % of a metre
-constexpr double unmeasured = 1e6;
+constexpr double kOdometryVariancePerMetre = 0.0025;  // m^2/m and rad^2/m: 5 % of a metre
+constexpr double kUnmeasured = 1e6;
 
 }  // namespace
 
@@ -98,8 +98,9 @@ class SegwayRmpNodelet : public DriverNodelet {
     odometry.twist.twist.linear.x = speed_;
     odometry.twist.twist.angular.z = yaw_rate_;
     for (const std::size_t i : {0U, 7U, 35U})
-      odometry.pose.covariance[i] = 1e-6 + odometry_variance_per_metre * base.distance();
-    for (const std::size_t i : {14U, 21U, 28U}) odometry.pose.covariance[i] = odometry.twist.covariance[i] = unmeasured;
+      odometry.pose.covariance[i] = 1e-6 + kOdometryVariancePerMetre * base.distance();
+    for (const std::size_t i : {14U, 21U, 28U})
+      odometry.pose.covariance[i] = odometry.twist.covariance[i] = kUnmeasured;
     for (const std::size_t i : {0U, 7U, 35U}) odometry.twist.covariance[i] = 1e-3;
     publish([this, odometry] {
       odometry_.publish(odometry);

@@ -10,7 +10,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double mti_field_unit = 50e-6;  // T: the device measures in units of the field where it was calibrated
+constexpr double kMtiFieldUnit = 50e-6;  // T: the device measures in units of the field where it was calibrated
 
 void setVector(const MtiSample::Vector& from, geometry_msgs::Vector3& to) {
   to.x = from[0];
@@ -62,7 +62,7 @@ class XsensMtiNodelet : public DriverNodelet {
     sensor_msgs::MagneticField field;
     field.header = motion.header;
     MtiSample::Vector tesla = *values.field;
-    for (double& each : tesla) each *= mti_field_unit;
+    for (double& each : tesla) each *= kMtiFieldUnit;
     setVector(tesla, field.magnetic_field);
     publish([this, field] { field_.publish(field); });
   }

@@ -27,12 +27,12 @@ constexpr std::size_t path_points = 4000;
 
 Publisher::Publisher(urban_nav_ros::StageNode& node)
     : node_(node),
-      odometry_(node.nh().advertise<nav_msgs::Odometry>(topics::vo_odometry, 50)),
-      relative_(node.nh().advertise<urban_nav_msgs::RelativePose>(topics::vo_relative_pose, 200)),
-      frame_(node.nh().advertise<urban_nav_msgs::VoFrame>(topics::vo_frame, 50)),
-      landmarks_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::vo_landmarks, 5)),
-      tracks_(node.nh().advertise<sensor_msgs::Image>(topics::vo_tracks, 2)),
-      path_(node.nh().advertise<nav_msgs::Path>(topics::vo_path, 1, true)) {}
+      odometry_(node.nh().advertise<nav_msgs::Odometry>(topics::kVoOdometry, 50)),
+      relative_(node.nh().advertise<urban_nav_msgs::RelativePose>(topics::kVoRelativePose, 200)),
+      frame_(node.nh().advertise<urban_nav_msgs::VoFrame>(topics::kVoFrame, 50)),
+      landmarks_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::kVoLandmarks, 5)),
+      tracks_(node.nh().advertise<sensor_msgs::Image>(topics::kVoTracks, 2)),
+      path_(node.nh().advertise<nav_msgs::Path>(topics::kVoPath, 1, true)) {}
 
 void Publisher::startSession(const Frames& frames, double near_disparity_px) {
   frames_ = frames;

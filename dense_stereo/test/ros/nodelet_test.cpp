@@ -86,7 +86,7 @@ TEST_F(DenseStereoNodelet, PublishesWhatTheCoreComputes) {
     const auto n = static_cast<std::size_t>(i);
     const stereo_msgs::DisparityImage& disparity = graph.disparities[n];
     EXPECT_EQ(urban_nav_ros::toStampNs(disparity.header.stamp), sequence.stamp(i));
-    EXPECT_EQ(disparity.header.frame_id, urban_nav_core::frames::stereo_left);
+    EXPECT_EQ(disparity.header.frame_id, urban_nav_core::frames::kStereoLeft);
     EXPECT_EQ(disparity.image.encoding, "32FC1");
     ASSERT_EQ(disparity.image.data.size(), scene.stereo.image.disparity.size() * sizeof(float));
     EXPECT_EQ(

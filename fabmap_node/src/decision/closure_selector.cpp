@@ -7,9 +7,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr double stretch = 5.0;           // m: half a stretch over which odometry needs no help
-constexpr double most_allowance = 3.0;    // closures that may follow each other at one position
-constexpr double clearly_likelier = 2.0;  // ratio of odds to the likeliest of those before, for one more of a pair
+constexpr double kStretch = 5.0;          // m: half a stretch over which odometry needs no help
+constexpr double kMostAllowance = 3.0;    // closures that may follow each other at one position
+constexpr double kClearlyLikelier = 2.0;  // ratio of odds to the likeliest of those before, for one more of a pair
 
 double closureOdds(double probability) { return probability / std::max(1e-12, 1.0 - probability); }
 
@@ -23,13 +23,13 @@ ClosureSelector::ClosureSelector(const Parameters& parameters)
 }
 
 void ClosureSelector::beginSession() {
-  allowance_ = most_allowance;
+  allowance_ = kMostAllowance;
   travelled_ = 0.0;
 }
 
 /// After enough of them, one more has to be clearly likelier than all before.
 bool ClosureSelector::isWorthOneMore(const Proposed& before, double probability) const {
-  return before.count < enough_ || closureOdds(probability) >= clearly_likelier * before.best_odds;
+  return before.count < enough_ || closureOdds(probability) >= kClearlyLikelier * before.best_odds;
 }
 
 void ClosureSelector::add(double probability, Proposed& proposed) {
@@ -39,10 +39,10 @@ void ClosureSelector::add(double probability, Proposed& proposed) {
 }
 
 bool ClosureSelector::select(const PlacePosition& earlier, const PlacePosition& query, double probability) {
-  allowance_ = std::min(most_allowance, allowance_ + per_metre_ * std::max(0.0, query.travelled - travelled_));
+  allowance_ = std::min(kMostAllowance, allowance_ + per_metre_ * std::max(0.0, query.travelled - travelled_));
   travelled_ = std::max(travelled_, query.travelled);
   if (probability <= closure_probability_ || allowance_ < 1.0) return false;
-  const auto number = [](double travelled) { return static_cast<std::int64_t>(std::floor(travelled / stretch)); };
+  const auto number = [](double travelled) { return static_cast<std::int64_t>(std::floor(travelled / kStretch)); };
   Proposed& pair = proposed_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
   Proposed& unlikely = unlikely_[{query.session, number(query.travelled)}];
   const bool is_unlikely = probability < 0.5;

@@ -12,10 +12,10 @@ bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector
                      ByteDescriptor& descriptor) {
   const auto unit = urban_nav_registration::describe(pyramid, centre, window_px);
   if (!(unit.squaredNorm() > 0.5F)) return false;
-  constexpr float scale = 512.0F;
-  for (std::size_t i = 0; i < descriptor_bytes; ++i)
+  constexpr float kScale = 512.0F;
+  for (std::size_t i = 0; i < kDescriptorBytes; ++i)
     descriptor[i] =
-        static_cast<std::uint8_t>(std::clamp(std::lround(scale * unit(static_cast<Eigen::Index>(i))), 0L, 255L));
+        static_cast<std::uint8_t>(std::clamp(std::lround(kScale * unit(static_cast<Eigen::Index>(i))), 0L, 255L));
   return true;
 }
 

@@ -17,13 +17,13 @@ namespace {
 using urban_nav_core::ImageView;
 using urban_nav_core::Pyramid;
 
-constexpr int pyramid_levels = 5;
+constexpr int kPyramidLevels = 5;
 // Share of the features by level; a level is left with fewer only if the image has no more corners there.
-constexpr std::array<double, pyramid_levels> level_share = {0.40, 0.28, 0.18, 0.10, 0.04};
-constexpr double window_px = 32.0;  // side of a descriptor's window, px of its level: two pixels a cell of its grid
-constexpr std::array<int, 3> fast_thresholds = {20, 10, 5};
-constexpr int corners_per_feature = 4;  // so that the quadtree has a choice
-constexpr double quadtree_slack = 2.0;
+constexpr std::array<double, kPyramidLevels> kLevelShare = {0.40, 0.28, 0.18, 0.10, 0.04};
+constexpr double kWindowPx = 32.0;  // side of a descriptor's window, px of its level: two pixels a cell of its grid
+constexpr std::array<int, 3> kFastThresholds = {20, 10, 5};
+constexpr int kCornersPerFeature = 4;  // so that the quadtree has a choice
+constexpr double kQuadtreeSlack = 2.0;
 
 struct RankedCorner {
   int u = 0, v = 0;
@@ -33,15 +33,16 @@ struct RankedCorner {
 std::vector<RankedCorner> rankedCorners(const ImageView& image, int wanted) {
   urban_nav_core::Fast fast;
   const std::vector<urban_nav_core::Corner>* found = nullptr;
-  for (const int threshold : fast_thresholds) {
+  for (const int threshold : kFastThresholds) {
     found = &fast.detect(image, threshold, urban_nav_core::Fast::Suppression::LocalMaximum);
-    if (static_cast<int>(found->size()) >= corners_per_feature * wanted) break;
+    if (static_cast<int>(found->size()) >= kCornersPerFeature * wanted) break;
   }
   std::vector<RankedCorner> ranked;
   ranked.reserve(found->size());
-  constexpr int margin = urban_nav_core::kHarrisMargin;
+  constexpr int kMargin = urban_nav_core::kHarrisMargin;
   for (const urban_nav_core::Corner& corner : *found) {
-    if (corner.u < margin || corner.v < margin || corner.u >= image.width - margin || corner.v >= image.height - margin)
+    if (corner.u < kMargin || corner.v < kMargin || corner.u >= image.width - kMargin ||
+        corner.v >= image.height - kMargin)
       continue;
     ranked.push_back({corner.u, corner.v, urban_nav_core::structureTensor(image, corner.u, corner.v).harris()});
   }
@@ -62,14 +63,14 @@ void addLevel(const Pyramid& pyramid, int level, int wanted, std::uint8_t camera
   if (wanted < 1) return;
   const ImageView& image = pyramid.level(level);
   const ImageView& whole = pyramid.level(0);
-  urban_nav_core::FeatureQuadtree quadtree(image.width, image.height, wanted, quadtreeDepth(wanted), quadtree_slack);
+  urban_nav_core::FeatureQuadtree quadtree(image.width, image.height, wanted, quadtreeDepth(wanted), kQuadtreeSlack);
   for (const RankedCorner& corner : rankedCorners(image, wanted)) {
     if (quadtree.count() >= wanted) break;
     if (!quadtree.mayAdd(corner.u, corner.v)) continue;
     const double size = 1.0 / Pyramid::scale(level);
     const Eigen::Vector2d pixel(corner.u * size, corner.v * size);
     PlaceFeature feature;
-    if (!describeAsBytes(pyramid, pixel, window_px * size, feature.descriptor)) continue;
+    if (!describeAsBytes(pyramid, pixel, kWindowPx * size, feature.descriptor)) continue;
     feature.camera = camera;
     feature.u = static_cast<float>(pixel.x() / whole.width);
     feature.v = static_cast<float>(pixel.y() / whole.height);
@@ -81,13 +82,13 @@ void addLevel(const Pyramid& pyramid, int level, int wanted, std::uint8_t camera
 std::vector<PlaceFeature> featuresOfImage(const ImageView& image, int wanted, std::uint8_t camera) {
   std::vector<PlaceFeature> features;
   if (image.empty() || image.width < Pyramid::kSmallestSide || image.height < Pyramid::kSmallestSide) return features;
-  Pyramid pyramid(pyramid_levels);
+  Pyramid pyramid(kPyramidLevels);
   pyramid.build(image);
   // Rounded sums of the shares, so that the levels add up to `wanted`.
   double share = 0.0;
   int given = 0;
   for (int level = 0; level < pyramid.levels(); ++level) {
-    share += level_share[static_cast<std::size_t>(level)];
+    share += kLevelShare[static_cast<std::size_t>(level)];
     const int up_to = static_cast<int>(std::lround(share * wanted));
     addLevel(pyramid, level, up_to - given, camera, features);
     given = up_to;

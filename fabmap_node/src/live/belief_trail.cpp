@@ -10,9 +10,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs path_length = 60'000'000'000;  // ns; observations may wait in a queue
-constexpr std::size_t most_points = 5000;        // 40 minutes at two a second
-constexpr std::size_t most_waiting = 1000;       // where there is no odometry
+constexpr StampNs kPathLength = 60'000'000'000;  // ns; observations may wait in a queue
+constexpr std::size_t kMostPoints = 5000;        // 40 minutes at two a second
+constexpr std::size_t kMostWaiting = 1000;       // where there is no odometry
 
 template <typename Item>
 void dropOldest(std::deque<Item>& items, std::size_t most) {
@@ -25,7 +25,7 @@ void BeliefTrail::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
   if (!T_odom_base.pose.t().allFinite()) return;
   if (!path_.empty() && T_odom_base.stamp <= path_.back().stamp) path_.clear();
   path_.push_back({T_odom_base.stamp, T_odom_base.pose.t()});
-  while (path_.front().stamp < T_odom_base.stamp - path_length) path_.pop_front();
+  while (path_.front().stamp < T_odom_base.stamp - kPathLength) path_.pop_front();
   placeWaiting();
 }
 
@@ -36,7 +36,7 @@ void BeliefTrail::add(const PlaceBelief& belief) {
   Point point{belief.at.stamp, Eigen::Vector3d::Zero(), belief.knowledge, belief.p_new, std::nullopt};
   if (!belief.likeliest.empty()) point.likeliest = belief.likeliest.front();
   waiting_.push_back(std::move(point));
-  dropOldest(waiting_, most_waiting);
+  dropOldest(waiting_, kMostWaiting);
   placeWaiting();
 }
 
@@ -65,7 +65,7 @@ void BeliefTrail::placeWaiting() {
     points_.push_back(std::move(point));
     ++count_;
   }
-  dropOldest(points_, most_points);
+  dropOldest(points_, kMostPoints);
 }
 
 const BeliefTrail::Point* BeliefTrail::find(StampNs stamp) const {

@@ -24,7 +24,7 @@ enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2, NotSt
 
 // Time by stamps until a session without odometry is named after its first observation: visual odometry gives its first
 // pose within a window.
-constexpr urban_nav_core::StampNs longest_wait = 10'000'000'000;
+constexpr urban_nav_core::StampNs kLongestWait = 10'000'000'000;
 
 }  // namespace
 
@@ -88,7 +88,7 @@ void LivePlaces::keep(urban_nav_store::StoredPlace place) {
 void LivePlaces::nameSession(urban_nav_core::StampNs now) {
   if (session_) return;
   if (odometry_.start()) beginSession(*odometry_.start());
-  else if (first_observed_ && now - *first_observed_ >= longest_wait) beginSession(*first_observed_);
+  else if (first_observed_ && now - *first_observed_ >= kLongestWait) beginSession(*first_observed_);
 }
 
 void LivePlaces::beginSession(urban_nav_core::StampNs start) {
@@ -101,7 +101,7 @@ void LivePlaces::beginSession(urban_nav_core::StampNs start) {
 }
 
 void LivePlaces::endSession() {
-  if (!session_ && first_observed_) nameSession(*first_observed_ + longest_wait);
+  if (!session_ && first_observed_) nameSession(*first_observed_ + kLongestWait);
   if (session_ && first_observed_) {
     store_.end(*session_);
     map_->renameSession(session_->id);

@@ -14,7 +14,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t progress_every = 256;  // words that have joined
+constexpr std::size_t kProgressEvery = 256;  // words that have joined
 
 /// Frequency shrunk away from 0 and 1, as openFABMAP has it; `total` may be 0.
 double smoothedFrequency(std::size_t count, std::size_t total) {
@@ -117,7 +117,7 @@ ChowLiuTree learnChowLiuTree(const WordSets& training, const std::function<void(
     outside[next] = outside.back();
     outside.pop_back();
     setConditionals(tree, joined, shared[joined], pairs.count(joined), pairs.count(tree.parent[joined]), total);
-    if (!progress || outside.size() % progress_every != 0) continue;
+    if (!progress || outside.size() % kProgressEvery != 0) continue;
     const double left = static_cast<double>(outside.size()) / static_cast<double>(words);
     progress(1.0 - left * left);  // each word is compared with all that are outside
   }

@@ -30,12 +30,12 @@ void archiveCentres(Archive& archive, Vocabulary& vocabulary) {
     for (const ByteDescriptor& centre : vocabulary.centres()) bytes.insert(bytes.end(), centre.begin(), centre.end());
   archive(bytes);
   if (!archive.isReading()) return;
-  const std::size_t words = bytes.size() / descriptor_bytes;
-  archive.require(bytes.size() == words * descriptor_bytes && words > 1 && words <= most_words,
+  const std::size_t words = bytes.size() / kDescriptorBytes;
+  archive.require(bytes.size() == words * kDescriptorBytes && words > 1 && words <= kMostWords,
                   "another number of words");
   std::vector<ByteDescriptor> centres(words);
   for (std::size_t i = 0; i < words; ++i)
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(i * descriptor_bytes), descriptor_bytes,
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(i * kDescriptorBytes), kDescriptorBytes,
                 centres[i].begin());
   vocabulary = Vocabulary(std::move(centres));
 }
@@ -84,7 +84,7 @@ void archiveSequence(Archive& archive, std::optional<PlaceCalibration>& calibrat
   bool is_there = calibration.has_value();
   archive(is_there);
   if (archive.isReading() && is_there) calibration.emplace();
-  if (is_there) archiveCalibration(archive, *calibration, model_version);
+  if (is_there) archiveCalibration(archive, *calibration, kModelVersion);
 }
 
 void archiveModel(Archive& archive, PlaceModel& model, std::uint32_t version) {
@@ -118,7 +118,7 @@ std::string printVersion(const PlaceModel& model, std::uint32_t version) {
 PlaceModel parseVersion(std::string_view content, std::uint32_t version, const std::string& name) {
   PlaceModel model;
   try {
-    Archive archive(content, model_name);
+    Archive archive(content, kModelName);
     archiveModel(archive, model, version);
     archive.finish();
     checkTree(model.tree, "tree");
@@ -135,14 +135,14 @@ void roundToFile(ChowLiuTree& tree) {
     for (double& value : *values) value = static_cast<double>(static_cast<float>(value));
 }
 
-std::string printModelContent(const PlaceModel& model) { return printVersion(model, model_version); }
+std::string printModelContent(const PlaceModel& model) { return printVersion(model, kModelVersion); }
 
 std::string printModel(const PlaceModel& model) {
   return urban_nav_core::seal(model_name, model_version, printModelContent(model));
 }
 
 PlaceModel parseModelContent(std::string_view content, const std::string& name) {
-  return parseVersion(content, model_version, name);
+  return parseVersion(content, kModelVersion, name);
 }
 
 PlaceModel parseModel(std::string_view bytes, const std::string& name) {

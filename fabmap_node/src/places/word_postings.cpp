@@ -4,9 +4,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t block_places = 4096;                 // 32 KiB of sums
-constexpr std::size_t frequent_places = block_places / 8;  // above which bits are faster than a list (bench/speed.cpp)
-constexpr std::size_t octet_words = 8;
+constexpr std::size_t kBlockPlaces = 4096;                 // 32 KiB of sums
+constexpr std::size_t kFrequentPlaces = kBlockPlaces / 8;  // above which bits are faster than a list (bench/speed.cpp)
+constexpr std::size_t kOctetWords = 8;
 
 /// Four at a time: the places of a list differ, which the compiler cannot know.
 void addToPlaces(const std::uint16_t* places, const std::uint16_t* end, double weight, double* sums) {
@@ -22,9 +22,9 @@ void addToPlaces(const std::uint16_t* places, const std::uint16_t* end, double w
 }
 
 /// Sums of the weights of all subsets of eight words.
-std::array<double, 256> sumSubsets(const std::array<double, octet_words>& weights) {
+std::array<double, 256> sumSubsets(const std::array<double, kOctetWords>& weights) {
   std::array<double, 256> sums{};
-  for (std::size_t bit = 0; bit < octet_words; ++bit)
+  for (std::size_t bit = 0; bit < kOctetWords; ++bit)
     for (std::size_t subset = 0; subset < std::size_t{1} << bit; ++subset)
       sums[subset | std::size_t{1} << bit] = sums[subset] + weights[bit];
   return sums;
@@ -33,9 +33,9 @@ std::array<double, 256> sumSubsets(const std::array<double, octet_words>& weight
 }  // namespace
 
 void WordPostings::add(const WordSet& place) {
-  const auto number = static_cast<std::uint16_t>(size_ % block_places);
+  const auto number = static_cast<std::uint16_t>(size_ % kBlockPlaces);
   for (const Word q : place) open_[q].push_back(number);
-  if (++size_ % block_places == 0) closeBlock();
+  if (++size_ % kBlockPlaces == 0) closeBlock();
 }
 
 /// Moves words of the open block that many places contain into octets.
@@ -43,12 +43,12 @@ std::vector<WordPostings::WordOctet> WordPostings::takeFrequentWords() {
   std::vector<WordOctet> octets;
   std::size_t count = 0;
   for (Word q = 0; q < open_.size(); ++q) {
-    if (open_[q].size() <= frequent_places) continue;
-    const std::size_t bit = count++ % octet_words;
+    if (open_[q].size() <= kFrequentPlaces) continue;
+    const std::size_t bit = count++ % kOctetWords;
     if (bit == 0) {
       octets.emplace_back();
       octets.back().words.fill(q);  // bits that stay zero have any word
-      octets.back().bits.assign(block_places, 0);
+      octets.back().bits.assign(kBlockPlaces, 0);
     }
     octets.back().words[bit] = q;
     for (const std::uint16_t place : open_[q])
@@ -83,13 +83,13 @@ void WordPostings::addWeights(const std::vector<WeightedWord>& words, std::vecto
     for (const WeightedWord& each : words)
       addToPlaces(places + block.begin[each.word], places + block.begin[each.word + 1], each.weight, block_sums);
     for (const WordOctet& octet : block.frequent) {
-      std::array<double, octet_words> octet_weights{};
-      for (std::size_t bit = 0; bit < octet_words; ++bit) octet_weights[bit] = weights[octet.words[bit]];
-      if (octet_weights == std::array<double, octet_words>{}) continue;
+      std::array<double, kOctetWords> octet_weights{};
+      for (std::size_t bit = 0; bit < kOctetWords; ++bit) octet_weights[bit] = weights[octet.words[bit]];
+      if (octet_weights == std::array<double, kOctetWords>{}) continue;
       const std::array<double, 256> subset_sums = sumSubsets(octet_weights);
-      for (std::size_t i = 0; i < block_places; ++i) block_sums[i] += subset_sums[octet.bits[i]];
+      for (std::size_t i = 0; i < kBlockPlaces; ++i) block_sums[i] += subset_sums[octet.bits[i]];
     }
-    block_sums += block_places;
+    block_sums += kBlockPlaces;
   }
   for (const WeightedWord& each : words) {
     const auto& places = open_[each.word];

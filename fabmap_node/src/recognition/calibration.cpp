@@ -10,9 +10,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr double alike = 20.0;  // neighbouring samples that count as one: 10 m of panoramas at 2 Hz and 1 m/s
-constexpr double constant_deviation = 1e-9;  // of evidence that is the same in all samples
-constexpr auto evidence_size = static_cast<Eigen::Index>(PlaceEvidence::size);
+constexpr double kAlike = 20.0;  // neighbouring samples that count as one: 10 m of panoramas at 2 Hz and 1 m/s
+constexpr double kConstantDeviation = 1e-9;  // of evidence that is the same in all samples
+constexpr auto kEvidenceSize = static_cast<Eigen::Index>(PlaceEvidence::kSize);
 
 std::size_t countRight(const std::vector<CalibrationSample>& samples) {
   return static_cast<std::size_t>(
@@ -24,11 +24,11 @@ LogisticSamples asLogistic(const std::vector<CalibrationSample>& samples, double
   const auto count = static_cast<Eigen::Index>(samples.size());
   double right_weight = 0.0, wrong_weight = 0.0;
   for (const CalibrationSample& sample : samples) (sample.is_same_place ? right_weight : wrong_weight) += sample.weight;
-  LogisticSamples made{Eigen::MatrixXd::Ones(count, evidence_size + 1), Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  LogisticSamples made{Eigen::MatrixXd::Ones(count, kEvidenceSize + 1), Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for (Eigen::Index i = 0; i < count; ++i) {
     const CalibrationSample& sample = samples[static_cast<std::size_t>(i)];
     const auto values = sample.evidence.values();
-    for (Eigen::Index k = 0; k < evidence_size; ++k) made.x(i, k) = values[static_cast<std::size_t>(k)];
+    for (Eigen::Index k = 0; k < kEvidenceSize; ++k) made.x(i, k) = values[static_cast<std::size_t>(k)];
     made.target(i) = sample.is_same_place ? yes : no;
     made.weight(i) =
         sample.weight * static_cast<double>(count) / (2.0 * (sample.is_same_place ? right_weight : wrong_weight));
@@ -38,11 +38,11 @@ LogisticSamples asLogistic(const std::vector<CalibrationSample>& samples, double
 
 /// Deviation of each column but the last; infinite where it is constant.
 Eigen::VectorXd computeDeviations(const Eigen::MatrixXd& x) {
-  const auto evidence = x.leftCols(evidence_size);
+  const auto evidence = x.leftCols(kEvidenceSize);
   const Eigen::RowVectorXd mean = evidence.colwise().mean();
   Eigen::VectorXd deviation = (evidence.rowwise() - mean).cwiseAbs2().colwise().mean().cwiseSqrt();
   for (double& each : deviation)
-    if (each < constant_deviation) each = std::numeric_limits<double>::infinity();
+    if (each < kConstantDeviation) each = std::numeric_limits<double>::infinity();
   return deviation;
 }
 
@@ -68,11 +68,11 @@ PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples, d
   calibration.floor = 1.0 / (static_cast<double>(wrong) + 2.0);
   LogisticSamples logistic_samples = asLogistic(samples, calibration.ceiling, calibration.floor);
   const Eigen::VectorXd deviation = computeDeviations(logistic_samples.x);
-  for (Eigen::Index k = 0; k < evidence_size; ++k) logistic_samples.x.col(k) /= deviation(k);
-  const Eigen::VectorXd fitted = fitLogistic(logistic_samples, alike / (prior_deviation * prior_deviation));
-  for (Eigen::Index k = 0; k < evidence_size; ++k)
+  for (Eigen::Index k = 0; k < kEvidenceSize; ++k) logistic_samples.x.col(k) /= deviation(k);
+  const Eigen::VectorXd fitted = fitLogistic(logistic_samples, kAlike / (prior_deviation * prior_deviation));
+  for (Eigen::Index k = 0; k < kEvidenceSize; ++k)
     calibration.weights[static_cast<std::size_t>(k)] = fitted(k) / deviation(k);
-  calibration.bias = fitted(evidence_size);
+  calibration.bias = fitted(kEvidenceSize);
   return calibration;
 }
 

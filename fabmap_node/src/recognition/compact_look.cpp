@@ -11,15 +11,15 @@ namespace fabmap_node {
 namespace {
 
 // Of a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
-constexpr float levels_per_unit = 40.0F;
-constexpr int highest_level = 15;
-constexpr float highest_coordinate = 65535.0F;
-constexpr std::size_t look_header = 3;  // cameras, number of features
-constexpr std::size_t packed_descriptor = look_elements / 2;
-constexpr std::size_t look_entry = packed_descriptor + 5;
+constexpr float kLevelsPerUnit = 40.0F;
+constexpr int kHighestLevel = 15;
+constexpr float kHighestCoordinate = 65535.0F;
+constexpr std::size_t kLookHeader = 3;  // cameras, number of features
+constexpr std::size_t kPackedDescriptor = kLookElements / 2;
+constexpr std::size_t kLookEntry = kPackedDescriptor + 5;
 
 std::uint16_t packShare(float share) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * highest_coordinate));
+  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * kHighestCoordinate));
 }
 
 void append16(std::string& bytes, std::uint16_t value) {
@@ -33,7 +33,7 @@ std::uint16_t read16(std::string_view bytes, std::size_t at) {
 }
 
 int level(float element) {
-  return std::clamp(static_cast<int>(std::lround(element * levels_per_unit)), 0, highest_level);
+  return std::clamp(static_cast<int>(std::lround(element * kLevelsPerUnit)), 0, kHighestLevel);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ int level(float element) {
 std::string packLook(const LookFeatures& look) {
   const std::size_t count = std::min<std::size_t>(look.size(), 65535);
   std::string bytes;
-  bytes.reserve(look_header + count * look_entry);
+  bytes.reserve(kLookHeader + count * kLookEntry);
   bytes.push_back(static_cast<char>(look.cameras));
   append16(bytes, static_cast<std::uint16_t>(count));
   for (std::size_t k = 0; k < count; ++k) {
@@ -58,8 +58,8 @@ std::string packLook(const LookFeatures& look) {
 }
 
 std::uint8_t checkLook(std::string_view bytes, const std::string& name) {
-  const std::size_t count = bytes.size() < look_header ? 0 : read16(bytes, 1);
-  if (bytes.size() != look_header + count * look_entry || bytes.front() == 0)
+  const std::size_t count = bytes.size() < kLookHeader ? 0 : read16(bytes, 1);
+  if (bytes.size() != kLookHeader + count * kLookEntry || bytes.front() == 0)
     throw urban_nav_core::DataError(name, "descriptors of a place that are truncated or damaged", "");
   return static_cast<std::uint8_t>(bytes.front());
 }
@@ -71,18 +71,18 @@ LookFeatures unpackLook(std::string_view bytes, const std::string& name) {
   look.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
   look.directions.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t at = look_header + k * look_entry;
+    const std::size_t at = kLookHeader + k * kLookEntry;
     auto descriptor = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < packed_descriptor; ++i) {
+    for (std::size_t i = 0; i < kPackedDescriptor; ++i) {
       const auto pair = static_cast<unsigned char>(bytes[at + i]);
       descriptor(static_cast<Eigen::Index>(2 * i)) = static_cast<float>(pair & 15u);
       descriptor(static_cast<Eigen::Index>(2 * i + 1)) = static_cast<float>(pair >> 4);
     }
     descriptor /= std::max(1.0F, descriptor.norm());
-    const std::size_t place = at + packed_descriptor;
+    const std::size_t place = at + kPackedDescriptor;
     look.directions.emplace_back(static_cast<float>(static_cast<unsigned char>(bytes[place])) +
-                                     static_cast<float>(read16(bytes, place + 1)) / highest_coordinate,
-                                 static_cast<float>(read16(bytes, place + 3)) / highest_coordinate);
+                                     static_cast<float>(read16(bytes, place + 1)) / kHighestCoordinate,
+                                 static_cast<float>(read16(bytes, place + 3)) / kHighestCoordinate);
   }
   return look;
 }

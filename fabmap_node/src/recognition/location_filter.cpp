@@ -8,18 +8,18 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t places_around = 4;  // on each side: up to four times the speed of the first visit
-constexpr double change = 0.05;  // of known to new, new to known, one place to another: each twenty observations
-constexpr double places_elsewhere = 10.0;  // that share what is not around the last place: as many as are compared
-constexpr double largest_log_ratio = 6.0;  // of one observation: no more than a calibration supports
+constexpr std::size_t kPlacesAround = 4;  // on each side: up to four times the speed of the first visit
+constexpr double kChange = 0.05;  // of known to new, new to known, one place to another: each twenty observations
+constexpr double kPlacesElsewhere = 10.0;  // that share what is not around the last place: as many as are compared
+constexpr double kLargestLogRatio = 6.0;   // of one observation: no more than a calibration supports
 
-constexpr std::size_t sequence_length = 10;
-constexpr double on_path = 1.0;  // places, of the path at constant speed
-constexpr std::array<double, 14> speeds = {0.5,  0.67,  0.8,  1.0,  1.25,  1.5,  2.0,  // places per observation
-                                           -0.5, -0.67, -0.8, -1.0, -1.25, -1.5, -2.0};
+constexpr std::size_t kSequenceLength = 10;
+constexpr double kOnPath = 1.0;  // places, of the path at constant speed
+constexpr std::array<double, 14> kSpeeds = {0.5,  0.67,  0.8,  1.0,  1.25,  1.5,  2.0,  // places per observation
+                                            -0.5, -0.67, -0.8, -1.0, -1.25, -1.5, -2.0};
 
 bool isAround(std::size_t session_a, std::size_t a, std::size_t session_b, std::size_t b) {
-  return session_a == session_b && (a > b ? a - b : b - a) <= places_around;
+  return session_a == session_b && (a > b ? a - b : b - a) <= kPlacesAround;
 }
 
 }  // namespace
@@ -30,34 +30,34 @@ double LocationFilter::priorLogOdds(std::size_t session, std::size_t place) cons
   for (const Location& location : locations_)
     if (isAround(location.session, location.place, session, place)) around += location.probability;
   const double known = 1.0 - p_new_;
-  const double elsewhere = change * (p_new_ + std::max(0.0, known - around)) / places_elsewhere;
-  const double here = (1.0 - change) * std::min(1.0, around) + elsewhere;
-  const double at_new = (1.0 - change) * p_new_ + change * known;
-  return std::log(here * places_elsewhere / at_new);
+  const double elsewhere = kChange * (p_new_ + std::max(0.0, known - around)) / kPlacesElsewhere;
+  const double here = (1.0 - kChange) * std::min(1.0, around) + elsewhere;
+  const double at_new = (1.0 - kChange) * p_new_ + kChange * known;
+  return std::log(here * kPlacesElsewhere / at_new);
 }
 
 double LocationFilter::motionConsistency(std::size_t session, std::size_t place) const {
   std::size_t most = 0;
-  for (const double speed : speeds) {
+  for (const double speed : kSpeeds) {
     std::size_t count = 0;
     for (std::size_t k = 0; k < recent_.size(); ++k) {
       if (recent_[k].session != session) continue;
       const double expected = static_cast<double>(place) - speed * static_cast<double>(k + 1);
-      count += std::abs(static_cast<double>(recent_[k].place) - expected) <= on_path ? 1u : 0u;
+      count += std::abs(static_cast<double>(recent_[k].place) - expected) <= kOnPath ? 1u : 0u;
     }
     most = std::max(most, count);
   }
-  return static_cast<double>(most) / static_cast<double>(sequence_length);
+  return static_cast<double>(most) / static_cast<double>(kSequenceLength);
 }
 
 void LocationFilter::update(const std::vector<LocationHypothesis>& hypotheses) {
   if (hypotheses.empty()) return;
   const LocationHypothesis& likeliest = hypotheses[likeliestLocation(*this, hypotheses)];
   recent_.insert(recent_.begin(), {likeliest.session, likeliest.place, 1.0});
-  if (recent_.size() > sequence_length) recent_.pop_back();
+  if (recent_.size() > kSequenceLength) recent_.pop_back();
   std::vector<Location> ranked;
   for (const LocationHypothesis& hypothesis : hypotheses) {
-    const double ratio = std::clamp(hypothesis.log_ratio, -largest_log_ratio, largest_log_ratio);
+    const double ratio = std::clamp(hypothesis.log_ratio, -kLargestLogRatio, kLargestLogRatio);
     ranked.push_back(
         {hypothesis.session, hypothesis.place, std::exp(ratio + priorLogOdds(hypothesis.session, hypothesis.place))});
   }

@@ -10,9 +10,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr int most_steps = 200;
-constexpr double sufficient_share = 1e-4;     // of the decrease that the gradient predicts (Nocedal and Wright, 3.4)
-constexpr double decrease_tolerance = 1e-14;  // nats a sample; the slope is then below the root of it
+constexpr int kMostSteps = 200;
+constexpr double kSufficientShare = 1e-4;     // of the decrease that the gradient predicts (Nocedal and Wright, 3.4)
+constexpr double kDecreaseTolerance = 1e-14;  // nats a sample; the slope is then below the root of it
 
 struct LogisticSlope {
   Eigen::VectorXd gradient;
@@ -83,9 +83,9 @@ Eigen::VectorXd fitLogistic(const LogisticSamples& samples, double penalty) {
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(samples.x.cols());
   std::vector<bool> is_held(static_cast<std::size_t>(coefficients.size()), true);
   is_held.back() = false;
-  const double tolerance = decrease_tolerance * std::max(1.0, samples.weight.sum());
+  const double tolerance = kDecreaseTolerance * std::max(1.0, samples.weight.sum());
   double loss = logisticLoss(samples, penalty, coefficients);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < kMostSteps; ++step) {
     const LogisticSlope slope = computeSlope(samples, penalty, coefficients);
     const Eigen::VectorXd change = computeStep(slope, is_held);
     const double decrease = -slope.gradient.dot(change);  // of twice the loss, if it were quadratic
@@ -96,7 +96,7 @@ Eigen::VectorXd fitLogistic(const LogisticSamples& samples, double penalty) {
     const auto [reach, blocking] = computeReach(coefficients, change);
     double share = reach;
     const auto next_loss = [&] { return logisticLoss(samples, penalty, coefficients + share * change); };
-    while (share > 0.0 && next_loss() > loss - sufficient_share * share * decrease) share *= 0.5;
+    while (share > 0.0 && next_loss() > loss - kSufficientShare * share * decrease) share *= 0.5;
     coefficients += share * change;
     if (blocking >= 0 && share == reach) {
       coefficients(blocking) = 0.0;

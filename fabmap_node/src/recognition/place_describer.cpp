@@ -13,10 +13,10 @@ namespace {
 
 using urban_nav_core::ImageView;
 
-constexpr std::size_t least_words = 30;   // of an observation, with fewer than this no place is unique
-constexpr double dark_brightness = 16.0;  // grey level under which an image is dark, if its contrast is low too
-constexpr double blank_deviation = 6.0;   // grey levels: less contrast has no structure but noise
-constexpr int brightness_step = 4;        // pixels and rows between samples
+constexpr std::size_t kLeastWords = 30;   // of an observation, with fewer than this no place is unique
+constexpr double kDarkBrightness = 16.0;  // grey level under which an image is dark, if its contrast is low too
+constexpr double kBlankDeviation = 6.0;   // grey levels: less contrast has no structure but noise
+constexpr int kBrightnessStep = 4;        // pixels and rows between samples
 
 struct ImageStatistics {
   double mean = 0.0, deviation = 0.0;
@@ -25,8 +25,8 @@ struct ImageStatistics {
 ImageStatistics imageStatistics(const std::vector<ImageView>& images) {
   double sum = 0.0, squares = 0.0, count = 0.0;
   for (const ImageView& image : images) {
-    for (int v = 0; v < image.height; v += brightness_step)
-      for (int u = 0; u < image.width; u += brightness_step) {
+    for (int v = 0; v < image.height; v += kBrightnessStep)
+      for (int u = 0; u < image.width; u += kBrightnessStep) {
         const double grey = image.at(u, v);
         sum += grey;
         squares += grey * grey;
@@ -40,15 +40,15 @@ ImageStatistics imageStatistics(const std::vector<ImageView>& images) {
 
 ObservationStatus reasonOfTooFewFeatures(const std::vector<ImageView>& images) {
   const ImageStatistics statistics = imageStatistics(images);
-  if (statistics.mean < dark_brightness) return ObservationStatus::Dark;
-  return statistics.deviation < blank_deviation ? ObservationStatus::Blank : ObservationStatus::Blurred;
+  if (statistics.mean < kDarkBrightness) return ObservationStatus::Dark;
+  return statistics.deviation < kBlankDeviation ? ObservationStatus::Blank : ObservationStatus::Blurred;
 }
 
 }  // namespace
 
 const char* toString(ObservationStatus status) {
-  constexpr std::array<const char*, 6> names = {"used", "no_image", "dark", "blank", "blurred", "too_few_features"};
-  return names[static_cast<std::size_t>(status)];
+  constexpr std::array<const char*, 6> kNames = {"used", "no_image", "dark", "blank", "blurred", "too_few_features"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 PlaceDescription PlaceDescriber::describe(const PlaceObservation& observation) const {
@@ -56,7 +56,7 @@ PlaceDescription PlaceDescriber::describe(const PlaceObservation& observation) c
   description.cameras = observation.cameras;
   description.words = vocabulary_.words(observation);
   description.look = packLook(lookFeatures(observation, look_features_));
-  if (description.words.size() < least_words) description.status = ObservationStatus::TooFewFeatures;
+  if (description.words.size() < kLeastWords) description.status = ObservationStatus::TooFewFeatures;
   return description;
 }
 

@@ -16,10 +16,10 @@ namespace {
 
 /// A candidate elsewhere shows the same place, in another session or on another lap, if both the query and the best
 /// place agree with it as much as this share of the agreement of query and best place.
-constexpr double same_place_share = 0.5;
-constexpr std::size_t thinning = 4;        // of the descriptors of a first look
-constexpr int smallest_selection = 10;     // candidates without any look
-constexpr std::size_t most_sorted = 1000;  // candidates, unless more are needed
+constexpr double kSamePlaceShare = 0.5;
+constexpr std::size_t kThinning = 4;       // of the descriptors of a first look
+constexpr int kSmallestSelection = 10;     // candidates without any look
+constexpr std::size_t kMostSorted = 1000;  // candidates, unless more are needed
 
 double logMeanOfExponentials(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -83,10 +83,10 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
   };
   const int wanted =
-      options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : smallest_selection;
+      options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : kSmallestSelection;
   // Of a large map, the first ones nearly always suffice.
-  if (all.size() > most_sorted) {
-    const auto sorted = all.begin() + static_cast<std::ptrdiff_t>(most_sorted);
+  if (all.size() > kMostSorted) {
+    const auto sorted = all.begin() + static_cast<std::ptrdiff_t>(kMostSorted);
     std::partial_sort(all.begin(), sorted, all.end(), isLikelier);
     std::vector<Candidate> chosen = selectVaried({all.begin(), sorted}, wanted);
     if (chosen.size() >= static_cast<std::size_t>(wanted)) return chosen;
@@ -106,8 +106,8 @@ void PlaceMatcher::compareAll(const LookFeatures& query, std::size_t step, std::
 }
 
 bool PlaceMatcher::showSamePlace(const Candidate& best, const Candidate& other) const {
-  return other.look.share > same_place_share * best.look.share &&
-         secondLook(look(best.place), look(other.place)).share > best.look.share * same_place_share;
+  return other.look.share > kSamePlaceShare * best.look.share &&
+         secondLook(look(best.place), look(other.place)).share > best.look.share * kSamePlaceShare;
 }
 
 PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
@@ -148,7 +148,7 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
   if (options_.second_looks > 0 && !candidates.empty()) {
     const LookFeatures own = unpackPlaceLook(query.look, query);
     if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
-      compareAll(own, thinning, candidates);
+      compareAll(own, kThinning, candidates);
       std::stable_sort(candidates.begin(), candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
       candidates = selectVaried(candidates, options_.second_looks);

@@ -9,14 +9,14 @@
 namespace fabmap_node {
 namespace {
 
-constexpr float vote_width = 0.08F;  // side of a cell of votes, shares of the image
-constexpr int vote_half = 13;        // cells on each side of zero: displacements of up to a whole image
-constexpr int vote_side = 2 * vote_half + 1;
-constexpr int headings_per_camera = 7;    // votes for a change of heading, about 10 deg each for five cameras
-constexpr float same_height = 0.12F;      // share of the image's height
-constexpr float horizon = 0.45F;          // height in the image below which next to nothing is sky
-constexpr std::size_t fewest_below = 40;  // features below it that say something by themselves
-constexpr float still = 0.006F;           // share of the image: some 3 px
+constexpr float kVoteWidth = 0.08F;  // side of a cell of votes, shares of the image
+constexpr int kVoteHalf = 13;        // cells on each side of zero: displacements of up to a whole image
+constexpr int kVoteSide = 2 * kVoteHalf + 1;
+constexpr int kHeadingsPerCamera = 7;     // votes for a change of heading, about 10 deg each for five cameras
+constexpr float kSameHeight = 0.12F;      // share of the image's height
+constexpr float kHorizon = 0.45F;         // height in the image below which next to nothing is sky
+constexpr std::size_t kFewestBelow = 40;  // features below it that say something by themselves
+constexpr float kStill = 0.006F;          // share of the image: some 3 px
 
 /// Displacement of a match, and whether it lies below the horizon in both observations.
 struct Move {
@@ -43,23 +43,23 @@ Agreeing countAmong(const std::vector<Move>& moves, const IsAmong& is_among) {
 
 /// Largest number of displacements in 3x3 neighbouring cells.
 Agreeing agreeingSingle(const std::vector<Move>& moves) {
-  const auto cell = [](float move) { return static_cast<int>(std::lround(move / vote_width)); };
-  std::vector<int> votes(static_cast<std::size_t>(vote_side * vote_side), 0);
+  const auto cell = [](float move) { return static_cast<int>(std::lround(move / kVoteWidth)); };
+  std::vector<int> votes(static_cast<std::size_t>(kVoteSide * kVoteSide), 0);
   for (const Move& move : moves) {
     const int i = cell(move.by.x()), j = cell(move.by.y());
-    if (std::abs(i) > vote_half || std::abs(j) > vote_half) continue;
-    ++votes[static_cast<std::size_t>((j + vote_half) * vote_side + i + vote_half)];
+    if (std::abs(i) > kVoteHalf || std::abs(j) > kVoteHalf) continue;
+    ++votes[static_cast<std::size_t>((j + kVoteHalf) * kVoteSide + i + kVoteHalf)];
   }
   int best = 0, best_i = 0, best_j = 0;
-  for (int j = 1; j + 1 < vote_side; ++j)
-    for (int i = 1; i + 1 < vote_side; ++i) {
+  for (int j = 1; j + 1 < kVoteSide; ++j)
+    for (int i = 1; i + 1 < kVoteSide; ++i) {
       int sum = 0;
       for (int dj = -1; dj <= 1; ++dj)
-        for (int di = -1; di <= 1; ++di) sum += votes[static_cast<std::size_t>((j + dj) * vote_side + i + di)];
+        for (int di = -1; di <= 1; ++di) sum += votes[static_cast<std::size_t>((j + dj) * kVoteSide + i + di)];
       if (sum <= best) continue;
       best = sum;
-      best_i = i - vote_half;
-      best_j = j - vote_half;
+      best_i = i - kVoteHalf;
+      best_j = j - kVoteHalf;
     }
   if (best == 0) return {};
   return countAmong(moves, [&](const Eigen::Vector2f& by) {
@@ -69,13 +69,13 @@ Agreeing agreeingSingle(const std::vector<Move>& moves) {
 
 /// Largest number of changes of heading in three neighbouring bins, of matches at the same height.
 Agreeing agreeingPanorama(const std::vector<Move>& moves, int cameras) {
-  const int bins = headings_per_camera * cameras;
+  const int bins = kHeadingsPerCamera * cameras;
   const auto bin = [bins](float turn) {
-    return (static_cast<int>(std::lround(turn * headings_per_camera)) % bins + bins) % bins;
+    return (static_cast<int>(std::lround(turn * kHeadingsPerCamera)) % bins + bins) % bins;
   };
   std::vector<int> votes(static_cast<std::size_t>(bins), 0);
   for (const Move& move : moves)
-    if (std::abs(move.by.y()) <= same_height) ++votes[static_cast<std::size_t>(bin(move.by.x()))];
+    if (std::abs(move.by.y()) <= kSameHeight) ++votes[static_cast<std::size_t>(bin(move.by.x()))];
   int best = 0, best_bin = 0;
   for (int i = 0; i < bins; ++i) {
     const int sum = votes[static_cast<std::size_t>(i)] + votes[static_cast<std::size_t>((i + 1) % bins)] +
@@ -86,16 +86,16 @@ Agreeing agreeingPanorama(const std::vector<Move>& moves, int cameras) {
   }
   if (best == 0) return {};
   return countAmong(moves, [&](const Eigen::Vector2f& by) {
-    return std::abs(by.y()) <= same_height && (bin(by.x()) - best_bin + bins) % bins <= 2;
+    return std::abs(by.y()) <= kSameHeight && (bin(by.x()) - best_bin + bins) % bins <= 2;
   });
 }
 
 /// Share of matches that agree by chance.
 double chanceShare(int cameras) {
-  return cameras > 1 ? 3.0 / (headings_per_camera * cameras) * 2.0 * static_cast<double>(same_height) : 9.0 * 0.0064;
+  return cameras > 1 ? 3.0 / (kHeadingsPerCamera * cameras) * 2.0 * static_cast<double>(kSameHeight) : 9.0 * 0.0064;
 }
 
-bool isBelowHorizon(const Eigen::Vector2f& direction) { return direction.y() > horizon; }
+bool isBelowHorizon(const Eigen::Vector2f& direction) { return direction.y() > kHorizon; }
 
 std::vector<Move> computeMoves(const LookFeatures& a, const LookFeatures& b) {
   std::vector<Move> moves;
@@ -126,7 +126,7 @@ LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most)
   for (std::size_t k = 0; k < count; ++k) {
     const PlaceFeature& feature = observation.features[k * all / count];
     auto column = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < descriptor_bytes / 2; ++i)
+    for (std::size_t i = 0; i < kDescriptorBytes / 2; ++i)
       column(static_cast<Eigen::Index>(i)) =
           static_cast<float>(feature.descriptor[2 * i]) + static_cast<float>(feature.descriptor[2 * i + 1]);
     column /= std::max(1.0F, column.norm());
@@ -157,7 +157,7 @@ LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {
   result.whole = shareBeyondChance(agreeing.all, moves.size(), a.cameras, std::min(a.size(), b.size()));
   result.share = result.whole;
   const std::size_t below = std::min(countBelow(a), countBelow(b));
-  if (below < fewest_below) return result;
+  if (below < kFewestBelow) return result;
   const auto matches_below = static_cast<std::size_t>(
       std::count_if(moves.begin(), moves.end(), [](const Move& move) { return move.is_below; }));
   result.share = std::min(result.whole, shareBeyondChance(agreeing.below, matches_below, a.cameras, below));
@@ -168,7 +168,7 @@ bool isStationary(const LookFeatures& a, const LookFeatures& b) {
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return false;
   const std::vector<Move> moves = computeMoves(a, b);
   const auto unmoved = std::count_if(moves.begin(), moves.end(), [](const Move& move) {
-    return std::abs(move.by.x()) < still && std::abs(move.by.y()) < still;
+    return std::abs(move.by.x()) < kStill && std::abs(move.by.y()) < kStill;
   });
   return 2 * static_cast<std::size_t>(unmoved) > std::min(a.size(), b.size());
 }

@@ -33,10 +33,10 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr std::size_t first_looks = 30;     // likeliest keyframes by words, of which some descriptors are compared
-constexpr std::size_t second_looks = 8;     // of these, of which all are
-constexpr std::size_t first_look_step = 4;  // of the descriptors of a first look
-constexpr std::size_t rows_at_a_time = 50;  // of some 0.1 ms each
+constexpr std::size_t kFirstLooks = 30;    // likeliest keyframes by words, of which some descriptors are compared
+constexpr std::size_t kSecondLooks = 8;    // of these, of which all are
+constexpr std::size_t kFirstLookStep = 4;  // of the descriptors of a first look
+constexpr std::size_t kRowsAtATime = 50;   // of some 0.1 ms each
 
 /// Model whose words the places of a map have.
 struct MapModel {
@@ -76,7 +76,7 @@ class KeyframePlaces::Search {
   std::size_t described() const { return described_; }
 
   bool readNext() {
-    for (std::size_t i = 0; i < rows_at_a_time && read_ < keyframes_.size(); ++i)
+    for (std::size_t i = 0; i < kRowsAtATime && read_ < keyframes_.size(); ++i)
       if (!addStored()) {
         addDescribed();
         break;
@@ -89,8 +89,8 @@ class KeyframePlaces::Search {
     if (query.status != ObservationStatus::Used || places_.empty()) return {};
     std::vector<Candidate> candidates = likeliest(query.words);
     const LookFeatures look = unpackLook(query.look, "query");
-    compare(look, first_look_step, candidates);
-    if (candidates.size() > second_looks) candidates.resize(second_looks);
+    compare(look, kFirstLookStep, candidates);
+    if (candidates.size() > kSecondLooks) candidates.resize(kSecondLooks);
     compare(look, 1, candidates);
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i)
@@ -116,7 +116,7 @@ class KeyframePlaces::Search {
         model_hash_(model.hash),
         model_(parseModel(model.bytes, "model of places in " + store.path())),
         table_(model_.tree, model_.detector, Dependence::ChowLiu),
-        describer_(model_, featureOptions(Parameters()), keyframe_look_features),
+        describer_(model_, featureOptions(Parameters()), kKeyframeLookFeatures),
         index_(table_) {}
 
   /// Returns the stored row of a keyframe's image; nullopt if there is none of this model.
@@ -140,7 +140,7 @@ class KeyframePlaces::Search {
   void addDescribed() {
     const SearchedKeyframe& searched = keyframes_[read_];
     const auto stored =
-        store_.keyframes().get(searched.at.session, urban_nav_registration::keyframe_camera, searched.at.stamp);
+        store_.keyframes().get(searched.at.session, urban_nav_registration::kKeyframeCamera, searched.at.stamp);
     Keyframe keyframe;
     if (stored) keyframe = urban_nav_registration::toKeyframe(*stored, searched.at.session);
     ++described_;
@@ -166,7 +166,7 @@ class KeyframePlaces::Search {
     index_.logLikelihoods(words, likelihoods);
     std::vector<std::size_t> order(likelihoods.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const std::size_t count = std::min(first_looks, order.size());
+    const std::size_t count = std::min(kFirstLooks, order.size());
     std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                       [&](std::size_t a, std::size_t b) {
                         return likelihoods[a] != likelihoods[b] ? likelihoods[a] > likelihoods[b] : a < b;

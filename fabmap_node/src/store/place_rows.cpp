@@ -18,9 +18,9 @@ using urban_nav_store::StoredPlace;
 
 namespace {
 
-constexpr int thumbnail_height = 64;             // px
-constexpr int thumbnail_quality = 60;            // of JPEG
-constexpr std::size_t largest_thumbnail = 6000;  // bytes
+constexpr int kThumbnailHeight = 64;             // px
+constexpr int kThumbnailQuality = 60;            // of JPEG
+constexpr std::size_t kLargestThumbnail = 6000;  // bytes
 
 std::optional<ObservationStatus> parseStatus(const std::string& word) {
   for (const ObservationStatus status :
@@ -73,16 +73,16 @@ std::string placeThumbnail(const std::vector<ImageView>& images) {
   for (const ImageView& image : images) {
     if (image.empty()) continue;
     const int width = std::max(
-        1, static_cast<int>(std::lround(image.width * (static_cast<double>(thumbnail_height) / image.height))));
-    cv::resize(toMatrix(image), small.emplace_back(), {width, thumbnail_height}, 0.0, 0.0, cv::INTER_AREA);
+        1, static_cast<int>(std::lround(image.width * (static_cast<double>(kThumbnailHeight) / image.height))));
+    cv::resize(toMatrix(image), small.emplace_back(), {width, kThumbnailHeight}, 0.0, 0.0, cv::INTER_AREA);
   }
   if (small.empty()) return {};
   cv::Mat strip;
   cv::hconcat(small, strip);
   std::vector<std::uint8_t> bytes;
-  for (int quality = thumbnail_quality; quality >= 10; quality /= 2) {
+  for (int quality = kThumbnailQuality; quality >= 10; quality /= 2) {
     cv::imencode(".jpg", strip, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-    if (bytes.size() <= largest_thumbnail) return {bytes.begin(), bytes.end()};
+    if (bytes.size() <= kLargestThumbnail) return {bytes.begin(), bytes.end()};
   }
   return {};
 }

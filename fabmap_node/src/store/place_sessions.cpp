@@ -20,7 +20,7 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr double assumed_spacing = 1.0;  // m from place to place without a trajectory; panoramas are 0.5 to 2 m apart
+constexpr double kAssumedSpacing = 1.0;  // m from place to place without a trajectory; panoramas are 0.5 to 2 m apart
 
 TravelledDistance travelledDistance(Store& store, const Session& session) {
   TravelledDistance travelled;
@@ -41,7 +41,7 @@ std::size_t forEachPlace(Store& store, const Session& session, const std::string
       return;
     }
     const double distance =
-        travelled.empty() ? assumed_spacing * static_cast<double>(visited) : travelled.at(row.stamp);
+        travelled.empty() ? kAssumedSpacing * static_cast<double>(visited) : travelled.at(row.stamp);
     ++visited;
     visit({row.stamp, toPlaceDescription(row, vocabulary_size), distance});
   });

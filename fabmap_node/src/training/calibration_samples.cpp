@@ -7,10 +7,10 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::ptrdiff_t near_observations = 1;  // neighbours in the drive show the same place
+constexpr std::ptrdiff_t kNearObservations = 1;  // neighbours in the drive show the same place
 // Places between MatcherOptions::elsewhere and so many times that are wrong, although much of the same street is in
 // view; later ones may be another lap.
-constexpr urban_nav_core::StampNs same_street = 4;
+constexpr urban_nav_core::StampNs kSameStreet = 4;
 
 WordSets observationsWithout(const std::vector<DescribedDrive>& drives, std::size_t a, std::size_t b,
                              std::size_t words) {
@@ -30,11 +30,11 @@ void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, std::si
                const MatcherOptions& options, CalibrationRuns& runs) {
   const auto apart = [&drive](std::size_t a, std::size_t b) { return std::abs(drive[a].stamp - drive[b].stamp); };
   const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
-    if (observationsApart(query, place) <= near_observations) return true;
+    if (observationsApart(query, place) <= kNearObservations) return true;
     if (apart(query, place) > options.elsewhere) return false;
     return std::nullopt;
   };
-  for (std::ptrdiff_t gap = 1; gap <= near_observations; ++gap) {
+  for (std::ptrdiff_t gap = 1; gap <= kNearObservations; ++gap) {
     runs.alone.push_back(
         {matchRun(
              matcher, drive,
@@ -46,7 +46,7 @@ void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, std::si
     return apart(query, place) <= options.elsewhere;
   };
   const AdmitPlace isInStreet = [&](std::size_t query, std::size_t place) {
-    return apart(query, place) < same_street * options.elsewhere;
+    return apart(query, place) < kSameStreet * options.elsewhere;
   };
   runs.alone.push_back(
       {matchRun(

@@ -11,9 +11,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t stretch_queries = 30;
+constexpr std::size_t kStretchQueries = 30;
 
-constexpr double least_samples = 10.0;  // of a situation for its whole weight
+constexpr double kLeastSamples = 10.0;  // of a situation for its whole weight
 
 /// Samples with their situations.
 struct SituationSamples {
@@ -31,7 +31,7 @@ struct SituationSamples {
     for (std::size_t i = 0; i < samples.size(); ++i) counts[{samples[i].is_same_place, situations[i]}] += 1.0;
     std::vector<CalibrationSample> made = samples;
     for (std::size_t i = 0; i < samples.size(); ++i)
-      made[i].weight = 1.0 / std::max(least_samples, counts[{samples[i].is_same_place, situations[i]}]);
+      made[i].weight = 1.0 / std::max(kLeastSamples, counts[{samples[i].is_same_place, situations[i]}]);
     return made;
   }
 };
@@ -78,8 +78,8 @@ MatchedRun matchRun(const PlaceMatcher& matcher, const std::vector<DescribedPlac
 std::vector<MatchedRun> runsElsewhere(const PlaceMatcher& matcher, const std::vector<DescribedPlace>& queries,
                                       const AdmitPlace& isNear, const AdmitPlace& admit) {
   std::vector<MatchedRun> runs;
-  for (std::size_t begin = 0; begin < queries.size(); begin += stretch_queries) {
-    const std::size_t end = std::min(queries.size(), begin + stretch_queries);
+  for (std::size_t begin = 0; begin < queries.size(); begin += kStretchQueries) {
+    const std::size_t end = std::min(queries.size(), begin + kStretchQueries);
     std::vector<bool> is_removed(matcher.size());
     for (std::size_t place = 0; place < matcher.size(); ++place)
       for (std::size_t query = begin; query < end; ++query)

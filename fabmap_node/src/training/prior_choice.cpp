@@ -12,9 +12,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t least_sites = 5;  // with fewer, their scatter is known to no better than 40 %
-constexpr std::size_t least_sites_of_kind = 2;
-constexpr std::array<double, 10> deviations = {1.25, 2.5, 5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0};
+constexpr std::size_t kLeastSites = 5;  // with fewer, their scatter is known to no better than 40 %
+constexpr std::size_t kLeastSitesOfKind = 2;
+constexpr std::array<double, 10> kDeviations = {1.25, 2.5, 5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0};
 
 /// Samples by their sites.
 struct SiteFold {
@@ -78,17 +78,17 @@ HeldOutLoss sumSites(double prior_deviation, const std::vector<SiteLoss>& sites)
 PriorChoice choosePrior(const std::vector<CalibrationSample>& samples) {
   PriorChoice choice;
   const std::vector<SiteFold> folds = makeFolds(samples);
-  if (folds.size() < least_sites || countSitesWith(folds, true) < least_sites_of_kind ||
-      countSitesWith(folds, false) < least_sites_of_kind)
+  if (folds.size() < kLeastSites || countSitesWith(folds, true) < kLeastSitesOfKind ||
+      countSitesWith(folds, false) < kLeastSitesOfKind)
     return choice;
   double right_weight = 0.0, wrong_weight = 0.0;
   for (const CalibrationSample& sample : samples) (sample.is_same_place ? right_weight : wrong_weight) += sample.weight;
-  std::vector<std::vector<SiteLoss>> losses(deviations.size(), std::vector<SiteLoss>(folds.size()));
-  urban_nav_core::forEach(deviations.size() * folds.size(), 1, [&](std::size_t task) {
+  std::vector<std::vector<SiteLoss>> losses(kDeviations.size(), std::vector<SiteLoss>(folds.size()));
+  urban_nav_core::forEach(kDeviations.size() * folds.size(), 1, [&](std::size_t task) {
     const std::size_t d = task / folds.size(), s = task % folds.size();
-    losses[d][s] = computeSiteLoss(folds[s], deviations[d], right_weight, wrong_weight);
+    losses[d][s] = computeSiteLoss(folds[s], kDeviations[d], right_weight, wrong_weight);
   });
-  for (std::size_t d = 0; d < deviations.size(); ++d) choice.losses.push_back(sumSites(deviations[d], losses[d]));
+  for (std::size_t d = 0; d < kDeviations.size(); ++d) choice.losses.push_back(sumSites(kDeviations[d], losses[d]));
   const auto best =
       std::min_element(choice.losses.begin(), choice.losses.end(),
                        [](const HeldOutLoss& a, const HeldOutLoss& b) { return a.log_loss < b.log_loss; });

@@ -14,10 +14,10 @@ namespace {
 
 using urban_nav_core::UserError;
 
-constexpr double same_place = 7.5, another_place = 10.0;  // m, as closures are judged (Newman et al. 2009, Fig. 10)
-constexpr double same_view = 3.0;                         // m; single images from so near show the same, if they have
-constexpr double same_direction = 0.866;                  // at least this cosine of their directions: 30 deg
-constexpr std::ptrdiff_t least_gap = 2;                   // observations of one day: nearer ones are the same picture
+constexpr double kSamePlace = 7.5, kAnotherPlace = 10.0;  // m, as closures are judged (Newman et al. 2009, Fig. 10)
+constexpr double kSameView = 3.0;                         // m; single images from so near show the same, if they have
+constexpr double kSameDirection = 0.866;                  // at least this cosine of their directions: 30 deg
+constexpr std::ptrdiff_t kLeastGap = 2;                   // observations of one day: nearer ones are the same picture
 
 struct LocatedPlaces {
   std::vector<DescribedPlace> places;
@@ -49,8 +49,8 @@ LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_
   return described;
 }
 
-const LabelPlace always_wrong = [](std::size_t, std::size_t) { return std::optional<bool>(false); };
-const AdmitPlace every_place = [](std::size_t, std::size_t) { return true; };
+const LabelPlace kAlwaysWrong = [](std::size_t, std::size_t) { return std::optional<bool>(false); };
+const AdmitPlace kEveryPlace = [](std::size_t, std::size_t) { return true; };
 
 /// Calibration runs of one kind of observation.
 class SiteRuns {
@@ -68,18 +68,18 @@ class SiteRuns {
     };
     const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
       const double off = distance(query, place);
-      if (off > another_place) return false;
+      if (off > kAnotherPlace) return false;
       const bool shows_other_things =
           !panoramas_ && !is_same_day &&
-          (off > same_view || queries.directions[query].dot(map.directions[place]) < same_direction);
-      if (off > same_place || shows_other_things) return std::nullopt;
+          (off > kSameView || queries.directions[query].dot(map.directions[place]) < kSameDirection);
+      if (off > kSamePlace || shows_other_things) return std::nullopt;
       return true;
     };
     const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
-      return distance(query, place) <= another_place;
+      return distance(query, place) <= kAnotherPlace;
     };
     const AdmitPlace isOtherPicture = [&](std::size_t i, std::size_t place) {
-      return !is_same_day || std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(place)) >= least_gap;
+      return !is_same_day || std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(place)) >= kLeastGap;
     };
     PlaceMatcher matcher(table_, sampled_, options_);
     for (const DescribedPlace& place : map.places) matcher.add(place);
@@ -88,7 +88,7 @@ class SiteRuns {
     // Within a session, single images are compared with neighbours: between days they may show different things.
     if (panoramas_ || is_same_day) runs_.alone.push_back(run);
     std::vector<SituationRun> away;
-    for (MatchedRun& each : runsElsewhere(matcher, queries.places, isNear, every_place))
+    for (MatchedRun& each : runsElsewhere(matcher, queries.places, isNear, kEveryPlace))
       away.push_back({std::move(each), Situation::Elsewhere, site});
     runs_.alone.insert(runs_.alone.end(), away.begin(), away.end());
     if (is_same_day) return;  // sequences count between sessions only
@@ -105,7 +105,7 @@ class SiteRuns {
           for (const DescribedPlace& place : day.places) matcher.add(place);
     if (matcher.size() == 0) return;
     for (const LocatedPlaces& day : sites[stranger]) {
-      runs_.alone.push_back({matchRun(matcher, day.places, every_place, always_wrong), Situation::Stranger, stranger});
+      runs_.alone.push_back({matchRun(matcher, day.places, kEveryPlace, kAlwaysWrong), Situation::Stranger, stranger});
       runs_.sequence.push_back(runs_.alone.back());
     }
   }

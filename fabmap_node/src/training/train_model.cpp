@@ -15,8 +15,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t least_drives = 3;  // for calibration: the map, another one, and the rest to train with
-constexpr std::size_t stretches = 3;     // that a drive is divided into if there are fewer
+constexpr std::size_t kLeastDrives = 3;  // for calibration: the map, another one, and the rest to train with
+constexpr std::size_t kStretches = 3;    // that a drive is divided into if there are fewer
 
 using Step = std::function<void(const std::string&, double)>;
 
@@ -35,12 +35,12 @@ std::size_t removeStationary(TrainingDrive& drive, std::size_t look_features) {
 }
 
 std::vector<TrainingDrive> divided(std::vector<TrainingDrive> drives) {
-  if (drives.size() >= least_drives) return drives;
+  if (drives.size() >= kLeastDrives) return drives;
   std::vector<TrainingDrive> parts;
   for (TrainingDrive& drive : drives)
-    for (std::size_t k = 0; k < stretches; ++k) {
+    for (std::size_t k = 0; k < kStretches; ++k) {
       const auto at = [&](std::size_t n) {
-        return drive.begin() + static_cast<std::ptrdiff_t>(n * drive.size() / stretches);
+        return drive.begin() + static_cast<std::ptrdiff_t>(n * drive.size() / kStretches);
       };
       parts.emplace_back(at(k), at(k + 1));
     }
@@ -94,7 +94,7 @@ void calibrate(const std::vector<TrainingDrive>& drives, const TrainingOptions& 
   const std::size_t look_features = options.matcher.look_features;
   const auto fit = [&](const std::vector<DescribedDrive>& kind, const char* name, PlaceCalibration& alone,
                        std::optional<PlaceCalibration>& sequence) {
-    if (kind.size() < least_drives) return false;
+    if (kind.size() < kLeastDrives) return false;
     const KindCalibration fitted = fitRuns(calibrationRuns(kind, model.vocabulary.size(), model.detector,
                                                            options.matcher, [&](double share) { step(name, share); }));
     trained.report.right += fitted.right;

@@ -12,7 +12,7 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t assignment_grain = 64;
+constexpr std::size_t kAssignmentGrain = 64;
 
 /// Fisher-Yates with raw output of the generator: the same on every standard library.
 void shuffle(std::vector<ByteDescriptor>& values, std::uint64_t seed) {
@@ -22,7 +22,7 @@ void shuffle(std::vector<ByteDescriptor>& values, std::uint64_t seed) {
 
 int squaredDistance(const ByteDescriptor& a, const ByteDescriptor& b) {
   int sum = 0;
-  for (std::size_t i = 0; i < descriptor_bytes; ++i) {
+  for (std::size_t i = 0; i < kDescriptorBytes; ++i) {
     const int d = static_cast<int>(a[i]) - static_cast<int>(b[i]);
     sum += d * d;
   }
@@ -36,7 +36,7 @@ struct Assignment {
 
 Assignment assign(const std::vector<ByteDescriptor>& descriptors, const Vocabulary& vocabulary) {
   Assignment result{std::vector<Word>(descriptors.size()), std::vector<int>(descriptors.size())};
-  urban_nav_core::forEach(descriptors.size(), assignment_grain, [&](std::size_t i) {
+  urban_nav_core::forEach(descriptors.size(), kAssignmentGrain, [&](std::size_t i) {
     result.word[i] = vocabulary.quantise(descriptors[i]);
     result.distance[i] = squaredDistance(descriptors[i], vocabulary.centres()[result.word[i]]);
   });
@@ -45,11 +45,11 @@ Assignment assign(const std::vector<ByteDescriptor>& descriptors, const Vocabula
 
 std::vector<ByteDescriptor> means(const std::vector<ByteDescriptor>& descriptors, const Assignment& assignment,
                                   std::vector<ByteDescriptor> centres) {
-  std::vector<std::array<std::uint32_t, descriptor_bytes>> sums(centres.size());
+  std::vector<std::array<std::uint32_t, kDescriptorBytes>> sums(centres.size());
   std::vector<std::uint32_t> members(centres.size(), 0);
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
     ++members[assignment.word[i]];
-    for (std::size_t k = 0; k < descriptor_bytes; ++k) sums[assignment.word[i]][k] += descriptors[i][k];
+    for (std::size_t k = 0; k < kDescriptorBytes; ++k) sums[assignment.word[i]][k] += descriptors[i][k];
   }
   std::vector<std::size_t> farthest;  // descriptors for the words without any
   const auto empty = static_cast<std::size_t>(std::count(members.begin(), members.end(), 0u));
@@ -69,7 +69,7 @@ std::vector<ByteDescriptor> means(const std::vector<ByteDescriptor>& descriptors
       centres[w] = descriptors[farthest[next++]];
       continue;
     }
-    for (std::size_t k = 0; k < descriptor_bytes; ++k)
+    for (std::size_t k = 0; k < kDescriptorBytes; ++k)
       centres[w][k] = static_cast<std::uint8_t>((sums[w][k] + members[w] / 2) / members[w]);
   }
   return centres;

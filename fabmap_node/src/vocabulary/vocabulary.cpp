@@ -10,14 +10,14 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t ungrouped = 64;  // vocabularies of no more words are searched as a whole
-constexpr std::size_t visited_groups = 8;
-constexpr int grouping_iterations = 4;
+constexpr std::size_t kUngrouped = 64;  // vocabularies of no more words are searched as a whole
+constexpr std::size_t kVisitedGroups = 8;
+constexpr int kGroupingIterations = 4;
 
-using Column = Eigen::Matrix<float, static_cast<int>(descriptor_bytes), 1>;
+using Column = Eigen::Matrix<float, static_cast<int>(kDescriptorBytes), 1>;
 
 Column makeColumn(const ByteDescriptor& descriptor) {
-  return Eigen::Map<const Eigen::Matrix<std::uint8_t, static_cast<int>(descriptor_bytes), 1>>(descriptor.data())
+  return Eigen::Map<const Eigen::Matrix<std::uint8_t, static_cast<int>(kDescriptorBytes), 1>>(descriptor.data())
       .cast<float>();
 }
 
@@ -29,18 +29,18 @@ void Vocabulary::group() {
   if (centres_.empty()) return;
   const std::size_t words = centres_.size();
   const std::size_t count =
-      words <= ungrouped ? 1 : static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(words))));
-  Columns all(static_cast<Eigen::Index>(descriptor_bytes), static_cast<Eigen::Index>(words));
+      words <= kUngrouped ? 1 : static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(words))));
+  Columns all(static_cast<Eigen::Index>(kDescriptorBytes), static_cast<Eigen::Index>(words));
   for (std::size_t i = 0; i < words; ++i) all.col(static_cast<Eigen::Index>(i)) = makeColumn(centres_[i]);
   coarse_.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
   for (std::size_t g = 0; g < count; ++g)
     coarse_.col(static_cast<Eigen::Index>(g)) = all.col(static_cast<Eigen::Index>(g * words / count));
   std::vector<Eigen::Index> member(words, 0);
-  for (int iteration = 0; iteration < grouping_iterations; ++iteration) {
+  for (int iteration = 0; iteration < kGroupingIterations; ++iteration) {
     coarse_half_norm_ = 0.5F * coarse_.colwise().squaredNorm().transpose();
     for (std::size_t i = 0; i < words; ++i)
       (coarse_.transpose() * all.col(static_cast<Eigen::Index>(i)) - coarse_half_norm_).maxCoeff(&member[i]);
-    if (iteration + 1 == grouping_iterations) break;
+    if (iteration + 1 == kGroupingIterations) break;
     Columns sum = Columns::Zero(coarse_.rows(), coarse_.cols());
     std::vector<float> members(count, 0.0F);
     for (std::size_t i = 0; i < words; ++i) {
@@ -69,7 +69,7 @@ Word Vocabulary::quantise(const ByteDescriptor& descriptor) const {
   const Eigen::VectorXf score = coarse_.transpose() * asked - coarse_half_norm_;
   std::vector<Eigen::Index> order(groups_.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  const std::size_t visited = std::min(visited_groups, order.size());
+  const std::size_t visited = std::min(kVisitedGroups, order.size());
   std::partial_sort(
       order.begin(), order.begin() + static_cast<std::ptrdiff_t>(visited), order.end(),
       [&score](Eigen::Index a, Eigen::Index b) { return score(a) != score(b) ? score(a) > score(b) : a < b; });
@@ -96,7 +96,7 @@ Word Vocabulary::quantiseExactly(const ByteDescriptor& descriptor) const {
   long nearest = std::numeric_limits<long>::max();
   for (std::size_t w = 0; w < centres_.size(); ++w) {
     long distance = 0;
-    for (std::size_t i = 0; i < descriptor_bytes; ++i) {
+    for (std::size_t i = 0; i < kDescriptorBytes; ++i) {
       const int d = static_cast<int>(descriptor[i]) - static_cast<int>(centres_[w][i]);
       distance += d * d;
     }

@@ -29,8 +29,8 @@ using urban_nav_store::Store;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
 
-constexpr StampNs observation_period = 1'000'000'000, monday = 1'225'719'873 * observation_period,
-                  tuesday = monday + 86'400 * observation_period;
+constexpr StampNs kObservationPeriod = 1'000'000'000, kMonday = 1'225'719'873 * kObservationPeriod,
+                  kTuesday = kMonday + 86'400 * kObservationPeriod;
 
 class LivePlacesTest : public ::testing::Test {
  protected:
@@ -42,10 +42,10 @@ class LivePlacesTest : public ::testing::Test {
     places->syncStore();
     return places;
   }
-  /// A drive past places, one an observation_period, with odometry.
+  /// A drive past places, one an kObservationPeriod, with odometry.
   static void drive(LivePlaces& places, StampNs start, unsigned from, unsigned to) {
     for (unsigned i = from; i < to; ++i) {
-      const StampNs stamp = start + (i - from) * observation_period;
+      const StampNs stamp = start + (i - from) * kObservationPeriod;
       places.addOdometry({stamp, {urban_nav_core::Quaterniond::Identity(), {2.0 * (i - from), 0.0, 0.0}}});
       observe(places, stamp, i);
       places.syncStore();
@@ -77,43 +77,43 @@ class LivePlacesTest : public ::testing::Test {
 
 TEST_F(LivePlacesTest, StoresPlacesWhileTheyAreObserved) {
   const auto places = begin(path_);
-  drive(*places, monday, 0, 4);
+  drive(*places, kMonday, 0, 4);
   EXPECT_NE(places->save(path_).find("committed"), std::string::npos);
   const std::vector<Session> stored = sessions(path_);
   ASSERT_EQ(stored.size(), 1u);
-  EXPECT_EQ(stored[0].start, monday);
+  EXPECT_EQ(stored[0].start, kMonday);
   EXPECT_EQ(stored[0].robot, "lisa");
   EXPECT_EQ(stored[0].recording, "begbroke");
   EXPECT_FALSE(stored[0].complete);
   const std::vector<StoredPlace> read = rows(path_, stored[0].id);
   ASSERT_EQ(read.size(), 4u);
-  EXPECT_EQ(read[3].stamp, monday + 3 * observation_period);
+  EXPECT_EQ(read[3].stamp, kMonday + 3 * kObservationPeriod);
   EXPECT_FALSE(read[3].thumbnail.empty());
 }
 
 TEST_F(LivePlacesTest, KnowsPlacesOfAnEarlierProcess) {
-  drive(*begin(path_), monday, 0, 4);
+  drive(*begin(path_), kMonday, 0, 4);
   const std::vector<Session> stored = sessions(path_);
   ASSERT_EQ(stored.size(), 1u);
   EXPECT_TRUE(stored[0].complete);
   const auto places = begin(path_);
-  drive(*places, tuesday, 4, 6);
-  const PlaceOutput output = observe(*places, tuesday + 10 * observation_period, 2);
+  drive(*places, kTuesday, 4, 6);
+  const PlaceOutput output = observe(*places, kTuesday + 10 * kObservationPeriod, 2);
   ASSERT_FALSE(output.belief.likeliest.empty());
   EXPECT_EQ(output.belief.likeliest[0].at.session, stored[0].id);
-  EXPECT_EQ(output.belief.likeliest[0].at.stamp, monday + 2 * observation_period);
+  EXPECT_EQ(output.belief.likeliest[0].at.stamp, kMonday + 2 * kObservationPeriod);
 }
 
 TEST_F(LivePlacesTest, ARecordingThatIsPlayedAgainGivesTheSameContent) {
   const std::string whole = folder_.file("whole.db");
-  drive(*begin(whole), monday, 0, 6);
-  drive(*begin(path_), monday, 0, 3);
+  drive(*begin(whole), kMonday, 0, 6);
+  drive(*begin(path_), kMonday, 0, 3);
   {
     const auto places = begin(path_);
-    drive(*places, monday, 0, 1);
-    EXPECT_TRUE(observe(*places, monday + observation_period, 1).belief.likeliest.empty())
+    drive(*places, kMonday, 0, 1);
+    EXPECT_TRUE(observe(*places, kMonday + kObservationPeriod, 1).belief.likeliest.empty())
         << "it was observed in the future";
-    drive(*places, monday + 2 * observation_period, 2, 6);
+    drive(*places, kMonday + 2 * kObservationPeriod, 2, 6);
   }
   EXPECT_EQ(sessions(path_).size(), 1u);
   EXPECT_EQ(readContent(path_), readContent(whole));
@@ -122,14 +122,14 @@ TEST_F(LivePlacesTest, ARecordingThatIsPlayedAgainGivesTheSameContent) {
 TEST_F(LivePlacesTest, WhatComesWhileTheStoreIsInUseIsNotLost) {
   auto other = std::make_unique<Store>(path_, Access::Write);
   const auto places = begin(path_);
-  drive(*places, monday, 0, 3);
+  drive(*places, kMonday, 0, 3);
   EXPECT_EQ(places->report().reason_name, "NotStored");
   EXPECT_TRUE(places->report().is_error);
   EXPECT_NE(places->report().status.sentence.find(path_), std::string::npos);
   EXPECT_THROW(places->save(folder_.file("copy.db")), urban_nav_core::UserError);
   other.reset();
   wait();
-  drive(*places, monday + 3 * observation_period, 3, 5);
+  drive(*places, kMonday + 3 * kObservationPeriod, 3, 5);
   places->save(path_);
   EXPECT_EQ(places->report().reason_name, "None");
   ASSERT_EQ(sessions(path_).size(), 1u);
@@ -141,7 +141,7 @@ TEST_F(LivePlacesTest, LeavesADamagedStoreAsItIs) {
   std::ofstream(path_) << noise;
   {
     const auto places = begin(path_);
-    drive(*places, monday, 0, 2);
+    drive(*places, kMonday, 0, 2);
     EXPECT_EQ(places->report().reason_name, "NotStored");
   }
   std::ifstream file(path_);
@@ -150,10 +150,10 @@ TEST_F(LivePlacesTest, LeavesADamagedStoreAsItIs) {
 
 TEST_F(LivePlacesTest, StampsThatJumpBackBeginTheNextSession) {
   const auto places = begin(path_);
-  drive(*places, monday, 0, 4);
+  drive(*places, kMonday, 0, 4);
   const PlaceOutput again = [&] {
-    drive(*places, monday, 5, 7);
-    return observe(*places, monday + 3 * observation_period, 1);
+    drive(*places, kMonday, 5, 7);
+    return observe(*places, kMonday + 3 * kObservationPeriod, 1);
   }();
   places->save(path_);
   const std::vector<Session> stored = sessions(path_);
@@ -169,8 +169,8 @@ TEST_F(LivePlacesTest, StampsThatJumpBackBeginTheNextSession) {
 
 TEST_F(LivePlacesTest, ImagesThatBeginInTheSecondRoundOfARecordingAreOfItsSession) {
   const auto places = begin(path_);
-  for (unsigned i = 0; i < 5; ++i) places->addOdometry({monday + i * observation_period, urban_nav_core::Pose()});
-  drive(*places, monday, 0, 2);
+  for (unsigned i = 0; i < 5; ++i) places->addOdometry({kMonday + i * kObservationPeriod, urban_nav_core::Pose()});
+  drive(*places, kMonday, 0, 2);
   places->save(path_);
   ASSERT_EQ(sessions(path_).size(), 1u);
   EXPECT_EQ(sessions(path_)[0].recording, "begbroke (2)");
@@ -178,21 +178,21 @@ TEST_F(LivePlacesTest, ImagesThatBeginInTheSecondRoundOfARecordingAreOfItsSessio
 
 TEST_F(LivePlacesTest, ASessionWithoutOdometryIsNamedAfterItsFirstObservation) {
   const auto places = begin(path_);
-  for (unsigned i = 0; i < 12; ++i) observe(*places, monday + i * observation_period, i);
+  for (unsigned i = 0; i < 12; ++i) observe(*places, kMonday + i * kObservationPeriod, i);
   places->save(path_);
   ASSERT_EQ(sessions(path_).size(), 1u);
-  EXPECT_EQ(sessions(path_)[0].start, monday);
+  EXPECT_EQ(sessions(path_)[0].start, kMonday);
   EXPECT_EQ(rows(path_, sessions(path_)[0].id).size(), 12u);
 }
 
 TEST_F(LivePlacesTest, ResetForgetsPlacesButTheStoreKeepsThem) {
   const auto places = begin(path_);
-  drive(*places, monday, 0, 4);
+  drive(*places, kMonday, 0, 4);
   places->reset();
-  drive(*places, monday, 4, 5);
-  const PlaceOutput output = observe(*places, monday + 60 * observation_period, 2);
+  drive(*places, kMonday, 4, 5);
+  const PlaceOutput output = observe(*places, kMonday + 60 * kObservationPeriod, 2);
   ASSERT_FALSE(output.belief.likeliest.empty());
-  EXPECT_EQ(output.belief.likeliest[0].at.stamp, monday) << "the only one that is left, of another look";
+  EXPECT_EQ(output.belief.likeliest[0].at.stamp, kMonday) << "the only one that is left, of another look";
   EXPECT_TRUE(output.belief.likeliest[0].at.session.empty());
   places->save(path_);
   ASSERT_EQ(sessions(path_).size(), 2u);
@@ -200,10 +200,10 @@ TEST_F(LivePlacesTest, ResetForgetsPlacesButTheStoreKeepsThem) {
 
 TEST_F(LivePlacesTest, SavesWhatWasLoadedBesideWhatIsStored) {
   const std::string loaded = folder_.file("loaded.db"), saved = folder_.file("saved.db");
-  drive(*begin(loaded), monday, 0, 3);
+  drive(*begin(loaded), kMonday, 0, 3);
   const auto places = begin(path_);
   places->load(loaded);
-  drive(*places, tuesday, 3, 5);
+  drive(*places, kTuesday, 3, 5);
   places->save(saved);
   const std::vector<Session> stored = sessions(saved);
   ASSERT_EQ(stored.size(), 2u);
@@ -214,24 +214,24 @@ TEST_F(LivePlacesTest, SavesWhatWasLoadedBesideWhatIsStored) {
 
 TEST_F(LivePlacesTest, PlacesThatAStoreNoLongerHasAreReported) {
   const std::string loaded = folder_.file("loaded.db");
-  drive(*begin(loaded), monday, 0, 3);
+  drive(*begin(loaded), kMonday, 0, 3);
   const std::vector<StoredPlace> all = rows(loaded, sessions(loaded)[0].id);
   ASSERT_EQ(all.size(), 3u);
   Store writer(loaded, Access::Write);
   const auto places = begin("");
   places->load(loaded);
-  drive(*places, tuesday, 0, 1);
+  drive(*places, kTuesday, 0, 1);
   EXPECT_EQ(places->report().reason_name, "None");
   for (const StoredPlace& row : all) TableStore<StoredPlace>(writer).remove(row);
   writer.commit();
-  drive(*places, tuesday + observation_period, 1, 2);
+  drive(*places, kTuesday + kObservationPeriod, 1, 2);
   EXPECT_EQ(places->report().reason_name, "NotRead");
 }
 
 TEST_F(LivePlacesTest, SavesWithoutAStore) {
   const auto places = begin("");
   EXPECT_THROW(places->save(path_), urban_nav_core::UserError) << "nothing yet";
-  drive(*places, monday, 0, 3);
+  drive(*places, kMonday, 0, 3);
   EXPECT_EQ(places->report().reason_name, "None");
   places->save(path_);
   ASSERT_EQ(sessions(path_).size(), 1u);

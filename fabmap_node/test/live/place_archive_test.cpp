@@ -15,12 +15,12 @@ namespace {
 using testing::syntheticPlace;
 using testing::TemporaryFolder;
 
-constexpr std::uint32_t place_count = 4;
+constexpr std::uint32_t kPlaceCount = 4;
 
 std::vector<MapPlace> makePlaces(const PlaceModel& model) {
   const PlaceDescriber describer(model, {}, 540);
   std::vector<MapPlace> places;
-  for (std::uint32_t i = 0; i < place_count; ++i)
+  for (std::uint32_t i = 0; i < kPlaceCount; ++i)
     places.push_back({10 + i, describer.describe(syntheticPlace(i, 0, 5)), 2.0 * i});
   return places;
 }
@@ -89,7 +89,7 @@ TEST(PlaceArchive, LeavesOutPlacesOfAnotherModel) {
   }
   const std::vector<ArchivedSession> sessions = archivedSessions(path, "0123456789abcdef", model.vocabulary.size());
   ASSERT_EQ(sessions.size(), 1u);
-  EXPECT_EQ(sessions[0].places->forEach([](const MapPlace&) { ADD_FAILURE(); }), place_count);
+  EXPECT_EQ(sessions[0].places->forEach([](const MapPlace&) { ADD_FAILURE(); }), kPlaceCount);
 }
 
 }  // namespace

@@ -10,15 +10,15 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t posting_words = 40;
+constexpr std::size_t kPostingWords = 40;
 
 /// Word q is in a share of q / 40 of the places: from rare ones to those of nearly all places.
 std::vector<WordSet> drawPlaces(std::size_t count) {
   urban_nav_core::testing::Dice dice(11);
   std::vector<WordSet> places(count);
   for (WordSet& place : places)
-    for (Word q = 0; q < posting_words; ++q)
-      if (dice.chance(static_cast<double>(q) / posting_words)) place.push_back(q);
+    for (Word q = 0; q < kPostingWords; ++q)
+      if (dice.chance(static_cast<double>(q) / kPostingWords)) place.push_back(q);
   return places;
 }
 
@@ -34,8 +34,8 @@ TEST(WordPostings, AddsTheWeightsOfTheWordsOfEachPlaceAtEverySize) {
   const std::vector<WeightedWord> rare = {{1, 0.5}, {2, -1.0}}, frequent = {{30, 0.25}, {39, 2.0}},
                                   both = {{0, 3.0}, {4, 0.125}, {5, 1.0}, {20, -0.3}, {38, 7.0}};
   std::vector<WeightedWord> most;
-  for (Word q = 1; q < posting_words; q += 2) most.push_back({q, 0.1 * q - 2.0});
-  WordPostings postings(posting_words);
+  for (Word q = 1; q < kPostingWords; q += 2) most.push_back({q, 0.1 * q - 2.0});
+  WordPostings postings(kPostingWords);
   std::vector<double> sums;
   for (std::size_t i = 0; i < places.size(); ++i) {
     postings.add(places[i]);
@@ -50,7 +50,7 @@ TEST(WordPostings, AddsTheWeightsOfTheWordsOfEachPlaceAtEverySize) {
 }
 
 TEST(WordPostings, PlacesWithoutWordsCount) {
-  WordPostings postings(posting_words);
+  WordPostings postings(kPostingWords);
   for (int i = 0; i < 5000; ++i) postings.add({});
   std::vector<double> sums(postings.size(), 0.5);
   postings.addWeights({{3, 1.0}}, sums);

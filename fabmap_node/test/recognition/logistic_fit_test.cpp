@@ -24,11 +24,11 @@ LogisticSamples drawRows(const Eigen::VectorXd& truth, int count, unsigned seed)
 }
 
 double numericSlope(const LogisticSamples& samples, double penalty, Eigen::VectorXd at, Eigen::Index k) {
-  constexpr double step = 1e-4;
-  at(k) += step;
+  constexpr double kStep = 1e-4;
+  at(k) += kStep;
   const double above = logisticLoss(samples, penalty, at);
-  at(k) -= 2.0 * step;
-  return (above - logisticLoss(samples, penalty, at)) / (2.0 * step);
+  at(k) -= 2.0 * kStep;
+  return (above - logisticLoss(samples, penalty, at)) / (2.0 * kStep);
 }
 
 /// At the minimum the slope of a free coefficient is zero, and that of one at its bound does not point below.

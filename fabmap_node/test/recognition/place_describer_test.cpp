@@ -21,21 +21,21 @@ namespace {
 using testing::syntheticPlace;
 using urban_nav_core::ImageView;
 
-constexpr int side = 200;
+constexpr int kSide = 200;
 
 /// Squares of random brightness, which have corners.
 std::vector<std::uint8_t> squares(unsigned seed) {
   std::mt19937 random(seed);
-  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(side * side));
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(kSide * kSide));
   std::vector<std::uint8_t> level(400);
   for (std::uint8_t& value : level) value = static_cast<std::uint8_t>(random() % 256);
-  for (int v = 0; v < side; ++v)
-    for (int u = 0; u < side; ++u)
-      pixels[static_cast<std::size_t>(v * side + u)] = level[static_cast<std::size_t>(v / 10 * 20 + u / 10)];
+  for (int v = 0; v < kSide; ++v)
+    for (int u = 0; u < kSide; ++u)
+      pixels[static_cast<std::size_t>(v * kSide + u)] = level[static_cast<std::size_t>(v / 10 * 20 + u / 10)];
   return pixels;
 }
 
-ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), side, side, side}; }
+ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), kSide, kSide, kSide}; }
 
 const PlaceModel& suiteModel() {
   static const PlaceModel model = defaultModel();
@@ -48,10 +48,10 @@ PlaceDescription describePixels(const std::vector<std::uint8_t>& pixels) {
 
 TEST(PlaceDescriber, StatesWhyAnImageIsNotUsed) {
   EXPECT_EQ(describePixels(squares(1)).status, ObservationStatus::Used);
-  EXPECT_EQ(describePixels(std::vector<std::uint8_t>(side * side, 3)).status, ObservationStatus::Dark);
-  EXPECT_EQ(describePixels(std::vector<std::uint8_t>(side * side, 200)).status, ObservationStatus::Blank);
-  std::vector<std::uint8_t> ramp(static_cast<std::size_t>(side * side));
-  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::uint8_t>(i % side);
+  EXPECT_EQ(describePixels(std::vector<std::uint8_t>(kSide * kSide, 3)).status, ObservationStatus::Dark);
+  EXPECT_EQ(describePixels(std::vector<std::uint8_t>(kSide * kSide, 200)).status, ObservationStatus::Blank);
+  std::vector<std::uint8_t> ramp(static_cast<std::size_t>(kSide * kSide));
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::uint8_t>(i % kSide);
   EXPECT_EQ(describePixels(ramp).status, ObservationStatus::Blurred);
   EXPECT_EQ(PlaceDescriber(suiteModel(), {}, 280).describe({ImageView(), ImageView()}).status,
             ObservationStatus::NoImage);

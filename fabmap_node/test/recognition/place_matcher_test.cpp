@@ -11,14 +11,14 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t words = 60;
-constexpr std::size_t similar_places = 1300, other_places = 400;
+constexpr std::size_t kWords = 60;
+constexpr std::size_t kSimilarPlaces = 1300, kOtherPlaces = 400;
 
 /// Words that are mostly those below 30, or mostly those from 30 on.
 WordSet drawWordsOfPlace(bool low, urban_nav_core::testing::Dice& dice) {
   WordSet set;
-  for (Word q = 0; q < words; ++q)
-    if (dice.chance((q < words / 2) == low ? 0.7 : 0.1)) set.push_back(q);
+  for (Word q = 0; q < kWords; ++q)
+    if (dice.chance((q < kWords / 2) == low ? 0.7 : 0.1)) set.push_back(q);
   return set;
 }
 
@@ -28,9 +28,9 @@ class LargeMap {
  public:
   LargeMap() {
     urban_nav_core::testing::Dice dice(4);
-    for (std::size_t i = 0; i < similar_places; ++i)
+    for (std::size_t i = 0; i < kSimilarPlaces; ++i)
       matcher.add({0, static_cast<urban_nav_core::StampNs>(i), drawWordsOfPlace(true, dice), ""});
-    for (std::size_t i = 0; i < other_places; ++i)
+    for (std::size_t i = 0; i < kOtherPlaces; ++i)
       matcher.add({1, static_cast<urban_nav_core::StampNs>(i), drawWordsOfPlace(false, dice), ""});
     query = {2, 0, drawWordsOfPlace(true, dice), ""};
   }
@@ -38,7 +38,7 @@ class LargeMap {
  private:
   static ChowLiuTree learnTree() {
     urban_nav_core::testing::Dice dice(5);
-    WordSets drawn{words, {}};
+    WordSets drawn{kWords, {}};
     for (int i = 0; i < 200; ++i) drawn.observations.push_back(drawWordsOfPlace(i % 2 == 0, dice));
     return learnChowLiuTree(drawn);
   }
@@ -77,7 +77,7 @@ TEST(PlaceMatcher, WhatIsFoundDoesNotDependOnTheUnlikelyRestOfTheMap) {
       EXPECT_EQ(again[i].place, found[i].place);
       EXPECT_EQ(again[i].log_likelihood, found[i].log_likelihood);
     }
-    for (std::size_t i = 0; i < similar_places; ++i) {
+    for (std::size_t i = 0; i < kSimilarPlaces; ++i) {
       if (places.count(i) > 0) continue;
       EXPECT_LE(map.matcher.compare(map.query, i, admits).match.log_likelihood, found.front().log_likelihood);
       i += 50;

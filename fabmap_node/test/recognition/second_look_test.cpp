@@ -10,10 +10,10 @@ namespace {
 
 using testing::syntheticPlace;
 
-constexpr std::size_t every_feature = 1000;
+constexpr std::size_t kEveryFeature = 1000;
 
 LookFeatures lookAt(std::uint32_t number, std::uint32_t noise, std::uint8_t cameras = 1) {
-  return lookFeatures(syntheticPlace(number, noise, cameras), every_feature);
+  return lookFeatures(syntheticPlace(number, noise, cameras), kEveryFeature);
 }
 
 TEST(SecondLook, SamePlaceAgreesAndAnotherDoesNot) {
@@ -26,7 +26,7 @@ TEST(SecondLook, SamePlaceAgreesAndAnotherDoesNot) {
 TEST(SecondLook, PanoramasAgreeUnderAChangeOfHeading) {
   PlaceObservation turned = syntheticPlace(4, 1, 5);
   for (PlaceFeature& feature : turned.features) feature.camera = static_cast<std::uint8_t>((feature.camera + 2) % 5);
-  EXPECT_GT(secondLook(lookAt(4, 0, 5), lookFeatures(turned, every_feature)).share, 0.4);
+  EXPECT_GT(secondLook(lookAt(4, 0, 5), lookFeatures(turned, kEveryFeature)).share, 0.4);
 }
 
 /// Features above the horizon of two synthetic places together, and those below it of two others.
@@ -43,9 +43,9 @@ PlaceObservation skyOver(std::uint32_t sky, std::uint32_t ground, std::uint32_t 
 }
 
 TEST(SecondLook, TheSameSkyOverAnotherPlaceIsNoAgreement) {
-  const LookFeatures here = lookFeatures(skyOver(4, 4, 0), every_feature);
-  const LookAgreement same = secondLook(here, lookFeatures(skyOver(4, 4, 1), every_feature)),
-                      elsewhere = secondLook(here, lookFeatures(skyOver(4, 6, 1), every_feature));
+  const LookFeatures here = lookFeatures(skyOver(4, 4, 0), kEveryFeature);
+  const LookAgreement same = secondLook(here, lookFeatures(skyOver(4, 4, 1), kEveryFeature)),
+                      elsewhere = secondLook(here, lookFeatures(skyOver(4, 6, 1), kEveryFeature));
   EXPECT_GT(same.share, 0.3);
   EXPECT_GT(elsewhere.whole, 0.1);
   EXPECT_LT(elsewhere.share, 0.05);
@@ -55,7 +55,7 @@ TEST(SecondLook, DirectionsThatScatterDoNotAgree) {
   PlaceObservation scattered = syntheticPlace(5, 0, 5);
   for (std::size_t i = 0; i < scattered.features.size(); ++i)
     scattered.features[i].camera = static_cast<std::uint8_t>((scattered.features[i].camera + i) % 5);
-  const LookAgreement agreement = secondLook(lookAt(5, 0, 5), lookFeatures(scattered, every_feature));
+  const LookAgreement agreement = secondLook(lookAt(5, 0, 5), lookFeatures(scattered, kEveryFeature));
   EXPECT_GT(agreement.matches, 10);
   EXPECT_LT(agreement.agreeing, agreement.matches / 2);
 }
@@ -65,7 +65,7 @@ TEST(SecondLook, SingleImageAndPanoramaDoNotAgree) {
 }
 
 TEST(SecondLook, EmptyObservationsDoNotAgree) {
-  const LookFeatures nothing = lookFeatures({}, every_feature);
+  const LookFeatures nothing = lookFeatures({}, kEveryFeature);
   EXPECT_EQ(secondLook(nothing, lookAt(1, 0)).share, 0.0);
   EXPECT_EQ(secondLook(nothing, nothing).share, 0.0);
 }
@@ -73,7 +73,7 @@ TEST(SecondLook, EmptyObservationsDoNotAgree) {
 TEST(LookFeatures, SelectsUpToTheLimit) {
   const PlaceObservation place = syntheticPlace(1, 0);
   EXPECT_EQ(lookFeatures(place, 20).size(), 20u);
-  EXPECT_EQ(lookFeatures(place, every_feature).size(), place.features.size());
+  EXPECT_EQ(lookFeatures(place, kEveryFeature).size(), place.features.size());
 }
 
 TEST(IsStationary, OnlyWhereFeaturesDoNotMove) {

@@ -31,10 +31,10 @@ using urban_nav_store::StoredKeyframePlace;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
 
-constexpr int keyframe_count = 12;
-constexpr double spacing = 4.0;  // m
+constexpr int kKeyframeCount = 12;
+constexpr double kSpacing = 4.0;  // m
 
-urban_nav_core::Pose placeOf(int i, double beside) { return lookingAlong({4.0 + spacing * i, beside, 1.2}, 0.0); }
+urban_nav_core::Pose placeOf(int i, double beside) { return lookingAlong({4.0 + kSpacing * i, beside, 1.2}, 0.0); }
 
 urban_nav_registration::testing::Photographer& street() {
   static urban_nav_registration::testing::Photographer photographer(urban_nav_core::testing::texturedStreet());
@@ -45,7 +45,7 @@ urban_nav_registration::testing::Photographer& street() {
 const std::vector<Keyframe>& streetKeyframes() {
   static const std::vector<Keyframe> made = [] {
     std::vector<Keyframe> keyframes;
-    for (int i = 0; i < keyframe_count; ++i) keyframes.push_back(street().keyframe(placeOf(i, 0.0)));
+    for (int i = 0; i < kKeyframeCount; ++i) keyframes.push_back(street().keyframe(placeOf(i, 0.0)));
     return keyframes;
   }();
   return made;
@@ -53,7 +53,7 @@ const std::vector<Keyframe>& streetKeyframes() {
 
 /// The other day: somewhat beside, in other light.
 Keyframe visit(std::size_t i) {
-  return street().keyframe(lookingAlong({3.3 + spacing * static_cast<double>(i), 0.4, 1.2}, 0.1), 0.8);
+  return street().keyframe(lookingAlong({3.3 + kSpacing * static_cast<double>(i), 0.4, 1.2}, 0.1), 0.8);
 }
 
 /// A street with keyframes, one of which has no image.
@@ -64,13 +64,13 @@ class KeyframePlacesTest : public ::testing::Test {
     ASSERT_NE(mkdtemp(folder_.data()), nullptr);
     store_.emplace(folder_ + "/map.db", Access::Write);
     store_->sessions().put(urban_nav_store::Session{id_, "day", "", "", 0, true});
-    for (int i = 0; i < keyframe_count; ++i) {
+    for (int i = 0; i < kKeyframeCount; ++i) {
       Keyframe keyframe = streetKeyframes()[static_cast<std::size_t>(i)];
-      if (i == without_image) keyframe.image.clear();
+      if (i == kWithoutImage) keyframe.image.clear();
       keyframe.at = {id_, i + 1};
       keyframes_.push_back(keyframe);
       searched_.push_back({keyframe.at, nullptr});
-      store_->keyframes().put(id_, urban_nav_registration::keyframe_camera,
+      store_->keyframes().put(id_, urban_nav_registration::kKeyframeCamera,
                               urban_nav_registration::toStoredKeyframe(keyframe));
     }
     store_->commit();
@@ -84,7 +84,7 @@ class KeyframePlacesTest : public ::testing::Test {
   template <typename Row>
   void storeWords(const std::string& model_hash) {
     const PlaceModel model = defaultModel();
-    const PlaceDescriber describer(model, {}, keyframe_look_features);
+    const PlaceDescriber describer(model, {}, kKeyframeLookFeatures);
     for (const Keyframe& keyframe : keyframes_) {
       const cv::Mat pixels = urban_nav_registration::decodeJpeg(keyframe.image, {keyframe.width, keyframe.height});
       const urban_nav_core::ImageView view{pixels.data, pixels.cols, pixels.rows,
@@ -112,7 +112,7 @@ class KeyframePlacesTest : public ::testing::Test {
     }
   }
 
-  static constexpr int without_image = 6;
+  static constexpr int kWithoutImage = 6;
   const std::string id_ = "0123456789abcdef0123";
   std::string folder_;
   std::optional<Store> store_;
@@ -123,7 +123,7 @@ class KeyframePlacesTest : public ::testing::Test {
 TEST_F(KeyframePlacesTest, FindsTheKeyframeThatWasTakenNearbyByItsImage) {
   KeyframePlaces places;
   open(places);
-  EXPECT_EQ(places.described(), static_cast<std::size_t>(keyframe_count));
+  EXPECT_EQ(places.described(), static_cast<std::size_t>(kKeyframeCount));
   expectFound(places);
 }
 
@@ -152,7 +152,7 @@ TEST_F(KeyframePlacesTest, DescribesKeyframesOfAnotherModelOrCamera) {
   storeWords<StoredKeyframePlace>("another model");
   KeyframePlaces of_another_model;
   open(of_another_model);
-  EXPECT_EQ(of_another_model.described(), static_cast<std::size_t>(keyframe_count));
+  EXPECT_EQ(of_another_model.described(), static_cast<std::size_t>(kKeyframeCount));
   expectFound(of_another_model);
 
   storeWords<StoredKeyframePlace>(modelHash(defaultModelBytes()));
@@ -172,8 +172,8 @@ TEST_F(KeyframePlacesTest, HasNothingToSayOfWhatIsNoImage) {
   while (places.readNext()) {
   }
   EXPECT_TRUE(places.find(Keyframe(), 3).empty());
-  const auto all = places.find(visit(without_image), 100);
-  EXPECT_EQ(std::count(all.begin(), all.end(), static_cast<std::size_t>(without_image)), 0) << "it cannot be found";
+  const auto all = places.find(visit(kWithoutImage), 100);
+  EXPECT_EQ(std::count(all.begin(), all.end(), static_cast<std::size_t>(kWithoutImage)), 0) << "it cannot be found";
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ using testing::drawSquares;
 using testing::TemporaryFolder;
 using urban_nav_core::StampNs;
 
-constexpr StampNs first_stamp = 1'225'719'873'000'000'000, half_second = 500'000'000;
-constexpr int head_cameras = 5;
+constexpr StampNs kFirstStamp = 1'225'719'873'000'000'000, kHalfSecond = 500'000'000;
+constexpr int kHeadCameras = 5;
 
 /// Returns the number of places that a store has from a stamp on; 0 if there is no store yet.
 std::size_t countPlaces(const std::string& path, StampNs from) {
@@ -72,7 +72,7 @@ pid_t findProcess(const std::string& node) {
 class Head {
  public:
   Head() {
-    for (int camera = 0; camera < head_cameras; ++camera)
+    for (int camera = 0; camera < kHeadCameras; ++camera)
       images_.push_back(
           nh_.advertise<sensor_msgs::Image>("ladybug/camera" + std::to_string(camera) + "/image_raw", 100));
     odometry_ = nh_.advertise<nav_msgs::Odometry>("vo/odometry", 100);
@@ -99,7 +99,7 @@ class Head {
     });
   }
   void show(unsigned place, StampNs stamp, int without_camera = -1) {
-    for (int camera = 0; camera < head_cameras; ++camera) {
+    for (int camera = 0; camera < kHeadCameras; ++camera) {
       if (camera == without_camera) continue;
       sensor_msgs::Image message = urban_nav_ros::toImageMessage(drawSquares(place, static_cast<unsigned>(camera)));
       message.header.stamp = urban_nav_ros::toRosTime(stamp);
@@ -171,21 +171,21 @@ class FabmapNodelet : public ::testing::Test {
 std::unique_ptr<Head> FabmapNodelet::shared_;
 
 TEST_F(FabmapNodelet, RecognisesARevisitAndProposesIt) {
-  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(place, first_stamp + place * half_second));
+  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(place, kFirstStamp + place * kHalfSecond));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
   for (const auto& belief : head.beliefs) EXPECT_TRUE(belief.places.empty()) << "nothing is older than the mask";
-  head.show(3, first_stamp + 60 * half_second);
+  head.show(3, kFirstStamp + 60 * kHalfSecond);
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 6 && !head.closures.empty(); }));
   const auto& belief = head.beliefs.back();
   ASSERT_FALSE(belief.places.empty());
-  EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), first_stamp + 3 * half_second);
-  EXPECT_EQ(urban_nav_ros::toStampNs(head.closures[0].a.stamp), first_stamp + 3 * half_second);
-  EXPECT_EQ(urban_nav_ros::toStampNs(head.closures[0].b.stamp), first_stamp + 60 * half_second);
+  EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), kFirstStamp + 3 * kHalfSecond);
+  EXPECT_EQ(urban_nav_ros::toStampNs(head.closures[0].a.stamp), kFirstStamp + 3 * kHalfSecond);
+  EXPECT_EQ(urban_nav_ros::toStampNs(head.closures[0].b.stamp), kFirstStamp + 60 * kHalfSecond);
   EXPECT_NEAR(belief.p_new + belief.probabilities[0], 1.0, 1e-9);
 }
 
 TEST_F(FabmapNodelet, ForgetsOnResetAndContinuesWithFourCameras) {
-  for (unsigned place = 10; place < 15; ++place) head.show(place, first_stamp + place * half_second, 2);
+  for (unsigned place = 10; place < 15; ++place) head.show(place, kFirstStamp + place * kHalfSecond, 2);
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() >= 3; })) << "the others may still be completed";
   for (const auto& belief : head.beliefs) EXPECT_EQ(belief.observation, "used");
 }
@@ -194,7 +194,7 @@ TEST_F(FabmapNodelet, RecognisesPlacesOfASessionThatWasSaved) {
   const TemporaryFolder folder;
   const std::string path = folder.file("places.db");
   EXPECT_FALSE(Head::command("save", path).success) << "there are no places yet";
-  for (unsigned place = 20; place < 25; ++place) ASSERT_TRUE(head.observe(place, first_stamp + place * half_second));
+  for (unsigned place = 20; place < 25; ++place) ASSERT_TRUE(head.observe(place, kFirstStamp + place * kHalfSecond));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
   const auto saved = Head::command("save", path);
   EXPECT_TRUE(saved.success) << saved.message;
@@ -203,23 +203,23 @@ TEST_F(FabmapNodelet, RecognisesPlacesOfASessionThatWasSaved) {
   ASSERT_TRUE(head.reset());
   const auto loaded = Head::command("load", path);
   EXPECT_TRUE(loaded.success) << loaded.message;
-  head.show(22, first_stamp + 10'000 * half_second);
+  head.show(22, kFirstStamp + 10'000 * kHalfSecond);
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 1; }));
   const auto& belief = head.beliefs.back();
   ASSERT_FALSE(belief.places.empty());
-  EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), first_stamp + 22 * half_second);
+  EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), kFirstStamp + 22 * kHalfSecond);
   EXPECT_EQ(belief.places[0].session.size(), 20U) << "the id of an earlier session";
 }
 
 TEST_F(FabmapNodelet, DrawsItsBeliefAlongThePathOfOdometry) {
-  const StampNs start = first_stamp + 15'000 * half_second;
+  const StampNs start = kFirstStamp + 15'000 * kHalfSecond;
   head.drive(start);
-  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(40 + place, start + place * half_second));
+  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(40 + place, start + place * kHalfSecond));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
-  head.drive(start + 10 * half_second, 10.0);
-  head.drive(start + 50 * half_second, 11.0);
-  head.show(43, start + 60 * half_second);
-  head.drive(start + 60 * half_second, 20.0);
+  head.drive(start + 10 * kHalfSecond, 10.0);
+  head.drive(start + 50 * kHalfSecond, 11.0);
+  head.show(43, start + 60 * kHalfSecond);
+  head.drive(start + 60 * kHalfSecond, 20.0);
   const auto isMatch = [](const visualization_msgs::Marker& marker) { return marker.ns == "match"; };
   ASSERT_TRUE(Head::until([&] { return std::any_of(head.markers.begin(), head.markers.end(), isMatch); }));
   const auto match = std::find_if(head.markers.begin(), head.markers.end(), isMatch);
@@ -236,9 +236,9 @@ TEST_F(FabmapNodelet, DrawsItsBeliefAlongThePathOfOdometry) {
 TEST_F(FabmapNodelet, KnowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
   std::string store;
   ASSERT_TRUE(ros::param::get("fabmap_node/store", store));
-  const StampNs start = first_stamp + 20'000 * half_second;
+  const StampNs start = kFirstStamp + 20'000 * kHalfSecond;
   head.drive(start);
-  for (unsigned place = 30; place < 35; ++place) ASSERT_TRUE(head.observe(place, start + place * half_second));
+  for (unsigned place = 30; place < 35; ++place) ASSERT_TRUE(head.observe(place, start + place * kHalfSecond));
   ASSERT_TRUE(Head::until([&] { return countPlaces(store, start) == 5; })) << "committed without a request";
   const pid_t process = findProcess("/fabmap_node");
   ASSERT_GT(process, 0);
@@ -246,10 +246,10 @@ TEST_F(FabmapNodelet, KnowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
   ASSERT_TRUE(head.disconnected());
   ASSERT_TRUE(head.connected()) << "it is started again";
   head.beliefs.clear();
-  head.show(32, first_stamp + 30'000 * half_second);
+  head.show(32, kFirstStamp + 30'000 * kHalfSecond);
   ASSERT_TRUE(Head::until([&] { return !head.beliefs.empty(); }));
   ASSERT_FALSE(head.beliefs[0].places.empty());
-  EXPECT_EQ(urban_nav_ros::toStampNs(head.beliefs[0].places[0].stamp), start + 32 * half_second);
+  EXPECT_EQ(urban_nav_ros::toStampNs(head.beliefs[0].places[0].stamp), start + 32 * kHalfSecond);
   EXPECT_EQ(head.beliefs[0].places[0].session.size(), 20U) << "the id of an earlier session";
 }
 

@@ -15,7 +15,7 @@ using testing::TemporaryFolder;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-constexpr urban_nav_core::StampNs second = 1'000'000'000;
+constexpr urban_nav_core::StampNs kSecond = 1'000'000'000;
 
 PlaceSession makeSession(const PlaceModel& model, const std::string& recording, urban_nav_core::StampNs start) {
   PlaceSession made;
@@ -23,7 +23,7 @@ PlaceSession makeSession(const PlaceModel& model, const std::string& recording, 
       urban_nav_store::makeSessionId({"lisa", recording, start, ""}), recording, "lisa", recording, start, false};
   const PlaceDescriber describer(model, {}, 540);
   for (std::uint32_t i = 0; i < 5; ++i)
-    made.places.push_back({start + i * second, describer.describe(syntheticPlace(i, 0, 5)), 2.0 * i});
+    made.places.push_back({start + i * kSecond, describer.describe(syntheticPlace(i, 0, 5)), 2.0 * i});
   return made;
 }
 
@@ -31,7 +31,7 @@ TEST(PlaceSessions, AreReadAsTheyWereWritten) {
   const TemporaryFolder folder;
   const PlaceModel model = defaultModel();
   const std::string bytes(defaultModelBytes());
-  const std::vector<PlaceSession> written = {makeSession(model, "monday", second), makeSession(model, "tuesday", 99)};
+  const std::vector<PlaceSession> written = {makeSession(model, "monday", kSecond), makeSession(model, "tuesday", 99)};
   {
     Store store(folder.file("places.db"), Access::Write);
     writePlaces(store, written, bytes);
@@ -42,7 +42,7 @@ TEST(PlaceSessions, AreReadAsTheyWereWritten) {
   EXPECT_EQ(read.other_model, 0u);
   ASSERT_EQ(read.sessions.size(), 2u);
   for (const PlaceSession& expected : written) {
-    const PlaceSession& session = read.sessions[expected.session.start == second ? 1 : 0];
+    const PlaceSession& session = read.sessions[expected.session.start == kSecond ? 1 : 0];
     EXPECT_EQ(session.session, expected.session);
     ASSERT_EQ(session.places.size(), expected.places.size());
     for (std::size_t i = 0; i < session.places.size(); ++i) {
@@ -60,7 +60,7 @@ TEST(PlaceSessions, LeavesOutPlacesOfAnotherModel) {
   const PlaceModel model = defaultModel();
   {
     Store store(folder.file("places.db"), Access::Write);
-    writePlaces(store, {makeSession(model, "monday", second)}, std::string(defaultModelBytes()));
+    writePlaces(store, {makeSession(model, "monday", kSecond)}, std::string(defaultModelBytes()));
     store.commit();
   }
   Store store(folder.file("places.db"), Access::Read);

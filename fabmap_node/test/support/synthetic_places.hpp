@@ -17,13 +17,13 @@ inline ByteDescriptor syntheticDescriptor(std::uint32_t kind, std::uint32_t nois
   std::mt19937 shape(kind + 1), jitter(noise + 77);
   ByteDescriptor descriptor{};
   double norm = 0.0;
-  std::array<double, descriptor_bytes> value{};
+  std::array<double, kDescriptorBytes> value{};
   for (double& x : value) {
     x = static_cast<double>(shape() % 1000);
     x = x > 700.0 ? x + static_cast<double>(jitter() % 100) : 0.0;
     norm += x * x;
   }
-  for (std::size_t i = 0; i < descriptor_bytes; ++i)
+  for (std::size_t i = 0; i < kDescriptorBytes; ++i)
     descriptor[i] = static_cast<std::uint8_t>(std::min(255.0, 512.0 * value[i] / std::sqrt(norm)));
   return descriptor;
 }

@@ -12,10 +12,10 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t site_count = 8;
+constexpr std::size_t kSiteCount = 8;
 
 /// 120 samples of each site; `separation`: of the means of both kinds, in deviations of the evidence.
-std::vector<CalibrationSample> drawSites(double separation, unsigned seed, std::size_t sites = site_count) {
+std::vector<CalibrationSample> drawSites(double separation, unsigned seed, std::size_t sites = kSiteCount) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   std::vector<CalibrationSample> samples;
@@ -86,7 +86,7 @@ TEST(ChoosePrior, SitesThatDifferHaveALargerStandardErrorThanSitesThatAreAlike) 
 TEST(ChoosePrior, TooFewSitesGetTheDefault) {
   for (const auto& samples : {drawSites(9.0, 2, 4), std::vector<CalibrationSample>()}) {
     const PriorChoice choice = choosePrior(samples);
-    EXPECT_EQ(choice.prior_deviation, default_prior_deviation);
+    EXPECT_EQ(choice.prior_deviation, kDefaultPriorDeviation);
     EXPECT_TRUE(choice.losses.empty());
   }
   std::vector<CalibrationSample> one_revisited = drawSites(9.0, 2);

@@ -15,14 +15,14 @@ namespace {
 
 using testing::syntheticPlace;
 
-constexpr urban_nav_core::StampNs one_second = 1'000'000'000;
+constexpr urban_nav_core::StampNs kOneSecond = 1'000'000'000;
 
 /// Drives at places of their own; each place is in three images in a row.
 std::vector<TrainingDrive> syntheticDrives() {
   std::vector<TrainingDrive> drives(4);
   for (std::uint32_t d = 0; d < drives.size(); ++d)
     for (std::uint32_t i = 0; i < 45; ++i)
-      drives[d].push_back({i * one_second, syntheticPlace(100 * d + i / 3, i % 3)});
+      drives[d].push_back({i * kOneSecond, syntheticPlace(100 * d + i / 3, i % 3)});
   return drives;
 }
 
@@ -57,7 +57,7 @@ TEST(TrainModel, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(TrainModel, StationaryCameraCountsOnce) {
   std::vector<TrainingDrive> drives = syntheticDrives();
-  for (int i = 0; i < 30; ++i) drives[0].push_back({(100 + i) * one_second, syntheticPlace(99, 0)});
+  for (int i = 0; i < 30; ++i) drives[0].push_back({(100 + i) * kOneSecond, syntheticPlace(99, 0)});
   EXPECT_EQ(trainModel(std::move(drives), smallOptions()).report.stationary, 29u);
 }
 
@@ -72,10 +72,10 @@ TEST(PlaceRecogniser, RecognisesTheSecondVisitAndNothingBefore) {
   double highest_new = 0.0;
   for (std::uint32_t i = 0; i < 40; ++i)
     highest_new = std::max(
-        highest_new, recogniser.process(i * one_second, describeSynthetic(syntheticPlace(5000 + i, 0))).probability);
+        highest_new, recogniser.process(i * kOneSecond, describeSynthetic(syntheticPlace(5000 + i, 0))).probability);
   for (std::uint32_t i = 0; i < 15; ++i) {
     const PlaceRecognition found =
-        recogniser.process((40 + i) * one_second, describeSynthetic(syntheticPlace(5000 + i, 1)));
+        recogniser.process((40 + i) * kOneSecond, describeSynthetic(syntheticPlace(5000 + i, 1)));
     ASSERT_TRUE(found.match);
     EXPECT_EQ(found.match->place, i);
     EXPECT_GT(found.probability, highest_new);
@@ -87,10 +87,10 @@ TEST(PlaceRecogniser, PlacesWithinTheMaskAreNoCandidates) {
   PlaceRecogniser recogniser(trainedOnce().model, {});
   recogniser.beginSession();
   EXPECT_FALSE(recogniser.process(0, describeSynthetic(syntheticPlace(1, 0))).match);
-  EXPECT_FALSE(recogniser.process(19 * one_second, describeSynthetic(syntheticPlace(1, 1))).match);
-  EXPECT_TRUE(recogniser.process(21 * one_second, describeSynthetic(syntheticPlace(1, 2))).match);
+  EXPECT_FALSE(recogniser.process(19 * kOneSecond, describeSynthetic(syntheticPlace(1, 1))).match);
+  EXPECT_TRUE(recogniser.process(21 * kOneSecond, describeSynthetic(syntheticPlace(1, 2))).match);
   recogniser.beginSession();
-  EXPECT_TRUE(recogniser.process(22 * one_second, describeSynthetic(syntheticPlace(1, 1))).match);
+  EXPECT_TRUE(recogniser.process(22 * kOneSecond, describeSynthetic(syntheticPlace(1, 1))).match);
 }
 
 TEST(PlaceRecogniser, ReportsObservationsWithTooFewFeaturesAndStoresNone) {

@@ -145,7 +145,7 @@ class SurfelIndex {
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           const std::uint32_t number = table_.find(urban_nav_registration::keyBeside(block, {dx, dy, dz}));
-          if (number == CellTable::none) continue;
+          if (number == CellTable::kNone) continue;
           for (const std::uint32_t i : lists_[number]) take(i);
         }
   }

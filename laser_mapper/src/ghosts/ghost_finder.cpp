@@ -140,7 +140,7 @@ std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vecto
       SeenTimes around;
       for (const Cell& beside : {Cell{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
         const std::uint32_t number = table.find(keyBeside(key, beside));
-        if (number == urban_nav_registration::CellTable::none) continue;
+        if (number == urban_nav_registration::CellTable::kNone) continue;
         around.add(times[number].first);
         around.add(times[number].last);
       }

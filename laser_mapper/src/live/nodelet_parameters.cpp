@@ -16,7 +16,7 @@ const Table<NodeletParameters>& nodeletTable() {
   static const Table<NodeletParameters> rows(
       "",
       {
-          {"base_frame", &P::base_frame, "", urban_nav_core::frames::base_link, false, false, {},
+          {"base_frame", &P::base_frame, "", urban_nav_core::frames::kBaseLink, false, false, {},
            "Frame of the robot.", "REP-105"},
           {"map_frame", &P::map_frame, "", "map", false, false, {},
            "Frame of the cloud; `odom` without a pose graph.", "REP-105"},

@@ -60,7 +60,7 @@ std::vector<DistanceField::Value> DistanceField::values() const {
 
 std::optional<DistanceField::Value> DistanceField::at(const Node& node) const {
   const std::uint32_t number = table_.find(toKey(node));
-  return number == CellTable::none ? std::nullopt : valueOf(nodes_[number]);
+  return number == CellTable::kNone ? std::nullopt : valueOf(nodes_[number]);
 }
 
 std::optional<TriangleMesh::Vertex> DistanceField::vertexAt(const Node& node) const {

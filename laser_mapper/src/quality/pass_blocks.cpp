@@ -37,7 +37,7 @@ std::vector<PlacedCell> PassBlocks::around(const Vector3d& centre, const Vector3
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const std::uint32_t number = table_.find(urban_nav_registration::keyBeside(middle, {dx, dy, dz}));
-        if (number == urban_nav_registration::CellTable::none) continue;
+        if (number == urban_nav_registration::CellTable::kNone) continue;
         for (const PlacedCell& placed : blocks_[number].cells) {
           const Vector3d d = placed.p - centre;
           const double along = normal.dot(d);

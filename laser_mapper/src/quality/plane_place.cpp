@@ -177,7 +177,7 @@ std::vector<PlanePlace> findPlanePlaces(double voxel, double range_bias, const s
   urban_nav_registration::CellTable taken(1 << 10);  // blocks that have a place
   for (std::size_t s = 0; s + 1 < all.size(); ++s)
     for (const PassBlocks::Block& block : all[s].blocks()) {
-      if (taken.find(block.key) != urban_nav_registration::CellTable::none) continue;
+      if (taken.find(block.key) != urban_nav_registration::CellTable::kNone) continue;
       const std::optional<PatchFit> seed = fitPatch(all[s].pass(), block.cells);
       if (!seed || !isPatch(*seed, radius)) continue;
       PlanePlace place;

@@ -175,30 +175,30 @@ urban_nav_core::OdometryChain odometryAlong(const urban_nav_core::Trajectory& pa
 }
 
 TEST(ViewCalibration, ASlipThatOdometryAllowsForIsWithinTheStatedSigma) {
-  constexpr double slip = 0.004, turn = 1.0 * kHeadDegree;  // m/s: as if the head were turned by 0.19 deg
-  const urban_nav_core::Trajectory path = drivenPath(), given = drivenPath(-slip);
-  const urban_nav_core::OdometryChain odometry = odometryAlong(given, 2.0 * slip);
-  const ViewCalibration certain = calibrate(0.0, turn * Vector3d::UnitZ(), path, given),
-                        found = calibrate(0.0, turn * Vector3d::UnitZ(), path, given, &odometry);
+  constexpr double kSlip = 0.004, kTurn = 1.0 * kHeadDegree;  // m/s: as if the head were turned by 0.19 deg
+  const urban_nav_core::Trajectory path = drivenPath(), given = drivenPath(-kSlip);
+  const urban_nav_core::OdometryChain odometry = odometryAlong(given, 2.0 * kSlip);
+  const ViewCalibration certain = calibrate(0.0, kTurn * Vector3d::UnitZ(), path, given),
+                        found = calibrate(0.0, kTurn * Vector3d::UnitZ(), path, given, &odometry);
   const CalibrationEstimate &yaw = found.head.at(CalibrationTerm::TurnZ),
                             &certain_yaw = certain.head.at(CalibrationTerm::TurnZ);
   ASSERT_TRUE(found.isAdopted());
-  EXPECT_LT(std::abs(yaw.value - turn), 3.0 * yaw.sigma);
+  EXPECT_LT(std::abs(yaw.value - kTurn), 3.0 * yaw.sigma);
   EXPECT_GT(yaw.sigma, certain_yaw.sigma);
-  EXPECT_GT(std::abs(certain_yaw.value - turn), 4.0 * certain_yaw.sigma) << "an odometry of 1 mm a second excludes it";
-  EXPECT_LT(std::abs(yaw.value - turn), 0.3 * std::abs(certain_yaw.value - turn));
+  EXPECT_GT(std::abs(certain_yaw.value - kTurn), 4.0 * certain_yaw.sigma) << "an odometry of 1 mm a second excludes it";
+  EXPECT_LT(std::abs(yaw.value - kTurn), 0.3 * std::abs(certain_yaw.value - kTurn));
 }
 
 TEST(ViewCalibration, AConstantErrorOfTheLasersIsInTheStatedSigma) {
-  constexpr double bias = 0.01;  // m; seen from some 6 m, as if the head were turned by 1.7 mrad
+  constexpr double kBias = 0.01;  // m; seen from some 6 m, as if the head were turned by 1.7 mrad
   const Vector3d turn = kHeadDegree * Vector3d::UnitZ();
   const ViewCalibration exact = calibrate(0.0, turn, drivenPath()),
-                        biased = calibrate(0.0, turn, drivenPath(), drivenPath(), nullptr, bias);
+                        biased = calibrate(0.0, turn, drivenPath(), drivenPath(), nullptr, kBias);
   const CalibrationEstimate &yaw = biased.head.at(CalibrationTerm::TurnZ),
                             &exact_yaw = exact.head.at(CalibrationTerm::TurnZ);
   EXPECT_NEAR(yaw.value, exact_yaw.value, 1e-3);
   EXPECT_GT(yaw.sigma, exact_yaw.sigma + 5e-4);
-  EXPECT_LT(yaw.sigma, exact_yaw.sigma + bias / kWallDistance);
+  EXPECT_LT(yaw.sigma, exact_yaw.sigma + kBias / kWallDistance);
 }
 
 TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {

@@ -16,11 +16,11 @@ using urban_nav_core::PoseRef;
 namespace {
 
 // s between closures that are compared, as in consistency.hpp.
-constexpr double max_neighbour_time = 120.0;
+constexpr double kMaxNeighbourTime = 120.0;
 
 bool areNeighbours(const PoseRef& one, const PoseRef& other) {
   return one.session == other.session &&
-         std::abs(1e-9 * static_cast<double>(one.stamp - other.stamp)) <= max_neighbour_time;
+         std::abs(1e-9 * static_cast<double>(one.stamp - other.stamp)) <= kMaxNeighbourTime;
 }
 
 }  // namespace

@@ -19,24 +19,24 @@ using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
-constexpr double near_closure_way = 30.0;           // m: over which odometry is good to some centimetres
-constexpr double closure_metres_per_radian = 10.0;  // for directions of which a closure knows nothing
-constexpr double near_time = 120.0;                 // s: nor does it take longer
+constexpr double kNearClosureWay = 30.0;          // m: over which odometry is good to some centimetres
+constexpr double kClosureMetresPerRadian = 10.0;  // for directions of which a closure knows nothing
+constexpr double kNearTime = 120.0;               // s: nor does it take longer
 
 PoseWithCovariance toMeasured(const MetricClosure& closure) {
   return {closure.measured.T_a_b,
-          urban_nav_core::covarianceForDisplay(closure.measured.information, closure_metres_per_radian)};
+          urban_nav_core::covarianceForDisplay(closure.measured.information, kClosureMetresPerRadian)};
 }
 
 /// Empty where the two are no neighbours; else root mean square deviations of their ring.
 std::optional<double> computeRing(const MetricClosure& i, const MetricClosure& j, const PlaceData& place_data,
                                   const Parameters& parameters) {
   const auto apart = [](const urban_nav_core::PoseRef& x, const urban_nav_core::PoseRef& y) {
-    return x.session != y.session || std::abs(urban_nav_core::secondsBetween(x.stamp, y.stamp)) > near_time;
+    return x.session != y.session || std::abs(urban_nav_core::secondsBetween(x.stamp, y.stamp)) > kNearTime;
   };
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
   const auto along_a = place_data.between(i.a, j.a), along_b = place_data.between(i.b, j.b);
-  if (!along_a || !along_b || along_a->length > near_closure_way || along_b->length > near_closure_way)
+  if (!along_a || !along_b || along_a->length > kNearClosureWay || along_b->length > kNearClosureWay)
     return std::nullopt;
   const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.registration.odometry_scale).T_a_b(),
                            T_bi_bj = OdometryGate(*along_b, parameters.registration.odometry_scale).T_a_b();

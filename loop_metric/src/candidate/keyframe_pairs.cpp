@@ -11,12 +11,12 @@ using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
-constexpr double widest_turn =
+constexpr double kWidestTurn =
     1.05;  // rad, 60 deg: two views with less than a third of the image in common are not matched
-constexpr double pair_metres_per_radian =
+constexpr double kPairMetresPerRadian =
     4.0;                              // a turn costs as many matches as this way, at a field of view of some 65 deg
-constexpr double useful_sigma = 2.0;  // m: odometry that knows less does not tell which views are near each other
-constexpr double doubts = 3.0;        // standard deviations
+constexpr double kUsefulSigma = 2.0;  // m: odometry that knows less does not tell which views are near each other
+constexpr double kDoubts = 3.0;       // standard deviations
 
 const NearbyKeyframe& nearestView(const std::vector<NearbyKeyframe>& views, double way) {
   return *std::min_element(views.begin(), views.end(), [way](const NearbyKeyframe& x, const NearbyKeyframe& y) {
@@ -54,7 +54,7 @@ std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>&
   if (views_a.empty() || views_b.empty()) return pairs;
   const NearbyKeyframe &a = nearestView(views_a, 0.0), &b = nearestView(views_b, 0.0);
   if (T_a_b) {
-    const double doubt = doubts * largestSigma(*T_a_b, 1);
+    const double doubt = kDoubts * largestSigma(*T_a_b, 1);
     const KeyframePair* best = nullptr;
     std::vector<KeyframePair> all;
     std::vector<double> costs;
@@ -62,13 +62,13 @@ std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>&
       for (const NearbyKeyframe& each_b : views_b) {
         if (each_a.at == each_b.at) continue;
         const Pose T = between(T_a_b->pose, each_a, each_b);
-        if (turn(T) > widest_turn + doubt) continue;
+        if (turn(T) > kWidestTurn + doubt) continue;
         all.push_back({each_a, each_b});
-        costs.push_back(T.t().norm() + pair_metres_per_radian * turn(T));
+        costs.push_back(T.t().norm() + kPairMetresPerRadian * turn(T));
       }
     if (all.empty()) return pairs;
     best = &all[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
-    if (largestSigma(*T_a_b, 0) < useful_sigma) pairs.push_back(*best);
+    if (largestSigma(*T_a_b, 0) < kUsefulSigma) pairs.push_back(*best);
   }
   add(pairs, a, b);
   for (const double along : {-0.5 * way, 0.5 * way}) add(pairs, nearestView(views_a, along), b);

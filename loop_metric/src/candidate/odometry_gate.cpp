@@ -14,17 +14,17 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double least_sigma = 1e-4;             // m, rad: between moments of one frame odometry claims to know all
-constexpr double gate_metres_per_radian = 10.0;  // what tells known directions from free ones must not depend on units
-constexpr double known = 1e-9;                   // of the best known direction
+constexpr double kLeastSigma = 1e-4;           // m, rad: between moments of one frame odometry claims to know all
+constexpr double kGateMetresPerRadian = 10.0;  // what tells known directions from free ones must not depend on units
+constexpr double kKnown = 1e-9;                // of the best known direction
 
 int directionsKnown(const Matrix6d& information) {
   Vector6d units;
-  units << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / gate_metres_per_radian);
+  units << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / kGateMetresPerRadian);
   const auto values =
       urban_nav_core::symmetricEigenvalues(Eigen::MatrixXd(units.asDiagonal() * information * units.asDiagonal()));
   if (!values || !((*values)[5] > 0.0)) return 0;
-  return static_cast<int>((values->array() > known * (*values)[5]).count());
+  return static_cast<int>((values->array() > kKnown * (*values)[5]).count());
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ double rootMeanDeviation(const Vector6d& d, const Matrix6d& covariance, const Ma
 
 OdometryGate::OdometryGate(const PlaceData::Way& way, double scale) : T_a_b_(way.T_a_b) {
   const double common = scale * way.length;
-  T_a_b_.covariance.diagonal().head<3>().array() += common * common + least_sigma * least_sigma;
-  T_a_b_.covariance.diagonal().tail<3>().array() += least_sigma * least_sigma;
+  T_a_b_.covariance.diagonal().head<3>().array() += common * common + kLeastSigma * kLeastSigma;
+  T_a_b_.covariance.diagonal().tail<3>().array() += kLeastSigma * kLeastSigma;
 }
 
 double OdometryGate::deviations(const urban_nav_core::Constraint& measured) const {

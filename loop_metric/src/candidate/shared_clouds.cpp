@@ -15,7 +15,7 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double least_cloud_share = 1e-3;  // so that a standing robot does not repeat its information
+constexpr double kLeastCloudShare = 1e-3;  // so that a standing robot does not repeat its information
 
 bool isOfClouds(const MetricClosure& closure) {
   return closure.verdict == ClosureVerdict::Accepted && closure.method == ClosureMethod::Icp;
@@ -99,7 +99,7 @@ void discountAgainst(MetricClosure& closure, const std::vector<MetricClosure>& e
       if (at_a && at_b && !isAmong(covered, {*at_a, *at_b})) covered.push_back({*at_a, *at_b});
     }
   }
-  closure.measured.information *= std::max(uncovered(covered), least_cloud_share);
+  closure.measured.information *= std::max(uncovered(covered), kLeastCloudShare);
 }
 
 }  // namespace loop_metric

@@ -16,7 +16,7 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double least_view_share = 1e-3;  // not nothing: information that is zero says that nothing was measured
+constexpr double kLeastViewShare = 1e-3;  // not nothing: information that is zero says that nothing was measured
 
 auto orderKey(const PoseRef& at) { return std::tie(at.session, at.stamp); }
 
@@ -50,7 +50,7 @@ void discountSharedKeyframes(std::vector<MetricClosure>& closures) {
 
 void SharedKeyframeDiscount::discountAgainst(MetricClosure& closure) {
   const auto views = findKeyframes(closure);
-  if (views && !known_.insert(*views).second) closure.measured.information *= least_view_share;
+  if (views && !known_.insert(*views).second) closure.measured.information *= kLeastViewShare;
 }
 
 }  // namespace loop_metric

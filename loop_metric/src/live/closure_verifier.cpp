@@ -25,9 +25,9 @@ using urban_nav_store::SessionId;
 
 namespace {
 
-constexpr std::size_t max_inputs = 100'000;  // over an hour of odometry at 20 Hz, while a candidate is measured
+constexpr std::size_t kMaxInputs = 100'000;  // over an hour of odometry at 20 Hz, while a candidate is measured
 // s; odometry lags by seconds at most, so that it will not reach a pose further ahead.
-constexpr double max_ahead = 60.0;
+constexpr double kMaxAhead = 60.0;
 
 double secondsAfter(StampNs stamp, StampNs reference) { return 1e-9 * static_cast<double>(stamp - reference); }
 
@@ -50,7 +50,7 @@ void reject(MetricClosure& metric, LoopReason reason, const std::string& sentenc
 
 ClosureVerifier::ClosureVerifier(const Parameters& parameters, double timeout, urban_nav_live::StoreWriterLink& store,
                                  Listener listener)
-    : parameters_(parameters), timeout_(timeout), store_(store), listener_(std::move(listener)), loop_(max_inputs) {
+    : parameters_(parameters), timeout_(timeout), store_(store), listener_(std::move(listener)), loop_(kMaxInputs) {
   urban_nav_live::WorkerLoop<Input>::Steps steps;
   steps.handle = [this](Input& input) { handle(input); };
   steps.idle = [this] { return verifyNext(); };
@@ -146,7 +146,7 @@ bool ClosureVerifier::isDue(const Candidate& candidate) const {
   const auto session = sessions_.find(running_);
   if (session == sessions_.end() || session->second.odometry.empty()) return false;
   const StampNs newest = session->second.odometry.newest();
-  if (secondsAfter(newest, later) >= timeout_.count() || secondsAfter(later, newest) > max_ahead) return true;
+  if (secondsAfter(newest, later) >= timeout_.count() || secondsAfter(later, newest) > kMaxAhead) return true;
   if (newest < later) return false;
   const bool clouds = parameters_.icp && !session->second.lasers.empty();
   const urban_nav_core::OdometryChain& odometry = *session->second.odometry.parts().back();
@@ -273,7 +273,7 @@ void ClosureVerifier::load(const SessionId& id) {
   session.id = id;
   session.odometry = urban_nav_registration::readOdometry(*reader_, id);
   for (const urban_nav_store::Property& property : reader_->sessions().properties(id))
-    if (camera_ && property.name == urban_nav_registration::calibration_property)
+    if (camera_ && property.name == urban_nav_registration::kCalibrationProperty)
       session.conversion = urban_nav_registration::findConversion(property.value, *camera_, session.has_camera);
   session.lasers = urban_nav_registration::storedLasers(*reader_, id);
   sessions_[id] = std::move(session);

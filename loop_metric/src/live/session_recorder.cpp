@@ -12,7 +12,7 @@ namespace loop_metric {
 using urban_nav_core::RelativePose;
 using urban_nav_core::StampNs;
 using urban_nav_live::SessionNamer;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::LaserAt;
 using urban_nav_store::Access;
 using urban_nav_store::Node;
@@ -22,7 +22,7 @@ using urban_nav_store::Store;
 namespace {
 
 // What arrives before the first step of odometry, which comes a window of frames later: 25 s of two lasers at 75 Hz.
-constexpr std::size_t max_writes_before = 4000;
+constexpr std::size_t kMaxWritesBefore = 4000;
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void SessionRecorder::addOdometry(const urban_nav_core::StampedPose& T_odom_base
 void SessionRecorder::storeKeyframes() {
   for (const urban_nav_registration::Keyframe& keyframe : builder_.take()) {
     store(images_are_next_, [stored = toStoredKeyframe(keyframe)](Store& file, const SessionId& session) {
-      file.keyframes().put(session, keyframe_camera, stored);
+      file.keyframes().put(session, kKeyframeCamera, stored);
     });
     if (session_ && !images_are_next_) verifier_.push(ClosureVerifier::KeyframeStored{keyframe.at.stamp});
   }
@@ -152,7 +152,7 @@ void SessionRecorder::storeSession() {
     if (laser.T_base_laser) extrinsics.push_back({frame, *laser.T_base_laser});
   std::string fingerprint;
   if (const auto& camera = builder_.camera()) {
-    extrinsics.push_back({keyframe_camera, camera->T_base_left});
+    extrinsics.push_back({kKeyframeCamera, camera->T_base_left});
     fingerprint = camera_;
   }
   post([session = *session_, extrinsics, fingerprint](Store& file, const SessionId&) {
@@ -160,7 +160,7 @@ void SessionRecorder::storeSession() {
     for (const urban_nav_store::Extrinsic& extrinsic : extrinsics) file.sessions().put(session.id, extrinsic);
     if (fingerprint.empty()) return;
     file.sessions().put(session.id,
-                        urban_nav_store::Property{urban_nav_registration::calibration_property, fingerprint});
+                        urban_nav_store::Property{urban_nav_registration::kCalibrationProperty, fingerprint});
   });
 }
 
@@ -178,7 +178,7 @@ void SessionRecorder::end() {
 void SessionRecorder::store(bool is_next, Write write) {
   if (session_ && !is_next) return post(std::move(write));
   before_.push_back(std::move(write));
-  if (before_.size() <= max_writes_before) return;
+  if (before_.size() <= kMaxWritesBefore) return;
   before_.pop_front();
   ++not_stored_;
 }

@@ -15,7 +15,7 @@ using urban_nav_core::PointCloud;
 using urban_nav_core::PoseRef;
 using urban_nav_core::StampNs;
 using urban_nav_registration::Keyframe;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::localCloud;
 using urban_nav_registration::storedScans;
 using urban_nav_registration::stretchAround;
@@ -25,7 +25,7 @@ StoredPlaceData::StoredPlaceData(Sessions sessions, const urban_nav_store::Keyfr
                                  const urban_nav_store::ScanStore& scans)
     : sessions_(std::move(sessions)), keyframes_(keyframes), scans_(scans) {
   for (const auto& [name, session] : sessions_)
-    if (session.has_camera) stamps_[name] = keyframes_.stamps(session.id, keyframe_camera);
+    if (session.has_camera) stamps_[name] = keyframes_.stamps(session.id, kKeyframeCamera);
 }
 
 void StoredPlaceData::add(const PoseRef& view) {
@@ -77,7 +77,7 @@ Keyframe StoredPlaceData::keyframe(const PoseRef& at) const {
   keyframe.at = at;
   const StoredSession* session = find(at);
   if (session == nullptr) return keyframe;
-  const auto stored = keyframes_.get(session->id, keyframe_camera, at.stamp);
+  const auto stored = keyframes_.get(session->id, kKeyframeCamera, at.stamp);
   if (stored) keyframe = toKeyframe(*stored, at.session);
   return stored && session->conversion ? session->conversion->convert(keyframe) : keyframe;
 }

@@ -18,12 +18,12 @@ using urban_nav_registration::SessionOdometry;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-constexpr StampNs row_period = 100'000'000;
+constexpr StampNs kRowPeriod = 100'000'000;
 
 RelativePose stepTo(int i) {
   RelativePose step;
-  step.from = (i - 1) * row_period + 1;
-  step.to = i * row_period + 1;
+  step.from = (i - 1) * kRowPeriod + 1;
+  step.to = i * kRowPeriod + 1;
   step.T_from_to = Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0.01, 0.1)), Eigen::Vector3d(0.3, 0.01 * i, 0.0));
   step.covariance = 1e-4 * (1.0 + i) * urban_nav_core::Matrix6d::Identity();
   step.drift_covariance = 0.25 * step.covariance;
@@ -36,9 +36,9 @@ TEST(SessionOdometry, AGapBeginsAPartOfItsOwn) {
   EXPECT_TRUE(odometry.empty());
   for (const int i : {1, 2, 3, 5, 6}) EXPECT_TRUE(odometry.add(stepTo(i)));
   ASSERT_EQ(odometry.parts().size(), 2U);
-  EXPECT_EQ(odometry.newest(), 6 * row_period + 1);
-  EXPECT_EQ(odometry.partAt(2 * row_period), 0U);
-  EXPECT_EQ(odometry.partAt(5 * row_period), 1U);
+  EXPECT_EQ(odometry.newest(), 6 * kRowPeriod + 1);
+  EXPECT_EQ(odometry.partAt(2 * kRowPeriod), 0U);
+  EXPECT_EQ(odometry.partAt(5 * kRowPeriod), 1U);
   EXPECT_FALSE(odometry.add(stepTo(4))) << "back in time";
   EXPECT_FALSE(odometry.add(stepTo(6))) << "twice";
   RelativePose broken = stepTo(7);

@@ -15,7 +15,7 @@ using urban_nav_store::Access;
 using urban_nav_store::Session;
 using urban_nav_store::Store;
 
-constexpr StampNs period = 100'000'000, start = 1'000'000'000'000;
+constexpr StampNs kPeriod = 100'000'000, kStart = 1'000'000'000'000;
 
 class SessionRecorderTest : public ::testing::Test {
  protected:
@@ -42,11 +42,11 @@ class SessionRecorderTest : public ::testing::Test {
                                                   SessionRecorder::Options{"lisa", "begbroke"}, *store_, *verifier_);
     recorder_->idle();
   }
-  void drive(int from, int to, StampNs first = start) {
+  void drive(int from, int to, StampNs first = kStart) {
     for (int i = from; i < to; ++i) {
       RelativePose step;
-      step.from = first + i * period;
-      step.to = step.from + period;
+      step.from = first + i * kPeriod;
+      step.to = step.from + kPeriod;
       step.T_from_to = urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), {0.1, 0.0, 0.0});
       step.covariance = 1e-4 * urban_nav_core::Matrix6d::Identity();
       step.drift_covariance = 0.25 * step.covariance;
@@ -75,7 +75,7 @@ TEST_F(SessionRecorderTest, StepsBecomePosesOfASessionThatEndsComplete) {
   drive(0, 5);
   ASSERT_EQ(stored().size(), 1U);
   EXPECT_EQ(stored()[0].robot, "lisa");
-  EXPECT_EQ(stored()[0].start, start);
+  EXPECT_EQ(stored()[0].start, kStart);
   EXPECT_FALSE(stored()[0].complete);
   EXPECT_EQ(nodes(stored()[0]), 6U);
   EXPECT_EQ(recorder_->state().session, stored()[0].id);
@@ -85,8 +85,8 @@ TEST_F(SessionRecorderTest, StepsBecomePosesOfASessionThatEndsComplete) {
 }
 
 TEST_F(SessionRecorderTest, AJumpBackInTimeBeginsAnotherSession) {
-  drive(0, 5, start + 100 * period);
-  drive(0, 5, start);
+  drive(0, 5, kStart + 100 * kPeriod);
+  drive(0, 5, kStart);
   ASSERT_EQ(stored().size(), 2U);
   EXPECT_NE(stored()[0].id, stored()[1].id);
   for (const Session& session : stored()) EXPECT_EQ(nodes(session), 6U);
@@ -103,15 +103,15 @@ TEST_F(SessionRecorderTest, OdometryThatContinuesAStoredSessionExtendsIt) {
 TEST_F(SessionRecorderTest, OdometryElsewhereInTimeIsAnotherSession) {
   drive(0, 5);
   restart();
-  drive(0, 3, start + 1000 * period);
+  drive(0, 3, kStart + 1000 * kPeriod);
   EXPECT_EQ(stored().size(), 2U);
 }
 
 TEST_F(SessionRecorderTest, InvalidStepsAreRefusedAndCounted) {
   drive(0, 3);
   RelativePose broken;
-  broken.from = start + 3 * period;
-  broken.to = start + 2 * period;
+  broken.from = kStart + 3 * kPeriod;
+  broken.to = kStart + 2 * kPeriod;
   recorder_->addStep(broken);
   EXPECT_EQ(recorder_->state().refused_steps, 1);
   EXPECT_EQ(nodes(stored()[0]), 4U);
@@ -119,7 +119,7 @@ TEST_F(SessionRecorderTest, InvalidStepsAreRefusedAndCounted) {
 
 TEST_F(SessionRecorderTest, ScansFromBeforeTheFirstStepBelongToTheSession) {
   urban_nav_core::Scan scan;
-  scan.stamp = start;
+  scan.stamp = kStart;
   recorder_->addScan("laser_left", scan);
   EXPECT_EQ(recorder_->unplacedLasers(), std::vector<std::string>{"laser_left"});
   recorder_->setLaser("laser_left", urban_nav_core::Pose());
@@ -132,9 +132,9 @@ TEST_F(SessionRecorderTest, ScansFromBeforeTheFirstStepBelongToTheSession) {
 }
 
 TEST_F(SessionRecorderTest, ScansAfterAJumpBackWaitForTheNextSession) {
-  drive(0, 2, start + 1000 * period);
+  drive(0, 2, kStart + 1000 * kPeriod);
   urban_nav_core::Scan scan;
-  for (const StampNs stamp : {start + 1000 * period, start}) {
+  for (const StampNs stamp : {kStart + 1000 * kPeriod, kStart}) {
     scan.stamp = stamp;
     recorder_->addScan("laser_left", scan);
   }
@@ -143,12 +143,12 @@ TEST_F(SessionRecorderTest, ScansAfterAJumpBackWaitForTheNextSession) {
     int count = 0;
     Store(path_, Access::Read)
         .scans()
-        .forEach(session.id, "laser_left", 0, 10 * start, [&](const urban_nav_core::Scan&) { ++count; });
+        .forEach(session.id, "laser_left", 0, 10 * kStart, [&](const urban_nav_core::Scan&) { ++count; });
     return count;
   };
   const Session first = stored()[0];
   EXPECT_EQ(scans(first), 1);
-  drive(0, 2, start);
+  drive(0, 2, kStart);
   ASSERT_EQ(stored().size(), 2U);
   EXPECT_EQ(scans(first), 1);
   EXPECT_EQ(scans(stored()[0].id == first.id ? stored()[1] : stored()[0]), 1);

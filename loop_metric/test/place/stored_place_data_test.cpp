@@ -18,8 +18,8 @@ using urban_nav_core::OdometryChain;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_registration::Keyframe;
-using urban_nav_registration::keyframe_camera;
 using urban_nav_registration::KeyframePoint;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
@@ -57,7 +57,7 @@ class StoredSurroundingsTest : public ::testing::Test {
       step.T_from_to = Pose(urban_nav_core::Quaterniond::Identity(), {1.0, 0.0, 0.0});
       step.covariance *= 1e-6;
       odometry->append(step);
-      if (i % 2 == 0) store_->keyframes().put(id_, keyframe_camera, toStoredKeyframe(someKeyframe(step.from)));
+      if (i % 2 == 0) store_->keyframes().put(id_, kKeyframeCamera, toStoredKeyframe(someKeyframe(step.from)));
       urban_nav_core::Scan scan;
       scan.stamp = step.from;
       scan.beams.push_back({step.from, Eigen::Vector3f::UnitY(), 2.0F, 10.0F});
@@ -100,7 +100,7 @@ TEST_F(StoredSurroundingsTest, KeyframesComeBackAsTheyWere) {
 TEST_F(StoredSurroundingsTest, ADamagedKeyframeIsNamed) {
   urban_nav_store::StoredKeyframe stored = toStoredKeyframe(someKeyframe(8 * kRowSecond));
   stored.features[stored.features.size() / 2] ^= 1;
-  store_->keyframes().put(id_, keyframe_camera, stored);
+  store_->keyframes().put(id_, kKeyframeCamera, stored);
   EXPECT_THROW(place_data_->keyframe({"day", 8 * kRowSecond}), urban_nav_core::DataError);
 }
 

@@ -21,9 +21,9 @@ namespace loop_metric::test {
 namespace {
 
 using urban_nav_msgs::MetricClosure;
-using urban_nav_registration::keyframe_camera;
 using urban_nav_registration::KeyframeExtractor;
 using urban_nav_registration::KeyframeSelector;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
@@ -111,13 +111,13 @@ class LoopMetricNodelet : public ::testing::Test {
 Robot* LoopMetricNodelet::robot_ = nullptr;
 
 TEST_F(LoopMetricNodelet, ARevisitIsUpgradedAndAFalsePairIsNot) {
-  robot().drive(0, lap + 7);
-  robot().recognise(3, lap + 3);
+  robot().drive(0, kLap + 7);
+  robot().recognise(3, kLap + 3);
   robot().recognise(3, 15);  // the other side of the room
   ASSERT_TRUE(robot().judged(2));
-  const bool in_order = robot().closures[0].b.stamp == urban_nav_ros::toRosTime(robot().toStamp(lap + 3));
+  const bool in_order = robot().closures[0].b.stamp == urban_nav_ros::toRosTime(robot().toStamp(kLap + 3));
   const MetricClosure &right = robot().closures[in_order ? 0 : 1], &wrong = robot().closures[in_order ? 1 : 0];
-  expectTrue(right, 3, lap + 3);
+  expectTrue(right, 3, kLap + 3);
   EXPECT_TRUE(right.odometry_gate);
   EXPECT_EQ(right.a.session, "") << "who names no session means the running one";
   EXPECT_EQ(right.a.stamp, urban_nav_ros::toRosTime(robot().toStamp(3)));
@@ -132,12 +132,12 @@ TEST_F(LoopMetricNodelet, ARevisitIsUpgradedAndAFalsePairIsNot) {
 }
 
 TEST_F(LoopMetricNodelet, TheViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
-  constexpr int count = 12;
-  robot().drive(0, count);
+  constexpr int kCount = 12;
+  robot().drive(0, kCount);
   KeyframeSelector selector((urban_nav_registration::Parameters()));
   const KeyframeExtractor extractor(robot().camera(), urban_nav_registration::Parameters().points);
   std::vector<urban_nav_store::StoredKeyframe> expected;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kCount; ++i) {
     if (!selector.select(robot().T_world_base(0).inverse() * robot().T_world_base(i))) continue;
     urban_nav_core::testing::StereoFrame frame = robot().frame(i);
     frame.stamp = robot().toStamp(i);
@@ -146,13 +146,13 @@ TEST_F(LoopMetricNodelet, TheViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == toId(robot().toStamp(0)); }));
   const auto stored = [&] {
     Store store(storePath(), Access::Read);
-    return store.keyframes().stamps(toId(robot().toStamp(0)), keyframe_camera);
+    return store.keyframes().stamps(toId(robot().toStamp(0)), kKeyframeCamera);
   };
   ASSERT_TRUE(Robot::until([&] { return stored().size() >= expected.size(); })) << stored().size();
   Store store(storePath(), Access::Read);
   EXPECT_EQ(stored().size(), expected.size());
   for (const urban_nav_store::StoredKeyframe& view : expected)
-    EXPECT_TRUE(store.keyframes().get(toId(robot().toStamp(0)), keyframe_camera, view.stamp) == view) << view.stamp;
+    EXPECT_TRUE(store.keyframes().get(toId(robot().toStamp(0)), kKeyframeCamera, view.stamp) == view) << view.stamp;
 }
 
 TEST_F(LoopMetricNodelet, MomentsThatAreNotKnownAreNamed) {
@@ -170,17 +170,17 @@ TEST_F(LoopMetricNodelet, MomentsThatAreNotKnownAreNamed) {
 }
 
 TEST_F(LoopMetricNodelet, WithoutImagesThereIsNothingToGoBy) {
-  robot().drive(0, lap + 8, false);
-  robot().recognise(2, lap + 2);
+  robot().drive(0, kLap + 8, false);
+  robot().recognise(2, kLap + 2);
   ASSERT_TRUE(robot().judged(1));
   expectRejected(robot().closures[0], "nothing_kept");
 }
 
 TEST_F(LoopMetricNodelet, AfterAGapInOdometryViewsAloneDecide) {
-  robot().drive(0, lap + 7, true, 12);
-  robot().recognise(3, lap + 3);
+  robot().drive(0, kLap + 7, true, 12);
+  robot().recognise(3, kLap + 3);
   ASSERT_TRUE(robot().judged(1));
-  expectTrue(robot().closures[0], 3, lap + 3);
+  expectTrue(robot().closures[0], 3, kLap + 3);
   EXPECT_FALSE(robot().closures[0].odometry_gate);
   robot().recognise(3, 15);
   ASSERT_TRUE(robot().judged(2));
@@ -219,9 +219,9 @@ TEST_F(LoopMetricNodelet, LasersThatDoNotComeAreNamed) {
 TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
   {
     const FullDisk disk(findProcess("/loop_metric"));
-    robot().drive(0, lap + 7);
+    robot().drive(0, kLap + 7);
     ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "NotStored"; }));
-    robot().recognise(3, lap + 3);
+    robot().recognise(3, kLap + 3);
     ASSERT_TRUE(robot().judged(1));
     EXPECT_EQ(robot().closures[0].verdict, MetricClosure::REJECTED);
     EXPECT_NE(robot().closures[0].text.find("the disk is full"), std::string::npos) << robot().closures[0].text;
@@ -229,18 +229,18 @@ TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
     EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
     EXPECT_NE(status.text.find("the disk is full"), std::string::npos) << status.text;
     EXPECT_TRUE(
-        Robot::until([&] { return std::atol(robot().diagnosis("store: writes that wait").c_str()) > lap / 2; }));
+        Robot::until([&] { return std::atol(robot().diagnosis("store: writes that wait").c_str()) > kLap / 2; }));
     EXPECT_EQ(robot().diagnosis("store: writes lost"), "0");
   }
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") != "NotStored"; }));
   EXPECT_EQ(robot().diagnosis("store: fault"), "");
-  robot().recognise(3, lap + 3);
+  robot().recognise(3, kLap + 3);
   ASSERT_TRUE(robot().judged(2));
-  expectTrue(robot().closures[1], 3, lap + 3);
+  expectTrue(robot().closures[1], 3, kLap + 3);
 }
 
 TEST_F(LoopMetricNodelet, AnEarlierSessionOfTheStoreIsKnownAgain) {
-  robot().drive(0, lap / 3);
+  robot().drive(0, kLap / 3);
   const std::string earlier = toId(robot().toStamp(0));
   const StampNs there = robot().toStamp(5);
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == earlier; }));
@@ -250,7 +250,7 @@ TEST_F(LoopMetricNodelet, AnEarlierSessionOfTheStoreIsKnownAgain) {
   ASSERT_TRUE(Robot::until([&] { return robot().isConnected() && ros::service::exists("loop_metric/reset", false); }));
   robot().forget();
   robot().beginSession();
-  robot().drive(0, lap / 3);
+  robot().drive(0, kLap / 3);
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == toId(robot().toStamp(0)); }));
   robot().recognise({earlier, there}, {"", robot().toStamp(5)});
   ASSERT_TRUE(robot().judged(1));

@@ -24,10 +24,10 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   ASSERT_TRUE(robot.call("reset"));
   robot.forget();
   const long before = std::atol(robot.diagnosis("scans").c_str());
-  robot.drive(0, frames);
+  robot.drive(0, kFrames);
   ASSERT_TRUE(Robot::until([&] { return robot.diagnosis("parts of its odometry") == "1"; }));
-  robot.scan(0, frames);
-  ASSERT_TRUE(Robot::until([&] { return std::atol(robot.diagnosis("scans").c_str()) >= before + 2 * frames; }))
+  robot.scan(0, kFrames);
+  ASSERT_TRUE(Robot::until([&] { return std::atol(robot.diagnosis("scans").c_str()) >= before + 2 * kFrames; }))
       << robot.diagnosis("scans");
 
   const auto recognise = [&](int a, int b) { robot.recognise({"", Scanning::toStamp(a)}, {"", Scanning::toStamp(b)}); };

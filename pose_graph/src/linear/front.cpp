@@ -12,7 +12,7 @@ namespace pose_graph {
 
 namespace {
 
-using urban_nav_core::kernels::strip;
+using urban_nav_core::kernels::kStrip;
 
 constexpr double kZeroPivot = 1e-12;  // beside the size of a pivot: what elimination leaves of a zero
 constexpr int kPanel = 48;            // columns eliminated together: bench/linear
@@ -21,13 +21,13 @@ constexpr int kPanel = 48;            // columns eliminated together: bench/line
 
 void Front::reset(int size) {
   size_ = size;
-  stride_ = (size + strip - 1) / strip * strip + strip;
+  stride_ = (size + kStrip - 1) / kStrip * kStrip + kStrip;
   const std::size_t room = sz(stride_) * sz(stride_);
   if (data_.size() < room) data_.resize(room);
   // The lower triangle alone is read. A tile that crosses the diagonal, or the end, computes numbers that are not
   // needed; it begins up to seven rows above the diagonal.
   for (int j = 0; j < stride_; ++j) {
-    const int first = std::max(0, j - strip + 1);
+    const int first = std::max(0, j - kStrip + 1);
     std::memset(column(j) + first, 0, sz(stride_ - first) * sizeof(double));
   }
 }
@@ -59,23 +59,24 @@ bool Front::eliminate(int pivots, Pins* pins) {
   for (int start = 0; start < pivots; start += kPanel) {
     const int width = std::min(kPanel, pivots - start), below = start + width;
     if (!eliminateDiagonal(start, width, pins)) return false;
-    const int rows = size_ - below, strips = (rows + strip - 1) / strip;
+    const int rows = size_ - below, strips = (rows + kStrip - 1) / kStrip;
     if (strips == 0) continue;
-    const std::size_t piece = sz(strip) * sz(width);
+    const std::size_t piece = sz(kStrip) * sz(width);
     packed_.resize(sz(strips) * piece);
     for (int c = 0; c < width; ++c) {
       const double* source = column(start + c) + below;
       for (int s = 0; s < strips; ++s)
-        std::memcpy(&packed_[sz(s) * piece + sz(c) * strip], source + s * strip, strip * sizeof(double));
+        std::memcpy(&packed_[sz(s) * piece + sz(c) * kStrip], source + s * kStrip, kStrip * sizeof(double));
     }
     // What stands after the last row is padding.
     for (int c = 0; c < width; ++c)
-      for (int r = rows; r < strips * strip; ++r) packed_[sz(strips - 1) * piece + sz(c) * strip + sz(r % strip)] = 0.0;
+      for (int r = rows; r < strips * kStrip; ++r)
+        packed_[sz(strips - 1) * piece + sz(c) * kStrip + sz(r % kStrip)] = 0.0;
     kernels_.solveStrips(packed_.data(), strips, width, lower_.data(), inverse_.data());
     for (int c = 0; c < width; ++c) {
       double* target = column(start + c) + below;
       for (int s = 0; s < strips; ++s)
-        std::memcpy(target + s * strip, &packed_[sz(s) * piece + sz(c) * strip], strip * sizeof(double));
+        std::memcpy(target + s * kStrip, &packed_[sz(s) * piece + sz(c) * kStrip], kStrip * sizeof(double));
     }
     kernels_.subtractStrips(column(below) + below, stride_, packed_.data(), strips, width);
   }

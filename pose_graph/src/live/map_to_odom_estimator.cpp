@@ -19,7 +19,7 @@ bool isIdentity(const Pose& pose) { return isApprox(pose, Pose(), kRoundOff); }
 }  // namespace
 
 void MapToOdomEstimator::addOdometry(const urban_nav_core::StampedPose& odometry) {
-  const bool back = !odometry_.empty() && odometry.stamp < odometry_.rbegin()->first - urban_nav_live::max_step_back;
+  const bool back = !odometry_.empty() && odometry.stamp < odometry_.rbegin()->first - urban_nav_live::kMaxStepBack;
   const bool anew = isIdentity(odometry.pose) && (odometry_.empty() || !isIdentity(odometry_.rbegin()->second));
   if (back || anew) {
     odometry_.clear();

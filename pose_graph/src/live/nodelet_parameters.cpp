@@ -20,11 +20,11 @@ const Table<NodeletParameters>& nodeletTable() {
   static const Table<NodeletParameters> rows(
       "",
       {
-          {"map_frame", &P::map_frame, "", frames::map, false, false, {},
+          {"map_frame", &P::map_frame, "", frames::kMap, false, false, {},
            "Frame of the relaxed trajectory; its origin is the first pose of the first session.", "REP-105"},
-          {"odom_frame", &P::odom_frame, "", frames::odom, false, false, {},
+          {"odom_frame", &P::odom_frame, "", frames::kOdom, false, false, {},
            "Frame of the odometry, which map_frame is tied to.", "REP-105"},
-          {"base_frame", &P::base_frame, "", frames::base_link, false, false, {},
+          {"base_frame", &P::base_frame, "", frames::kBaseLink, false, false, {},
            "Frame of the robot, whose poses are the nodes of the graph.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", true, false, true, {},
            "Whether to publish map_frame to odom_frame on /tf, with the stamp of each odometry message.", "REP-105"},

@@ -27,7 +27,7 @@ void append(const SpecificForce& sample, std::vector<SpecificForce>& samples) {
 }  // namespace
 
 void SpecificForceBuffer::add(const SpecificForce& sample) {
-  const bool back = !samples_.empty() && sample.stamp < samples_.back().stamp - urban_nav_live::max_step_back;
+  const bool back = !samples_.empty() && sample.stamp < samples_.back().stamp - urban_nav_live::kMaxStepBack;
   append(sample, back || !next_session_.empty() ? next_session_ : samples_);
 }
 

@@ -24,7 +24,7 @@ enum class SceneClass : std::uint8_t {
   None = 255,  ///< not labelled, or no answer
 };
 
-constexpr std::size_t class_count = 9;  ///< without None
+constexpr std::size_t kClassCount = 9;  ///< without None
 
 constexpr std::size_t toIndex(SceneClass scene_class) { return static_cast<std::size_t>(scene_class); }
 
@@ -46,6 +46,6 @@ constexpr bool isKindOfGround(SceneClass scene_class) {
 }
 
 /// One number for each class, by toIndex().
-using ClassValues = std::array<float, class_count>;
+using ClassValues = std::array<float, kClassCount>;
 
 }  // namespace scene_labeler

@@ -11,7 +11,7 @@
 namespace scene_labeler {
 
 /// Device of the robot's side lasers, in Scene::device.
-constexpr const char* lms291_device = "lms291";
+constexpr const char* kLms291Device = "lms291";
 
 /// One image and the place of each return of a scene in it. Each return is projected at its own time, through the lens.
 struct SceneView {

@@ -10,8 +10,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float sure_when_fused = 0.5F;
-constexpr float least_probability = 1e-6F;
+constexpr float kSureWhenFused = 0.5F;
+constexpr float kLeastProbability = 1e-6F;
 
 }  // namespace
 
@@ -63,10 +63,10 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
     ++votes.views;
     if (labels.unsure[point] != 0) ++votes.unsure;
     if (is_new_place) ++votes.in_new_place;
-    votes.patch = labels.patches[point] == no_patch ? no_patch : patches_ + labels.patches[point];
-    if (labels.patches[point] != no_patch) patches = std::max(patches, labels.patches[point] + 1);
+    votes.patch = labels.patches[point] == kNoPatch ? kNoPatch : patches_ + labels.patches[point];
+    if (labels.patches[point] != kNoPatch) patches = std::max(patches, labels.patches[point] + 1);
     for (std::size_t k = 0; k < classes; ++k)
-      logs_[at * classes + k] += std::log(std::max(labels.probabilities[point * classes + k], least_probability));
+      logs_[at * classes + k] += std::log(std::max(labels.probabilities[point * classes + k], kLeastProbability));
   }
   patches_ += patches;
   if (!frame.view.classes.empty()) addClasses(frame, drive, first);
@@ -108,7 +108,7 @@ void DriveLabeler::settle(std::size_t end) {
     if (votes.views == 0) continue;
     const auto best = std::max_element(row, row + static_cast<std::ptrdiff_t>(classes));
     labels.labels.push_back(model_.classes[static_cast<std::size_t>(best - row)]);
-    labels.unsure.push_back(*best < sure_when_fused || 2 * votes.unsure > votes.views ? 1 : 0);
+    labels.unsure.push_back(*best < kSureWhenFused || 2 * votes.unsure > votes.views ? 1 : 0);
     row += static_cast<std::ptrdiff_t>(classes);
   }
   if (!answered.empty()) take_(answered, labels);

@@ -9,14 +9,14 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float thinning_per_m = 20.0F;  // cubes of 5 cm
+constexpr float kThinningPerM = 20.0F;  // cubes of 5 cm
 
 }  // namespace
 
 void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& scene) {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   scene.view.image = view.image;
-  scene.view.pixels.assign(scene.points.size(), {nan, nan});
+  scene.view.pixels.assign(scene.points.size(), {kNan, kNan});
   scene.view.depths.assign(scene.points.size(), 0.0F);
   const urban_nav_core::Pose T_camera_world = view.T_world_camera.inverse();
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
@@ -31,7 +31,7 @@ void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& sce
 
 DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view) {
   DriveScene drive;
-  drive.scene.device = lms291_device;
+  drive.scene.device = kLms291Device;
   if (returns.empty()) return drive;
   drive.origin = returns.front().point.array().round();
   urban_nav_registration::CellTable table(returns.size() / 2 + 16);
@@ -39,7 +39,7 @@ DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideVie
   for (std::uint32_t i = 0; i < returns.size(); ++i) {
     const Eigen::Vector3f point = returns[i].point - drive.origin;
     const std::uint32_t cube =
-        table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(point, thinning_per_m)));
+        table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(point, kThinningPerM)));
     drive.point_of_return.push_back(cube);
     if (cube < drive.scene.points.size()) continue;
     drive.scene.points.push_back(point);

@@ -7,12 +7,12 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_returns = 4'000'000;
+constexpr std::size_t kMostReturns = 4'000'000;
 
 }  // namespace
 
 void DriveWindow::add(const DriveReturn& one) {
-  if (returns_.size() >= most_returns && one.travelled <= returns_.back().travelled) return;
+  if (returns_.size() >= kMostReturns && one.travelled <= returns_.back().travelled) return;
   returns_.push_back(one);
   work(false);
 }
@@ -37,9 +37,9 @@ void DriveWindow::work(bool is_end) {
     if (!is_complete && !is_end) return;
     const DriveFrame frame = std::move(frames_.front());
     frames_.pop_front();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const DriveObserver::Stretch nearest{has_previous_ ? 0.5 * (previous_ + travelled) : -infinity,
-                                         is_last ? infinity : 0.5 * (travelled + frames_.front().travelled)};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const DriveObserver::Stretch nearest{has_previous_ ? 0.5 * (previous_ + travelled) : -kInfinity,
+                                         is_last ? kInfinity : 0.5 * (travelled + frames_.front().travelled)};
     drop(travelled - reach_);
     const auto end = std::find_if(returns_.begin(), returns_.end(),
                                   [&](const DriveReturn& one) { return one.travelled > travelled + reach_; });

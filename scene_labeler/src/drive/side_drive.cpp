@@ -12,7 +12,7 @@ SideDrive::SideDrive(SideRig rig, const urban_nav_core::Trajectory& T_world_base
       path_(path),
       spacing_(spacing),
       window_(window),
-      renderer_(T_world_base, rig_.T_base_laser, urban_nav_core::Pose(), longest_pose_gap) {}
+      renderer_(T_world_base, rig_.T_base_laser, urban_nav_core::Pose(), kLongestPoseGap) {}
 
 void SideDrive::add(const urban_nav_core::PlanarScan& planar) {
   const auto travelled = path_.at(planar.stamp);
@@ -44,7 +44,7 @@ bool SideDrive::wants(StampNs stamp) const {
 }
 
 void SideDrive::add(StampNs stamp, const cv::Mat& image, const cv::Mat& classes) {
-  const auto T_world_base = T_world_base_.at(stamp, longest_pose_gap);
+  const auto T_world_base = T_world_base_.at(stamp, kLongestPoseGap);
   if (!wants(stamp) || !T_world_base || image.type() != CV_8UC3) return;
   const urban_nav_core::Pinhole& pinhole = rig_.camera->raw.pinhole;
   if (image.cols != pinhole.width || image.rows != pinhole.height) return;

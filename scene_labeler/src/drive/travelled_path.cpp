@@ -4,7 +4,7 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double least_step = 0.05;  // m
+constexpr double kLeastStep = 0.05;  // m
 
 }  // namespace
 
@@ -12,8 +12,8 @@ void TravelledPath::update() {
   for (std::size_t i = travelled_.size(); i < T_world_base_.size(); ++i) {
     const double before = i == 0 ? 0.0 : travelled_.back();
     const double step = (T_world_base_[i].pose.t() - T_world_base_[anchor_].pose.t()).norm();
-    if (step >= least_step) anchor_ = i;
-    travelled_.push_back(step >= least_step ? before + step : before);
+    if (step >= kLeastStep) anchor_ = i;
+    travelled_.push_back(step >= kLeastStep ? before + step : before);
   }
 }
 

@@ -51,11 +51,11 @@ void normalise(CubeLevel& level) {
 
 CubeLevel finestLevel(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin) {
   CubeLevel level;
-  level.edge = finest_cube;
+  level.edge = kFinestCube;
   level.table = CellTable(points.size() / 8 + 16);
-  level.cube_of.assign(points.size(), CellTable::none);
-  const float per_m = 1.0F / finest_cube,
-              limit = finest_cube * static_cast<float>(urban_nav_registration::kFarthestCell);
+  level.cube_of.assign(points.size(), CellTable::kNone);
+  const float per_m = 1.0F / kFinestCube,
+              limit = kFinestCube * static_cast<float>(urban_nav_registration::kFarthestCell);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f point = points[i] - origin;
     if (!point.allFinite() || !(point.cwiseAbs().maxCoeff() < limit)) continue;
@@ -79,7 +79,7 @@ CubeLevel coarserLevel(const CubeLevel& finer) {
   }
   level.cube_of.reserve(finer.cube_of.size());
   for (const std::uint32_t cube : finer.cube_of)
-    level.cube_of.push_back(cube == CellTable::none ? CellTable::none : coarse_of[cube]);
+    level.cube_of.push_back(cube == CellTable::kNone ? CellTable::kNone : coarse_of[cube]);
   normalise(level);
   return level;
 }
@@ -103,11 +103,11 @@ std::vector<float> meanOverCubes(const CubeLevels& levels, std::size_t level, co
   };
   std::vector<Mean> means(levels[0].cubes.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (levels[0].cube_of[i] != CellTable::none) means[levels[0].cube_of[i]].add(values[i]);
+    if (levels[0].cube_of[i] != CellTable::kNone) means[levels[0].cube_of[i]].add(values[i]);
   for (std::size_t next = 1; next <= level; ++next) {
     std::vector<std::uint32_t> parents(levels[next - 1].cubes.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (levels[next].cube_of[i] != CellTable::none) parents[levels[next - 1].cube_of[i]] = levels[next].cube_of[i];
+      if (levels[next].cube_of[i] != CellTable::kNone) parents[levels[next - 1].cube_of[i]] = levels[next].cube_of[i];
     std::vector<Mean> coarser(levels[next].cubes.size());
     for (std::size_t cube = 0; cube < parents.size(); ++cube)
       coarser[parents[cube]].add(means[cube].sum / means[cube].count);

@@ -34,10 +34,10 @@ struct CubeLevel {
 
 /// Cubes of 0.1, 0.2 and 0.4 m. A neighbourhood of 2.4 m (cubes of 0.8 m) and more describes the layout of the few
 /// places that a classifier is trained on, not the surface.
-constexpr std::size_t shape_levels = 3;
-constexpr float finest_cube = 0.1F;  ///< m
+constexpr std::size_t kShapeLevels = 3;
+constexpr float kFinestCube = 0.1F;  ///< m
 
-using CubeLevels = std::array<CubeLevel, shape_levels>;
+using CubeLevels = std::array<CubeLevel, kShapeLevels>;
 
 /// Sorts points into cubes of all levels, relative to `origin`.
 CubeLevels makeCubeLevels(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin);
@@ -53,7 +53,7 @@ void forEachNeighbour(const CubeLevel& level, std::uint64_t key, const Take& tak
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
         const std::uint32_t cube = level.table.find(urban_nav_registration::keyBeside(key, {i, j, k}));
-        if (cube != urban_nav_registration::CellTable::none) take(cube);
+        if (cube != urban_nav_registration::CellTable::kNone) take(cube);
       }
 }
 

@@ -39,22 +39,22 @@ std::size_t firstImageFeature(FeatureSet set) { return namedSet(set).first_of_im
 void measureImageFeatures(const Scene& scene, FeatureSet set, FeatureTable& table) {
   const std::size_t first = firstImageFeature(set);
   for (std::size_t i = 0; i < table.rows(); ++i)
-    std::fill(table.row(i) + first, table.row(i) + table.columns(), missing_feature);
+    std::fill(table.row(i) + first, table.row(i) + table.columns(), kMissingFeature);
   if (set == FeatureSet::Paper) measurePaperLook(scene, first, table);
   else measureLook(scene, first, table);
   for (std::size_t i = 0; i < table.rows(); ++i)
     for (float* value = table.row(i) + first; value != table.row(i) + table.columns(); ++value)
-      if (!std::isfinite(*value)) *value = missing_feature;
+      if (!std::isfinite(*value)) *value = kMissingFeature;
 }
 
 FeatureTable measureFeatures(const Scene& scene, FeatureSet set, bool with_reflectance) {
   FeatureTable table;
   table.names = featureNames(set);
-  table.values.assign(table.names.size() * scene.points.size(), missing_feature);
+  table.values.assign(table.names.size() * scene.points.size(), kMissingFeature);
   if (set == FeatureSet::Paper) measurePaperShape(scene, 0, table);
   else measureShape(scene, with_reflectance, 0, table);
   for (float& value : table.values)
-    if (!std::isfinite(value)) value = missing_feature;
+    if (!std::isfinite(value)) value = kMissingFeature;
   measureImageFeatures(scene, set, table);
   return table;
 }

@@ -12,9 +12,9 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr float column_edge = 0.5F;   // m
-constexpr float ground_slope = 0.2F;  // steeper ground is rare on campuses and in streets
-constexpr int ground_reach = 30;      // columns: 15 m
+constexpr float kColumnEdge = 0.5F;   // m
+constexpr float kGroundSlope = 0.2F;  // steeper ground is rare on campuses and in streets
+constexpr int kGroundReach = 30;      // columns: 15 m
 
 struct Column {
   int x = 0, y = 0;
@@ -36,8 +36,8 @@ ColumnGrid makeColumns(const CubeLevel& level) {
   grid.column_of.reserve(level.cubes.size());
   for (const Moments& cube : level.cubes) {
     const Eigen::Vector3f mean = cube.mean().cast<float>();
-    const int x = static_cast<int>(std::floor(mean.x() / column_edge)),
-              y = static_cast<int>(std::floor(mean.y() / column_edge));
+    const int x = static_cast<int>(std::floor(mean.x() / kColumnEdge)),
+              y = static_cast<int>(std::floor(mean.y() / kColumnEdge));
     const std::uint32_t number = grid.table.insert(columnKey(x, y));
     if (number == grid.columns.size()) grid.columns.push_back({x, y, mean.z(), mean.z(), 0.0F});
     Column& column = grid.columns[number];
@@ -63,21 +63,21 @@ Surrounding measureSurrounding(const ColumnGrid& grid, const Column& column, con
       const int square = i * i + j * j;
       if (square > 36) continue;
       const std::uint32_t other = grid.table.find(columnKey(column.x + i, column.y + j));
-      if (other == CellTable::none) continue;
+      if (other == CellTable::kNone) continue;
       const Column& neighbour = grid.columns[other];
       result.low_3 = std::min(result.low_3, neighbour.low);
       if (square > 4) continue;
       result.low_1 = std::min(result.low_1, neighbour.low);
       result.high_1 = std::max(result.high_1, neighbour.high);
     }
-  constexpr int coarse_reach = ground_reach / 4;  // of squares of four columns
-  for (int j = -coarse_reach; j <= coarse_reach; ++j)
-    for (int i = -coarse_reach; i <= coarse_reach; ++i) {
+  constexpr int kCoarseReach = kGroundReach / 4;  // of squares of four columns
+  for (int j = -kCoarseReach; j <= kCoarseReach; ++j)
+    for (int i = -kCoarseReach; i <= kCoarseReach; ++i) {
       const std::uint32_t other = coarse_table.find(columnKey((column.x >> 2) + i, (column.y >> 2) + j));
-      if (other == CellTable::none) continue;
+      if (other == CellTable::kNone) continue;
       const Column& lowest = coarse[other];
       const float dx = static_cast<float>(lowest.x - column.x), dy = static_cast<float>(lowest.y - column.y);
-      result.ground = std::min(result.ground, lowest.low + ground_slope * column_edge * std::hypot(dx, dy));
+      result.ground = std::min(result.ground, lowest.low + kGroundSlope * kColumnEdge * std::hypot(dx, dy));
     }
   return result;
 }

@@ -11,10 +11,10 @@
 namespace scene_labeler {
 namespace {
 
-constexpr int saturated = 250, black = 8;             // of 255, brightest channel
-constexpr std::array<int, 2> window_radii = {3, 10};  // px
-constexpr double least_valid_share = 0.25;            // of a window's pixels that count
-constexpr int paper_radius = 7, histogram_bins = 8;
+constexpr int kSaturated = 250, kBlack = 8;           // of 255, brightest channel
+constexpr std::array<int, 2> kWindowRadii = {3, 10};  // px
+constexpr double kLeastValidShare = 0.25;             // of a window's pixels that count
+constexpr int kPaperRadius = 7, kHistogramBins = 8;
 
 /// What is summed over windows.
 enum Channel {
@@ -60,7 +60,7 @@ cv::Rect windowAround(const cv::Mat& image, const Eigen::Vector2f& pixel, int ra
 
 bool isValid(const cv::Vec3b& colour) {
   const int brightest = std::max({colour[0], colour[1], colour[2]});
-  return brightest > black && brightest < saturated;
+  return brightest > kBlack && brightest < kSaturated;
 }
 
 cv::Mat makeLight(const cv::Mat& image) {
@@ -115,11 +115,11 @@ float toDeviation(double square, double mean) {
   return static_cast<float>(std::sqrt(std::max(0.0, square - mean * mean)));
 }
 
-constexpr std::size_t look_values = 13;  // per window
+constexpr std::size_t kLookValues = 13;  // per window
 
 void writeWindow(const WindowSums& sums, const cv::Rect& window, const ImageMeans& all, float* out) {
   const double valid = sums.sum(Valid, window);
-  if (valid < least_valid_share * window.area()) return;
+  if (valid < kLeastValidShare * window.area()) return;
   const auto mean = [&](Channel channel) { return sums.sum(static_cast<std::size_t>(channel), window) / valid; };
   const double light = mean(Light), red = mean(Red), green = mean(Green), across = mean(Across), down = mean(Down);
   out[0] = static_cast<float>(light);
@@ -158,7 +158,7 @@ void forEachVisible(const SceneView& view, const Write& write) {
 
 std::vector<std::string> lookFeatureNames() {
   std::vector<std::string> names;
-  for (const int radius : window_radii)
+  for (const int radius : kWindowRadii)
     for (const char* value :
          {"light", "light_relative", "red", "green", "blue", "red_relative", "green_relative", "saturation", "contrast",
           "green_deviation", "gradient_across", "gradient_down", "curvature"})
@@ -172,16 +172,16 @@ void measureLook(const Scene& scene, std::size_t first, FeatureTable& table) {
   const WindowSums sums(lookChannels(image));
   const ImageMeans all = imageMeans(sums, image);
   forEachVisible(scene.view, [&](std::size_t i, const Eigen::Vector2f& pixel) {
-    for (std::size_t window = 0; window < window_radii.size(); ++window)
-      writeWindow(sums, windowAround(image, pixel, window_radii[window]), all,
-                  table.row(i) + first + window * look_values);
+    for (std::size_t window = 0; window < kWindowRadii.size(); ++window)
+      writeWindow(sums, windowAround(image, pixel, kWindowRadii[window]), all,
+                  table.row(i) + first + window * kLookValues);
   });
 }
 
 std::vector<std::string> paperLookNames() {
   std::vector<std::string> names;
   for (const char* channel : {"hue_", "saturation_"})
-    for (int bin = 0; bin < histogram_bins; ++bin) names.push_back(channel + std::to_string(bin));
+    for (int bin = 0; bin < kHistogramBins; ++bin) names.push_back(channel + std::to_string(bin));
   return names;
 }
 
@@ -191,18 +191,18 @@ void measurePaperLook(const Scene& scene, std::size_t first, FeatureTable& table
   cv::Mat hsv;
   cv::cvtColor(image, hsv, cv::COLOR_BGR2HSV);
   forEachVisible(scene.view, [&](std::size_t i, const Eigen::Vector2f& pixel) {
-    const cv::Rect window = windowAround(image, pixel, paper_radius);
-    std::array<float, 2 * histogram_bins> counts{};
+    const cv::Rect window = windowAround(image, pixel, kPaperRadius);
+    std::array<float, 2 * kHistogramBins> counts{};
     float valid = 0.0F;
     for (int y = window.y; y < window.y + window.height; ++y)
       for (int x = window.x; x < window.x + window.width; ++x) {
         if (!isValid(image.at<cv::Vec3b>(y, x))) continue;
         const cv::Vec3b& pixel_hsv = hsv.at<cv::Vec3b>(y, x);
-        counts[static_cast<std::size_t>(pixel_hsv[0] * histogram_bins / 180)] += 1.0F;
-        counts[static_cast<std::size_t>(histogram_bins + pixel_hsv[1] * histogram_bins / 256)] += 1.0F;
+        counts[static_cast<std::size_t>(pixel_hsv[0] * kHistogramBins / 180)] += 1.0F;
+        counts[static_cast<std::size_t>(kHistogramBins + pixel_hsv[1] * kHistogramBins / 256)] += 1.0F;
         valid += 1.0F;
       }
-    if (valid < static_cast<float>(least_valid_share) * static_cast<float>(window.area())) return;
+    if (valid < static_cast<float>(kLeastValidShare) * static_cast<float>(window.area())) return;
     float* out = table.row(i) + first;
     for (std::size_t bin = 0; bin < counts.size(); ++bin) out[bin] = counts[bin] / valid;
   });

@@ -16,9 +16,9 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr float least_planarity = 0.4F;  // of a surface with a normal
+constexpr float kLeastPlanarity = 0.4F;  // of a surface with a normal
 
-/// How the cubes around a cube lie; the shape of fewer than `least_cubes` is missing.
+/// How the cubes around a cube lie; the shape of fewer than `kLeastCubes` is missing.
 struct CubeShape {
   bool is_known = false;
   float linearity = 0.0F, planarity = 0.0F, scatter = 0.0F;  // of deviations: l1 >= l2 >= l3
@@ -28,12 +28,12 @@ struct CubeShape {
   float occupied = 0.0F;                                     // share of the 27 cubes
   Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
 
-  bool isPlane() const { return is_known && planarity > least_planarity; }
+  bool isPlane() const { return is_known && planarity > kLeastPlanarity; }
 };
 
-constexpr double least_cubes = 3.0;
-constexpr std::size_t shape_values = 10;  // per level
-constexpr std::size_t height_level = 1, reflectance_level = 1, paper_level = 2;
+constexpr double kLeastCubes = 3.0;
+constexpr std::size_t kShapeValues = 10;  // per level
+constexpr std::size_t kHeightLevel = 1, kReflectanceLevel = 1, kPaperLevel = 2;
 
 CubeShape shapeAround(const CubeLevel& level, std::size_t cube) {
   Moments all;
@@ -41,7 +41,7 @@ CubeShape shapeAround(const CubeLevel& level, std::size_t cube) {
   CubeShape shape;
   shape.occupied = static_cast<float>(all.count / 27.0);
   shape.mean = all.mean().cast<float>();
-  if (all.count < least_cubes) return shape;
+  if (all.count < kLeastCubes) return shape;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(all.covariance());
   const Eigen::Vector3d deviation = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // ascending
@@ -68,7 +68,7 @@ std::vector<CubeShape> measureShapes(const CubeLevel& level) {
 void writeLevel(const CubeLevel& level, const std::vector<CubeShape>& shapes, const Scene& scene,
                 const Eigen::Vector3f& origin, std::size_t first, FeatureTable& table) {
   urban_nav_core::forEach(scene.points.size(), 4096, [&](std::size_t i) {
-    if (level.cube_of[i] == CellTable::none) return;
+    if (level.cube_of[i] == CellTable::kNone) return;
     const CubeShape& shape = shapes[level.cube_of[i]];
     float* out = table.row(i) + first;
     const Eigen::Vector3f offset = scene.points[i] - origin - shape.mean;
@@ -89,7 +89,7 @@ void writeLevel(const CubeLevel& level, const std::vector<CubeShape>& shapes, co
 void writeHeights(const CubeLevel& level, std::size_t first, FeatureTable& table) {
   const std::vector<ColumnHeights> heights = measureHeights(level);
   for (std::size_t i = 0; i < level.cube_of.size(); ++i) {
-    if (level.cube_of[i] == CellTable::none) continue;
+    if (level.cube_of[i] == CellTable::kNone) continue;
     const ColumnHeights& column = heights[level.cube_of[i]];
     float* out = table.row(i) + first;
     out[0] = column.over_ground;
@@ -100,7 +100,7 @@ void writeHeights(const CubeLevel& level, std::size_t first, FeatureTable& table
     out[5] = column.filled;
   }
 }
-constexpr std::size_t height_values = 6;
+constexpr std::size_t kHeightValues = 6;
 
 /// Returns the reflectance without the influence of range and incidence where the place of the sensor is known.
 std::vector<float> normalisedReflectance(const Scene& scene, const CubeLevel& level,
@@ -111,7 +111,7 @@ std::vector<float> normalisedReflectance(const Scene& scene, const CubeLevel& le
     const float range = scene.to_sensor[i].norm();
     const std::uint32_t cube = level.cube_of[i];
     float cosine = 1.0F;
-    if (cube != CellTable::none && shapes[cube].isPlane() && range > 0.0F)
+    if (cube != CellTable::kNone && shapes[cube].isPlane() && range > 0.0F)
       cosine = std::abs(shapes[cube].normal.dot(scene.to_sensor[i])) / range;
     values[i] = urban_nav_core::normaliseReflectance(scene.reflectance[i], range, cosine);
   });
@@ -121,8 +121,8 @@ std::vector<float> normalisedReflectance(const Scene& scene, const CubeLevel& le
 void writeReflectance(const CubeLevels& levels, const std::vector<float>& reflectance, std::size_t first,
                       FeatureTable& table) {
   if (reflectance.empty()) return;
-  const CubeLevel& level = levels[reflectance_level];
-  const std::vector<float> of_cubes = meanOverCubes(levels, reflectance_level, reflectance);
+  const CubeLevel& level = levels[kReflectanceLevel];
+  const std::vector<float> of_cubes = meanOverCubes(levels, kReflectanceLevel, reflectance);
   std::vector<float> means(level.cubes.size()), deviations(level.cubes.size());
   urban_nav_core::forEach(level.cubes.size(), 512, [&](std::size_t cube) {
     float sum = 0.0F, square = 0.0F, count = 0.0F;
@@ -135,7 +135,7 @@ void writeReflectance(const CubeLevels& levels, const std::vector<float>& reflec
     deviations[cube] = std::sqrt(std::max(0.0F, square / count - means[cube] * means[cube]));
   });
   for (std::size_t i = 0; i < reflectance.size(); ++i) {
-    if (level.cube_of[i] == CellTable::none) continue;
+    if (level.cube_of[i] == CellTable::kNone) continue;
     float* out = table.row(i) + first;
     out[0] = reflectance[i];
     out[1] = means[level.cube_of[i]];
@@ -154,8 +154,8 @@ Eigen::Vector3f chooseOrigin(const std::vector<Eigen::Vector3f>& points) {
 
 std::vector<std::string> shapeFeatureNames() {
   std::vector<std::string> names;
-  float edge = finest_cube;
-  for (std::size_t level = 0; level < shape_levels; ++level, edge *= 2.0F)
+  float edge = kFinestCube;
+  for (std::size_t level = 0; level < kShapeLevels; ++level, edge *= 2.0F)
     for (const char* value : {"linearity", "planarity", "scatter", "normal_z", "tangent_z", "roughness", "vertical",
                               "off_plane", "occupied", "off_mean"})
       names.push_back(std::string(value) + "_" + urban_nav_core::printNumber(edge));
@@ -172,11 +172,11 @@ void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, 
   for (const CubeLevel& level : levels) {
     shapes = measureShapes(level);
     writeLevel(level, shapes, scene, origin, first, table);
-    first += shape_values;
+    first += kShapeValues;
   }
-  writeHeights(levels[height_level], first, table);
+  writeHeights(levels[kHeightLevel], first, table);
   if (with_reflectance)
-    writeReflectance(levels, normalisedReflectance(scene, levels.back(), shapes), first + height_values, table);
+    writeReflectance(levels, normalisedReflectance(scene, levels.back(), shapes), first + kHeightValues, table);
 }
 
 std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points) {
@@ -184,7 +184,7 @@ std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& 
   const std::vector<CubeShape> shapes = measureShapes(levels.back());
   std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (const std::uint32_t cube = levels.back().cube_of[i]; cube != CellTable::none && shapes[cube].isPlane())
+    if (const std::uint32_t cube = levels.back().cube_of[i]; cube != CellTable::kNone && shapes[cube].isPlane())
       normals[i] = shapes[cube].normal;
   return normals;
 }
@@ -193,13 +193,13 @@ std::vector<std::string> paperShapeNames() { return {"over_ground", "normal_z", 
 
 void measurePaperShape(const Scene& scene, std::size_t first, FeatureTable& table) {
   const auto levels = makeCubeLevels(scene.points, chooseOrigin(scene.points));
-  const std::vector<ColumnHeights> heights = measureHeights(levels[height_level]);
-  const CubeLevel& level = levels[paper_level];
+  const std::vector<ColumnHeights> heights = measureHeights(levels[kHeightLevel]);
+  const CubeLevel& level = levels[kPaperLevel];
   const std::vector<CubeShape> shapes = measureShapes(level);
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    if (level.cube_of[i] == CellTable::none) continue;
+    if (level.cube_of[i] == CellTable::kNone) continue;
     float* out = table.row(i) + first;
-    out[0] = heights[levels[height_level].cube_of[i]].over_ground;
+    out[0] = heights[levels[kHeightLevel].cube_of[i]].over_ground;
     const CubeShape& shape = shapes[level.cube_of[i]];
     if (!shape.is_known) continue;
     out[1] = shape.normal_z;

@@ -10,10 +10,10 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double trained_weight = 8000.0;  // returns, that the frequencies of training count for
-constexpr double memory = 1e5;             // returns, of 15 s of one laser, near
-constexpr double used_share = 0.5;         // of the logarithm of frequencies
-constexpr int iterations = 5;
+constexpr double kTrainedWeight = 8000.0;  // returns, that the frequencies of training count for
+constexpr double kMemory = 1e5;            // returns, of 15 s of one laser, near
+constexpr double kUsedShare = 0.5;         // of the logarithm of frequencies
+constexpr int kIterations = 5;
 
 double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
@@ -28,12 +28,12 @@ ClassFrequencies::ClassFrequencies(const LabelModel& model) : classes_(model.cla
 }
 
 std::vector<float> ClassFrequencies::shifts(const std::vector<double>& sums) const {
-  const double total = sumOf(sums) + trained_weight;
+  const double total = sumOf(sums) + kTrainedWeight;
   std::vector<float> made(classes_, 0.0F);
   for (std::size_t k = 0; k < classes_; ++k) {
     if (!(trained_[k] > 0.0)) continue;  // a class that was taught later: how frequent it is nobody knows
-    const double here = (sums[k] + trained_weight * trained_[k]) / total;
-    made[k] = static_cast<float>(used_share * std::log(here / trained_[k]));
+    const double here = (sums[k] + kTrainedWeight * trained_[k]) / total;
+    made[k] = static_cast<float>(kUsedShare * std::log(here / trained_[k]));
   }
   return made;
 }
@@ -42,10 +42,10 @@ void ClassFrequencies::correct(std::vector<float>& logs, const std::vector<std::
   if (trained_.empty() || logs.empty()) return;
   std::vector<double> sums = seen_;
   std::vector<float> row(classes_);
-  for (int iteration = 0; iteration <= iterations; ++iteration) {
+  for (int iteration = 0; iteration <= kIterations; ++iteration) {
     std::vector<double> next = seen_;
     const std::vector<float> shift = shifts(sums);
-    const bool is_last = iteration == iterations;
+    const bool is_last = iteration == kIterations;
     for (std::size_t i = 0; i < logs.size(); i += classes_) {
       if (!is_left_out.empty() && is_left_out[i / classes_] != 0) continue;
       for (std::size_t k = 0; k < classes_; ++k) row[k] = logs[i + k] + shift[k];
@@ -57,8 +57,8 @@ void ClassFrequencies::correct(std::vector<float>& logs, const std::vector<std::
   }
   seen_ = std::move(sums);
   const double total = sumOf(seen_);
-  if (total > memory)
-    for (double& sum : seen_) sum *= memory / total;
+  if (total > kMemory)
+    for (double& sum : seen_) sum *= kMemory / total;
 }
 
 }  // namespace scene_labeler

@@ -12,21 +12,20 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float sure_probability = 0.5F;
+constexpr float kSureProbability = 0.5F;
 /// In a scene that is unlike the training data, stated probabilities are too high.
-constexpr float novel_scene_share = 0.1F, sure_in_novel_scene = 0.7F, sure_of_other_device = 0.8F,
-                sure_in_new_place = 0.8F;
+constexpr float kNovelSceneShare = 0.1F, kSureInNovelScene = 0.7F, kSureOfOtherDevice = 0.8F, kSureInNewPlace = 0.8F;
 
 /// Returns the probability from which an answer counts as sure: more for another device than that of the training data,
 /// and for a scene with many returns unlike these.
 float leastSureProbability(const LabelModel& model, const Scene& scene, const std::vector<std::uint8_t>& is_asked,
                            const std::vector<std::uint8_t>& is_novel, double share_unlike) {
-  if (isNewPlace(share_unlike)) return sure_in_new_place;
-  if (scene.device != model.device) return sure_of_other_device;
+  if (isNewPlace(share_unlike)) return kSureInNewPlace;
+  if (scene.device != model.device) return kSureOfOtherDevice;
   const auto asked = std::count(is_asked.begin(), is_asked.end(), std::uint8_t{1}),
              novel = std::count(is_novel.begin(), is_novel.end(), std::uint8_t{1});
-  return static_cast<float>(novel) > novel_scene_share * static_cast<float>(asked) ? sure_in_novel_scene
-                                                                                   : sure_probability;
+  return static_cast<float>(novel) > kNovelSceneShare * static_cast<float>(asked) ? kSureInNovelScene
+                                                                                  : kSureProbability;
 }
 
 /// Log probabilities of the returns, fused over patches in place.
@@ -35,7 +34,7 @@ void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patc
   std::vector<double> sums;
   std::vector<std::size_t> counts;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (patches[i] == no_patch) continue;
+    if (patches[i] == kNoPatch) continue;
     if (patches[i] >= counts.size()) {
       counts.resize(patches[i] + std::size_t{1}, 0);
       sums.resize((patches[i] + std::size_t{1}) * classes, 0.0);
@@ -45,7 +44,7 @@ void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patc
       sums[patches[i] * classes + k] += static_cast<double>(logs[i * classes + k]);
   }
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (patches[i] == no_patch) continue;
+    if (patches[i] == kNoPatch) continue;
     const double factor =
         effectiveCount(counts[patches[i]], model.correlation) / static_cast<double>(counts[patches[i]]);
     for (std::size_t k = 0; k < classes; ++k)
@@ -130,7 +129,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
   const float least_sure = leastSureProbability(model, scene, is_asked, is_novel, result.share_unlike);
   result.patches = makePatches(scene, superpixels);
   for (std::size_t i = 0; i < count; ++i)
-    if (!scene.isAsked(i)) result.patches[i] = no_patch;
+    if (!scene.isAsked(i)) result.patches[i] = kNoPatch;
   fusePatches(model, result.patches, logs);
   smoothInScene(scene, classes, logs);
   if (!scene.view.image.empty()) spreadInScene(scene, model.classes, logs);

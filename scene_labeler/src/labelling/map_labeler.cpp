@@ -11,11 +11,11 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double square_edge = 10.0;  // m
-constexpr float fused_sure = 0.5F;
-constexpr float least_fused = 1e-6F;
+constexpr double kSquareEdge = 10.0;  // m
+constexpr float kFusedSure = 0.5F;
+constexpr float kLeastFused = 1e-6F;
 
-int toSquare(double coordinate) { return static_cast<int>(std::floor(coordinate / square_edge)); }
+int toSquare(double coordinate) { return static_cast<int>(std::floor(coordinate / kSquareEdge)); }
 
 std::vector<PlacedView> inOrder(std::vector<PlacedView> views) {
   std::stable_sort(views.begin(), views.end(), [](const PlacedView& a, const PlacedView& b) {
@@ -66,7 +66,7 @@ std::vector<MapLabeler::Member> MapLabeler::pointsAround(const Square& middle, i
 
 Scene MapLabeler::makeScene(const std::vector<Member>& members) {
   Scene scene;
-  scene.device = lms291_device;
+  scene.device = kLms291Device;
   for (const Member& member : members) {
     scene.points.push_back(member.point());
     scene.reflectance.push_back(static_cast<float>(member.square->reflectance[member.index]));
@@ -85,7 +85,7 @@ void MapLabeler::vote(const std::vector<Member>& members, const SceneLabels& lab
     if (labels.unsure[i] != 0) ++square.unsure[point];
     if (isNewPlace(labels.share_unlike)) ++square.in_new_place[point];
     for (std::size_t k = 0; k < classes; ++k)
-      square.logs[point * classes + k] += std::log(std::max(labels.probabilities[i * classes + k], least_fused));
+      square.logs[point * classes + k] += std::log(std::max(labels.probabilities[i * classes + k], kLeastFused));
   }
 }
 
@@ -111,7 +111,7 @@ void MapLabeler::spreadInSquare(const std::vector<Member>& members, const std::v
 void MapLabeler::labelView(const PlacedView& view) {
   const Eigen::Vector3f place = view.T_map_camera.t().cast<float>();
   std::vector<Member> members = pointsAround({toSquare(view.T_map_camera.t().y()), toSquare(view.T_map_camera.t().x())},
-                                             static_cast<int>(std::ceil(options_.reach / square_edge)));
+                                             static_cast<int>(std::ceil(options_.reach / kSquareEdge)));
   const auto is_far = [&](const Member& member) {
     return (member.point() - place).head<2>().norm() > static_cast<float>(options_.reach);
   };
@@ -184,7 +184,7 @@ void MapLabeler::giveLabels(const SquarePoints& square) {
       const float probability = std::exp(p[best]);
       p += classes;
       label = {model_.classes[best], static_cast<std::uint8_t>(std::lround(255.0F * probability)),
-               probability < fused_sure || 2 * square.unsure[i] > square.views[i]};
+               probability < kFusedSure || 2 * square.unsure[i] > square.views[i]};
     }
     callbacks_.take_label(square.numbers[i], label);
   }
@@ -192,7 +192,7 @@ void MapLabeler::giveLabels(const SquarePoints& square) {
 
 void MapLabeler::labelRowsBelow(double y) {
   const auto isComplete = [&](int row) {  // the row after it is one of its surroundings
-    return static_cast<double>(row + 2) * square_edge + options_.reach <= y;
+    return static_cast<double>(row + 2) * kSquareEdge + options_.reach <= y;
   };
   for (auto& [square, own] : squares_) {
     if (square.first < next_row_) continue;

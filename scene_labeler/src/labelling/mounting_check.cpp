@@ -9,10 +9,10 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_frames = 4;                             // then the camera is known
-constexpr std::size_t least_compared = 200, most_compared = 2000;  // of a frame
-constexpr float sure_by_shape = 0.7F;                              // probability of a class by shape alone
-constexpr float least_image_log = -4.0F;                           // one return decides nothing
+constexpr std::size_t kMostFrames = 4;                             // then the camera is known
+constexpr std::size_t kLeastCompared = 200, kMostCompared = 2000;  // of a frame
+constexpr float kSureByShape = 0.7F;                               // probability of a class by shape alone
+constexpr float kLeastImageLog = -4.0F;                            // one return decides nothing
 
 /// What shape tells apart for sure: lawn and path differ in it by little, and less the less exact the poses are.
 enum class ShapeKind { Ground, Wall, Foliage, Other };
@@ -30,18 +30,18 @@ ShapeKind shapeKind(SceneClass label) {
   }
 }
 
-/// Logarithm of the probability that a return is of that kind, not less than least_image_log.
+/// Logarithm of the probability that a return is of that kind, not less than kLeastImageLog.
 double logOfKind(const LabelModel& model, ShapeKind kind, const std::vector<float>& logs) {
   float sum = 0.0F;
   for (std::size_t k = 0; k < logs.size(); ++k)
     if (shapeKind(model.classes[k]) == kind) sum += std::exp(logs[k]);
-  return std::max(std::log(std::max(sum, 1e-30F)), least_image_log);
+  return std::max(std::log(std::max(sum, 1e-30F)), kLeastImageLog);
 }
 
 }  // namespace
 
 void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
-  if (frames_ >= most_frames || scene.view.image.empty()) return;
+  if (frames_ >= kMostFrames || scene.view.image.empty()) return;
   Scene turned = scene;
   turned.view.image = cv::Mat();  // the copy shares the pixels
   cv::rotate(scene.view.image, turned.view.image, cv::ROTATE_180);
@@ -53,22 +53,22 @@ void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
   std::size_t returns = 0;
   const auto visible =
       static_cast<std::size_t>(std::count(scene.view.is_visible.begin(), scene.view.is_visible.end(), std::uint8_t{1}));
-  const std::size_t step = visible / most_compared + 1;
+  const std::size_t step = visible / kMostCompared + 1;
   std::size_t number = 0;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     if (scene.view.is_visible[i] == 0 || number++ % step != 0) continue;
     std::copy_n(table.row(i), first_of_image, row.begin());
-    std::fill(row.begin() + static_cast<std::ptrdiff_t>(first_of_image), row.end(), missing_feature);
+    std::fill(row.begin() + static_cast<std::ptrdiff_t>(first_of_image), row.end(), kMissingFeature);
     model_.logProbabilities(row.data(), by_shape.data());
     const auto best = static_cast<std::size_t>(std::max_element(by_shape.begin(), by_shape.end()) - by_shape.begin());
-    if (by_shape[best] < std::log(sure_by_shape)) continue;
+    if (by_shape[best] < std::log(kSureByShape)) continue;
     model_.logProbabilities(table.row(i), by_image.data());
     model_.logProbabilities(upside_down.row(i), by_turned.data());
     const ShapeKind kind = shapeKind(model_.classes[best]);
     sum += logOfKind(model_, kind, by_turned) - logOfKind(model_, kind, by_image);
     ++returns;
   }
-  if (returns < least_compared) return;
+  if (returns < kLeastCompared) return;
   evidence_ += sum / static_cast<double>(returns);
   ++frames_;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr double share_of_any = 0.02;  // of a class that no point around has, together with all others
+constexpr double kShareOfAny = 0.02;  // of a class that no point around has, together with all others
 
 struct SpreadSettings {
   float per_m = 1.0F / 1.6F;        // of cubes whose neighbours count as surroundings
@@ -21,7 +21,7 @@ struct SpreadSettings {
   std::vector<std::size_t> kinds;   // classes that a point without look hardly tells apart
 };
 
-constexpr float own_of_kinds = 0.5F;  // power of a point's probabilities among those
+constexpr float kOwnOfKinds = 0.5F;  // power of a point's probabilities among those
 
 /// Takes the logarithms of probabilities among some classes to a power; the sum of the probabilities of these stays.
 void flatten(const std::vector<std::size_t>& kinds, float power, float* logs) {
@@ -64,14 +64,14 @@ void spreadLogs(const std::vector<Eigen::Vector3f>& points, const std::vector<st
       for (int j = -1; j <= 1; ++j)
         for (int h = -1; h <= 1; ++h) {
           const std::uint32_t cube = table.find(urban_nav_registration::keyBeside(key, {h, j, k}));
-          if (cube == CellTable::none) continue;
+          if (cube == CellTable::kNone) continue;
           for (std::size_t n = 0; n < stride; ++n) around[n] += sums[cube * stride + n];
         }
     if (around[0] < settings.least_sources) continue;
-    flatten(settings.kinds, own_of_kinds, logs.data() + i * classes);
+    flatten(settings.kinds, kOwnOfKinds, logs.data() + i * classes);
     for (std::size_t k = 0; k < classes; ++k)
       logs[i * classes + k] = settings.own * logs[i * classes + k] +
-                              settings.around * static_cast<float>(std::log(around[1 + k] / around[0] + share_of_any));
+                              settings.around * static_cast<float>(std::log(around[1 + k] / around[0] + kShareOfAny));
     normaliseLogs(logs.data() + i * classes, classes);
   }
 }

@@ -11,19 +11,19 @@
 namespace scene_labeler {
 namespace {
 
-constexpr int slic_iterations = 5;
-constexpr float slic_ruler = 15.0F;   // compactness
-constexpr float depth_ratio = 1.15F;  // between neighbours in the order of depth: a larger step begins a new patch
-constexpr float patch_cube = 0.4F;    // m
+constexpr int kSlicIterations = 5;
+constexpr float kSlicRuler = 15.0F;   // compactness
+constexpr float kDepthRatio = 1.15F;  // between neighbours in the order of depth: a larger step begins a new patch
+constexpr float kPatchCube = 0.4F;    // m
 
 std::vector<std::uint32_t> cubePatches(const std::vector<Eigen::Vector3f>& points) {
-  std::vector<std::uint32_t> patches(points.size(), no_patch);
+  std::vector<std::uint32_t> patches(points.size(), kNoPatch);
   urban_nav_registration::CellTable table(points.size() / 16 + 16);
-  const float limit = patch_cube * static_cast<float>(urban_nav_registration::kFarthestCell);
+  const float limit = kPatchCube * static_cast<float>(urban_nav_registration::kFarthestCell);
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].allFinite() && points[i].cwiseAbs().maxCoeff() < limit)
       patches[i] =
-          table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(points[i], 1.0F / patch_cube)));
+          table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(points[i], 1.0F / kPatchCube)));
   return patches;
 }
 
@@ -35,8 +35,8 @@ Superpixels makeSuperpixels(const cv::Mat& image, int size) {
   cv::Mat smooth, lab;
   cv::GaussianBlur(image, smooth, {3, 3}, 0.0);
   cv::cvtColor(smooth, lab, cv::COLOR_BGR2Lab);
-  const auto slic = cv::ximgproc::createSuperpixelSLIC(lab, cv::ximgproc::SLIC, size, slic_ruler);
-  slic->iterate(slic_iterations);
+  const auto slic = cv::ximgproc::createSuperpixelSLIC(lab, cv::ximgproc::SLIC, size, kSlicRuler);
+  slic->iterate(kSlicIterations);
   slic->enforceLabelConnectivity(25);
   slic->getLabels(result.numbers);
   result.count = slic->getNumberOfSuperpixels();
@@ -45,7 +45,7 @@ Superpixels makeSuperpixels(const cv::Mat& image, int size) {
 
 std::vector<std::uint32_t> makePatches(const Scene& scene, const Superpixels& superpixels) {
   if (superpixels.numbers.empty()) return cubePatches(scene.points);
-  std::vector<std::uint32_t> patches(scene.points.size(), no_patch);
+  std::vector<std::uint32_t> patches(scene.points.size(), kNoPatch);
   const std::vector<std::uint8_t>& visible = scene.view.is_visible;
   std::vector<std::vector<std::uint32_t>> members(static_cast<std::size_t>(superpixels.count));
   for (std::uint32_t i = 0; i < visible.size(); ++i) {
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> makePatches(const Scene& scene, const Superpixels& su
       return scene.view.depths[a] < scene.view.depths[b];
     });
     for (std::size_t i = 0; i < returns.size(); ++i) {
-      const bool begins = i == 0 || scene.view.depths[returns[i]] > depth_ratio * scene.view.depths[returns[i - 1]];
+      const bool begins = i == 0 || scene.view.depths[returns[i]] > kDepthRatio * scene.view.depths[returns[i - 1]];
       if (begins) ++next;
       patches[returns[i]] = next - 1;
     }

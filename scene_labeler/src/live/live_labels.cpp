@@ -9,10 +9,10 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr std::size_t most_waiting_scans = 4000, most_waiting_images = 40;  // per side
-constexpr std::size_t most_waiting_classes = 40;                            // per side
-constexpr double class_patience = 2.0;   // s of odometry after an image whose class image has not come
-constexpr double camera_patience = 2.0;  // s of scans that wait for the calibration of a camera
+constexpr std::size_t kMostWaitingScans = 4000, kMostWaitingImages = 40;  // per side
+constexpr std::size_t kMostWaitingClasses = 40;                           // per side
+constexpr double kClassPatience = 2.0;   // s of odometry after an image whose class image has not come
+constexpr double kCameraPatience = 2.0;  // s of scans that wait for the calibration of a camera
 
 StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
   const double seconds = scan.time_step * static_cast<double>(scan.ranges.size());
@@ -69,7 +69,7 @@ void LiveLabels::addPose(const urban_nav_core::StampedPose& T_odom_base) {
 void LiveLabels::addScan(std::size_t side, urban_nav_core::PlanarScan scan) {
   ++counts_.scans;
   sides_[side].scans.push_back(std::move(scan));
-  if (sides_[side].scans.size() > most_waiting_scans) {
+  if (sides_[side].scans.size() > kMostWaitingScans) {
     sides_[side].scans.pop_front();
     ++counts_.dropped;
   }
@@ -78,7 +78,7 @@ void LiveLabels::addScan(std::size_t side, urban_nav_core::PlanarScan scan) {
 void LiveLabels::addImage(std::size_t side, StampNs stamp, Decode decode) {
   ++counts_.images;
   sides_[side].images.push_back({stamp, std::move(decode)});
-  if (sides_[side].images.size() > most_waiting_images) {
+  if (sides_[side].images.size() > kMostWaitingImages) {
     sides_[side].images.pop_front();
     ++counts_.dropped;
   }
@@ -86,7 +86,7 @@ void LiveLabels::addImage(std::size_t side, StampNs stamp, Decode decode) {
 
 void LiveLabels::addClasses(std::size_t side, StampNs stamp, const cv::Mat& classes) {
   sides_[side].classes[stamp] = classes;
-  if (sides_[side].classes.size() > most_waiting_classes) sides_[side].classes.erase(sides_[side].classes.begin());
+  if (sides_[side].classes.size() > kMostWaitingClasses) sides_[side].classes.erase(sides_[side].classes.begin());
 }
 
 bool LiveLabels::workImages(LiveSide& side) {
@@ -96,7 +96,7 @@ bool LiveLabels::workImages(LiveSide& side) {
     if (side.drive->wants(image.stamp)) {
       const auto classes = side.classes.find(image.stamp);
       const bool may_come = !parameters_.class_topic.empty() && classes == side.classes.end() &&
-                            urban_nav_core::secondsBetween(image.stamp, known) < class_patience;
+                            urban_nav_core::secondsBetween(image.stamp, known) < kClassPatience;
       if (may_come) return false;
       side.drive->add(image.stamp, image.decode(), classes == side.classes.end() ? cv::Mat() : classes->second);
     }
@@ -122,7 +122,7 @@ void LiveLabels::work(std::size_t number) {
   if (!side.T_base_laser || side.scans.empty()) return;
   if (!side.drive) {
     const bool may_come = !side.camera && urban_nav_core::secondsBetween(side.scans.front().stamp,
-                                                                         side.scans.back().stamp) < camera_patience;
+                                                                         side.scans.back().stamp) < kCameraPatience;
     if (may_come) return;
     start(number);
   }

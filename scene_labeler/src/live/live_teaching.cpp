@@ -10,13 +10,13 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_scenes = 24;
-constexpr float farthest_return = 0.3F;  // m, from the place that was clicked
+constexpr std::size_t kMostScenes = 24;
+constexpr float kFarthestReturn = 0.3F;  // m, from the place that was clicked
 
-/// Returns the labelled point nearest to a place; nullopt beyond farthest_return.
+/// Returns the labelled point nearest to a place; nullopt beyond kFarthestReturn.
 std::optional<std::size_t> nearestPoint(const DriveScene& drive, const Eigen::Vector3f& place) {
   const Eigen::Vector3f local = place - drive.origin;
-  float nearest = farthest_return * farthest_return;
+  float nearest = kFarthestReturn * kFarthestReturn;
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < drive.scene.points.size(); ++i) {
     const float square = (drive.scene.points[i] - local).squaredNorm();
@@ -39,7 +39,7 @@ LiveTeaching::~LiveTeaching() {
 
 void LiveTeaching::keep(DriveScene drive) {
   scenes_.push_back(std::make_shared<const DriveScene>(std::move(drive)));
-  if (scenes_.size() > most_scenes) scenes_.pop_front();
+  if (scenes_.size() > kMostScenes) scenes_.pop_front();
 }
 
 std::string LiveTeaching::correct(const Eigen::Vector3f& place, SceneClass label) {

@@ -16,9 +16,9 @@ const Table<NodeletParameters>& nodeletTable() {
   static const Table<NodeletParameters> rows(
       "",
       {
-          {"base_frame", &P::base_frame, "", urban_nav_core::frames::base_link, false, false, {},
+          {"base_frame", &P::base_frame, "", urban_nav_core::frames::kBaseLink, false, false, {},
            "Frame of the robot.", "REP-105"},
-          {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::odom, false, false, {},
+          {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
            "Frame of the odometry and of the cloud.", "REP-105"},
           {"compressed", &P::compressed, "", true, false, false, {},
            "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.", "docs/architecture.md"},

@@ -10,10 +10,10 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double prior_weight = 20.0;  // samples: a class with fewer held-out samples keeps a bias near 0
-constexpr double no_score = -1e3;      // of a class that no held-out sample has: its frequency is unknown
-constexpr double least_scale = 0.05, most_scale = 5.0;
-constexpr int newton_steps = 40;
+constexpr double kPriorWeight = 20.0;  // samples: a class with fewer held-out samples keeps a bias near 0
+constexpr double kNoScore = -1e3;      // of a class that no held-out sample has: its frequency is unknown
+constexpr double kLeastScale = 0.05, kMostScale = 5.0;
+constexpr int kNewtonSteps = 40;
 
 /// Gradient and Gauss-Newton matrix of the negative log likelihood; parameters: scale, then the biases.
 struct LikelihoodTerms {
@@ -32,7 +32,7 @@ LikelihoodTerms evaluateLikelihood(const HeldOutScores& samples, const std::vect
       score[k] = static_cast<double>(samples.scores[i * samples.classes + static_cast<std::size_t>(k)]);
     z = parameters[0] * score + parameters.tail(classes);
     for (Eigen::Index k = 0; k < classes; ++k)
-      if (!is_present[static_cast<std::size_t>(k)]) z[k] = no_score;
+      if (!is_present[static_cast<std::size_t>(k)]) z[k] = kNoScore;
     z.array() -= z.maxCoeff();
     const double logsum = std::log(z.array().exp().sum());
     const Eigen::VectorXd p = (z.array() - logsum).exp();
@@ -51,10 +51,10 @@ LikelihoodTerms evaluateLikelihood(const HeldOutScores& samples, const std::vect
   }
   terms.curvature.block(0, 1, 1, classes) = terms.curvature.block(1, 0, classes, 1).transpose();
   const Eigen::VectorXd bias = parameters.tail(classes);
-  terms.cost += 0.5 * prior_weight * bias.squaredNorm() + 0.5 * (parameters[0] - 1.0) * (parameters[0] - 1.0);
-  terms.gradient.tail(classes) += prior_weight * bias;
+  terms.cost += 0.5 * kPriorWeight * bias.squaredNorm() + 0.5 * (parameters[0] - 1.0) * (parameters[0] - 1.0);
+  terms.gradient.tail(classes) += kPriorWeight * bias;
   terms.gradient[0] += parameters[0] - 1.0;
-  terms.curvature.diagonal().tail(classes).array() += prior_weight;
+  terms.curvature.diagonal().tail(classes).array() += kPriorWeight;
   terms.curvature(0, 0) += 1.0;
   return terms;
 }
@@ -83,12 +83,12 @@ Calibration fitCalibration(const HeldOutScores& samples) {
   std::vector<bool> is_present(samples.classes, false);
   for (const std::uint8_t label : samples.labels) is_present[label] = true;
   LikelihoodTerms terms = evaluateLikelihood(samples, is_present, parameters);
-  for (int step = 0; step < newton_steps; ++step) {
+  for (int step = 0; step < kNewtonSteps; ++step) {
     Eigen::VectorXd change = -terms.curvature.ldlt().solve(terms.gradient);
     bool is_better = false;
     for (int halving = 0; halving < 12 && !is_better; ++halving, change *= 0.5) {
       Eigen::VectorXd next = parameters + change;
-      next[0] = std::clamp(next[0], least_scale, most_scale);
+      next[0] = std::clamp(next[0], kLeastScale, kMostScale);
       LikelihoodTerms candidate = evaluateLikelihood(samples, is_present, next);
       if (!(candidate.cost < terms.cost)) continue;
       is_better = true;

@@ -10,13 +10,13 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_edges = FeatureBins::code_count - 2;
+constexpr std::size_t kMostEdges = FeatureBins::kCodeCount - 2;
 
 std::vector<float> quantileEdges(std::vector<float> values) {
   std::sort(values.begin(), values.end());
   std::vector<float> edges;
-  for (std::size_t i = 0; i < most_edges && !values.empty(); ++i) {
-    const std::size_t at = (i + 1) * values.size() / (most_edges + 1);
+  for (std::size_t i = 0; i < kMostEdges && !values.empty(); ++i) {
+    const std::size_t at = (i + 1) * values.size() / (kMostEdges + 1);
     const float edge = values[std::min(at, values.size() - 1)];
     if (edge > values.front() && (edges.empty() || edge > edges.back())) edges.push_back(edge);
   }
@@ -57,7 +57,7 @@ void FeatureBins::archive(urban_nav_core::Archive& archive) {
   archive(edges_);
   bool is_sound = edges_.size() <= 255;
   for (const std::vector<float>& edges : edges_)
-    is_sound = is_sound && edges.size() <= most_edges && std::is_sorted(edges.begin(), edges.end());
+    is_sound = is_sound && edges.size() <= kMostEdges && std::is_sorted(edges.begin(), edges.end());
   archive.require(is_sound, "edges of features that are not in order");
 }
 

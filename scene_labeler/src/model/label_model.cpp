@@ -9,11 +9,11 @@
 namespace scene_labeler {
 namespace {
 
-constexpr const char* model_name = "model of scene_labeler";
-constexpr std::uint32_t oldest_version = 2;  // without samples
-constexpr std::uint32_t model_version = 3;
-constexpr float least_share = 1e-3F;  // of a forest's votes, before the logarithm
-constexpr std::size_t most_features = 255;
+constexpr const char* kModelName = "model of scene_labeler";
+constexpr std::uint32_t kOldestVersion = 2;  // without samples
+constexpr std::uint32_t kModelVersion = 3;
+constexpr float kLeastShare = 1e-3F;  // of a forest's votes, before the logarithm
+constexpr std::size_t kMostFeatures = 255;
 
 }  // namespace
 
@@ -31,11 +31,11 @@ void LabelModel::logProbabilities(const float* row, float* logs) const {
   if (kind == ClassifierKind::Svm) {
     svm.evaluate(row, logs);
   } else {
-    std::uint8_t codes[most_features];
+    std::uint8_t codes[kMostFeatures];
     bins.encode(row, codes);
     trees.evaluate(codes, logs);
     if (kind == ClassifierKind::Forest)
-      for (std::size_t k = 0; k < classes.size(); ++k) logs[k] = std::log(std::max(logs[k], least_share));
+      for (std::size_t k = 0; k < classes.size(); ++k) logs[k] = std::log(std::max(logs[k], kLeastShare));
   }
   calibration.apply(logs);
 }
@@ -53,7 +53,7 @@ void LabelModel::archive(urban_nav_core::Archive& archive) {
   if (archive.isReading()) {
     bool is_sound = classes.size() >= 2 && bins.columns() == featureNames(features).size();
     for (std::size_t i = 0; i < classes.size(); ++i)
-      is_sound = is_sound && toIndex(classes[i]) < class_count && (i == 0 || classes[i - 1] < classes[i]);
+      is_sound = is_sound && toIndex(classes[i]) < kClassCount && (i == 0 || classes[i - 1] < classes[i]);
     archive.require(is_sound, "classes or features that do not exist");
   }
   if (kind == ClassifierKind::Svm) svm.archive(archive, bins.columns(), classes.size());
@@ -71,16 +71,16 @@ std::string printModel(LabelModel model) {
   urban_nav_core::Archive archive;
   model.archive(archive);
   model.samples.archive(archive, model.bins.columns(), model.classes.size());
-  return urban_nav_core::seal(model_name, model_version, archive.take());
+  return urban_nav_core::seal(kModelName, kModelVersion, archive.take());
 }
 
 LabelModel parseModel(std::string_view bytes, const std::string& name) {
   LabelModel model;
   try {
-    const auto unsealed = urban_nav_core::unseal(model_name, oldest_version, model_version, bytes);
-    urban_nav_core::Archive archive(unsealed.content, model_name);
+    const auto unsealed = urban_nav_core::unseal(kModelName, kOldestVersion, kModelVersion, bytes);
+    urban_nav_core::Archive archive(unsealed.content, kModelName);
     model.archive(archive);
-    if (unsealed.version > oldest_version) model.samples.archive(archive, model.bins.columns(), model.classes.size());
+    if (unsealed.version > kOldestVersion) model.samples.archive(archive, model.bins.columns(), model.classes.size());
     archive.finish();
     model.place_novelty = PlaceNovelty(model.features, model.bins, model.samples);
   } catch (const urban_nav_core::DataError& error) {

@@ -12,7 +12,7 @@ void ModelSamples::archive(urban_nav_core::Archive& archive, std::size_t columns
   if (!archive.isReading()) return;
   bool is_sound = codes.size() == labels.size() * columns && weights.size() == labels.size() &&
                   places.size() == labels.size() && (labels.empty() || frequencies.size() == classes);
-  for (const std::uint8_t code : codes) is_sound = is_sound && code < FeatureBins::code_count;
+  for (const std::uint8_t code : codes) is_sound = is_sound && code < FeatureBins::kCodeCount;
   for (const std::uint8_t label : labels) is_sound = is_sound && label < classes;
   for (const std::uint8_t weight : weights) is_sound = is_sound && weight > 0;
   for (const std::uint16_t place : places) is_sound = is_sound && place < folds.size();

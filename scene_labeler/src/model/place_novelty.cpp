@@ -11,12 +11,12 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t drawn_returns = 200, least_judged = 20;
-constexpr std::size_t reference_samples = 300;  // whose distances give the limit
-constexpr std::size_t least_with_aspect = 50;   // with an aspect, to judge by it
-constexpr double reference_share = 0.95;
-constexpr double usual_share = 0.1, new_place_share = 0.3;
-constexpr double most_doubt = 0.5;  // scene_labeler/bench/other_worlds.py
+constexpr std::size_t kDrawnReturns = 200, kLeastJudged = 20;
+constexpr std::size_t kReferenceSamples = 300;  // whose distances give the limit
+constexpr std::size_t kLeastWithAspect = 50;    // with an aspect, to judge by it
+constexpr double kReferenceShare = 0.95;
+constexpr double kUsualShare = 0.1, kNewPlaceShare = 0.3;
+constexpr double kMostDoubt = 0.5;  // scene_labeler/bench/other_worlds.py
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -64,7 +64,7 @@ bool PlaceNovelty::Aspect::hasNear(const Codes& codes) const {
 }
 
 void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_length) {
-  if (columns.size() > most_columns) columns.resize(most_columns);
+  if (columns.size() > kMostColumns) columns.resize(kMostColumns);
   std::vector<std::uint16_t> places;
   for (std::size_t sample = 0; sample < stored.size(); ++sample) {
     const std::uint8_t* row = stored.codes.data() + sample * row_length;
@@ -75,8 +75,8 @@ void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_len
     places.push_back(stored.places[sample]);
   }
   std::vector<int> distances;
-  const std::size_t wanted = std::min(reference_samples, samples.size());
-  for (std::size_t n = 0; n < wanted && samples.size() >= least_with_aspect; ++n) {
+  const std::size_t wanted = std::min(kReferenceSamples, samples.size());
+  for (std::size_t n = 0; n < wanted && samples.size() >= kLeastWithAspect; ++n) {
     const std::size_t one = n * samples.size() / wanted;
     int nearest = std::numeric_limits<int>::max();
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -85,7 +85,7 @@ void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_len
   }
   if (distances.empty()) return samples.clear();
   const auto at =
-      distances.begin() + static_cast<std::ptrdiff_t>(reference_share * static_cast<double>(distances.size() - 1));
+      distances.begin() + static_cast<std::ptrdiff_t>(kReferenceShare * static_cast<double>(distances.size() - 1));
   std::nth_element(distances.begin(), at, distances.end());
   limit = *at;
 }
@@ -103,8 +103,8 @@ double PlaceNovelty::Aspect::shareUnlike(const FeatureBins& bins, const FeatureT
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < is_asked.size(); ++i)
     if (is_asked[i] != 0 && !std::isnan(table.row(i)[columns.front()])) rows.push_back(i);
-  if (rows.size() < least_judged) return 0.0;
-  const std::size_t drawn = std::min(drawn_returns, rows.size());
+  if (rows.size() < kLeastJudged) return 0.0;
+  const std::size_t drawn = std::min(kDrawnReturns, rows.size());
   std::size_t unlike = 0;
   for (std::size_t n = 0; n < drawn; ++n)
     unlike += hasNear(encode(bins, table.row(rows[n * rows.size() / drawn]))) ? 0U : 1U;
@@ -116,7 +116,7 @@ double PlaceNovelty::shareUnlike(const FeatureBins& bins, const FeatureTable& ta
   return std::max(look_.shareUnlike(bins, table, is_asked), shape_.shareUnlike(bins, table, is_asked));
 }
 
-bool isNewPlace(double share_unlike) { return 2.0 * share_unlike > usual_share + new_place_share; }
+bool isNewPlace(double share_unlike) { return 2.0 * share_unlike > kUsualShare + kNewPlaceShare; }
 
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
   if (new_place_frames == 0 || 4 * new_place_frames < frames) return "";
@@ -126,9 +126,9 @@ std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
 }
 
 void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {
-  const double novelty = std::clamp((share_unlike - usual_share) / (new_place_share - usual_share), 0.0, 1.0);
+  const double novelty = std::clamp((share_unlike - kUsualShare) / (kNewPlaceShare - kUsualShare), 0.0, 1.0);
   if (novelty == 0.0) return;
-  const auto doubt = static_cast<float>(most_doubt * novelty);
+  const auto doubt = static_cast<float>(kMostDoubt * novelty);
   for (const bool of_ground : {true, false}) {
     const auto isKind = [&](std::size_t k) { return isKindOfGround(classes[k]) == of_ground; };
     float sum = 0.0F, count = 0.0F;

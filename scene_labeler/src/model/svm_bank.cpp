@@ -8,8 +8,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double least_log = -12.0;
-constexpr std::size_t moment_count = 8;  // two groups, mean and deviation of two features
+constexpr double kLeastLog = -12.0;
+constexpr std::size_t kMomentCount = 8;  // two groups, mean and deviation of two features
 
 double logSigmoid(double x) { return x < -30.0 ? x : -std::log1p(std::exp(-x)); }
 
@@ -49,11 +49,11 @@ void SvmBank::evaluate(const float* row, float* scores) const {
     scaled[i] = std::isnan(row[i]) ? 0.0F : std::clamp((row[i] - means[i]) * inverse_deviations[i], -10.0F, 10.0F);
   const double odds = std::log(ground_prior) - std::log(1.0 - ground_prior) +
                       logDensity(row, ground_columns, ground_moments.data()) -
-                      logDensity(row, ground_columns, ground_moments.data() + moment_count / 2);
+                      logDensity(row, ground_columns, ground_moments.data() + kMomentCount / 2);
   const std::array<double, 2> group_log = {logSigmoid(-odds), logSigmoid(odds)};
   for (std::size_t k = 0; k < machines.size(); ++k) {
     const double margin = machines[k].evaluate(scaled.data(), size);
-    scores[k] = static_cast<float>(std::max(least_log, logSigmoid(margin) + group_log[is_ground[k] != 0 ? 1 : 0]));
+    scores[k] = static_cast<float>(std::max(kLeastLog, logSigmoid(margin) + group_log[is_ground[k] != 0 ? 1 : 0]));
   }
 }
 
@@ -61,12 +61,12 @@ void SvmBank::archive(urban_nav_core::Archive& archive, std::size_t features, st
   archive(means, inverse_deviations, machines, is_ground, ground_moments, ground_columns, ground_prior);
   if (!archive.isReading()) return;
   bool is_sound = means.size() == features && inverse_deviations.size() == features && machines.size() == classes &&
-                  is_ground.size() == classes && ground_moments.size() == moment_count && ground_columns.size() == 2 &&
+                  is_ground.size() == classes && ground_moments.size() == kMomentCount && ground_columns.size() == 2 &&
                   ground_prior > 0.0 && ground_prior < 1.0;
   for (const std::uint8_t column : ground_columns) is_sound = is_sound && column < features;
   for (const KernelMachine& machine : machines)
     is_sound = is_sound && machine.vectors.size() == machine.weights.size() * features;
-  for (std::size_t i = 1; is_sound && i < moment_count; i += 2) is_sound = ground_moments[i] > 0.0F;
+  for (std::size_t i = 1; is_sound && i < kMomentCount; i += 2) is_sound = ground_moments[i] > 0.0F;
   archive.require(is_sound, "machines that do not fit features and classes");
 }
 

@@ -6,8 +6,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t node_bytes = 7;
-constexpr std::size_t most_trees = 4096, most_nodes = 4096;
+constexpr std::size_t kNodeBytes = 7;
+constexpr std::size_t kMostTrees = 4096, kMostNodes = 4096;
 
 void packNode(const LabelTree::Node& node, std::vector<std::uint8_t>& bytes) {
   const auto left = static_cast<std::uint16_t>(node.left), right = static_cast<std::uint16_t>(node.right);
@@ -46,10 +46,10 @@ void LabelTree::archive(urban_nav_core::Archive& archive) {
   std::vector<std::uint8_t> bytes;
   for (const Node& node : nodes) packNode(node, bytes);
   archive(bytes, leaves);
-  archive.require(bytes.size() % node_bytes == 0 && bytes.size() / node_bytes <= most_nodes, "a part of a node");
+  archive.require(bytes.size() % kNodeBytes == 0 && bytes.size() / kNodeBytes <= kMostNodes, "a part of a node");
   if (!archive.isReading()) return;
   nodes.clear();
-  for (std::size_t at = 0; at < bytes.size(); at += node_bytes) nodes.push_back(unpackNode(bytes.data() + at));
+  for (std::size_t at = 0; at < bytes.size(); at += kNodeBytes) nodes.push_back(unpackNode(bytes.data() + at));
 }
 
 void TreeEnsemble::evaluate(const std::uint8_t* codes, float* scores) const {
@@ -63,7 +63,7 @@ void TreeEnsemble::evaluate(const std::uint8_t* codes, float* scores) const {
 
 void TreeEnsemble::archive(urban_nav_core::Archive& archive, std::size_t features) {
   archive(base, trees);
-  archive.require(base.size() <= class_count && trees.size() <= most_trees, "too many classes or trees");
+  archive.require(base.size() <= kClassCount && trees.size() <= kMostTrees, "too many classes or trees");
   if (!archive.isReading()) return;
   for (const LabelTree& tree : trees) {
     const std::size_t leaves = base.empty() ? 0 : tree.leaves.size() / base.size();

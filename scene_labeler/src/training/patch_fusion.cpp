@@ -20,7 +20,7 @@ PatchSums sumPatches(const HeldOutPatches& held_out) {
   const std::size_t classes = held_out.points.classes;
   for (std::size_t i = 0; i < held_out.patches.size(); ++i) {
     const std::size_t patch = held_out.patches[i];
-    if (patch == no_patch) continue;
+    if (patch == kNoPatch) continue;
     if (patch >= result.counts.size()) {
       result.counts.resize(patch + 1, 0);
       result.sums.resize((patch + 1) * classes, 0.0);
@@ -36,7 +36,7 @@ HeldOutScores fuseScores(const HeldOutPatches& held_out, const PatchSums& sums, 
   HeldOutScores fused = held_out.points;
   for (std::size_t i = 0; i < held_out.patches.size(); ++i) {
     const std::size_t patch = held_out.patches[i];
-    if (patch == no_patch) continue;
+    if (patch == kNoPatch) continue;
     const double factor = effectiveCount(sums.counts[patch], correlation) / static_cast<double>(sums.counts[patch]);
     for (std::size_t k = 0; k < fused.classes; ++k)
       fused.scores[i * fused.classes + k] = static_cast<float>(factor * sums.sums[patch * fused.classes + k]);

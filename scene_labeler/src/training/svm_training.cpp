@@ -10,8 +10,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr int most_iterations = 20000;
-constexpr std::size_t most_per_class = 600;  // bounds the support vectors, and with them the time of a frame
+constexpr int kMostIterations = 20000;
+constexpr std::size_t kMostPerClass = 600;  // bounds the support vectors, and with them the time of a frame
 
 /// Mean and deviation of a column over the samples that `take` accepts.
 template <typename Take>
@@ -47,7 +47,7 @@ KernelMachine trainMachine(const ValueSamples& samples, const cv::Mat& scaled, s
   std::vector<std::size_t> taken(samples.classes, 0);
   for (std::size_t i = 0; i < samples.labels.size(); ++i) {
     const std::size_t label = samples.labels[i];
-    if (samples.is_ground[label] != samples.is_ground[of_class] || ++taken[label] > most_per_class) continue;
+    if (samples.is_ground[label] != samples.is_ground[of_class] || ++taken[label] > kMostPerClass) continue;
     rows.push_back(scaled.row(static_cast<int>(i)));
     answers.push_back(label == of_class ? 1 : 0);
   }
@@ -63,7 +63,7 @@ KernelMachine trainMachine(const ValueSamples& samples, const cv::Mat& scaled, s
   svm->setKernel(cv::ml::SVM::RBF);
   svm->setC(settings.c);
   svm->setGamma(machine.gamma);
-  svm->setTermCriteria({cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, most_iterations, 1e-3});
+  svm->setTermCriteria({cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, kMostIterations, 1e-3});
   svm->train(rows, cv::ml::ROW_SAMPLE, answers);
   cv::Mat alphas, numbers;
   machine.rho = svm->getDecisionFunction(0, alphas, numbers);

@@ -11,7 +11,7 @@ namespace scene_labeler {
 namespace {
 
 /// Of a superpixel in one frame: large ones do not outweigh all other samples.
-constexpr float patch_weight = 50.0F, known_patch_weight = 20.0F;  // the latter where most answers are right
+constexpr float kPatchWeight = 50.0F, kKnownPatchWeight = 20.0F;  // the latter where most answers are right
 
 /// Whether a scene shows a kind of place that the model was not trained in: most of what nobody corrected may be wrong.
 bool showsNewPlace(const LabelModel& model, const Scene& scene, const FeatureTable& table) {
@@ -21,7 +21,7 @@ bool showsNewPlace(const LabelModel& model, const Scene& scene, const FeatureTab
   return isNewPlace(model.place_novelty.shareUnlike(model.bins, table, is_asked));
 }
 
-constexpr std::size_t most_anchors = 300;  // of a scene
+constexpr std::size_t kMostAnchors = 300;  // of a scene
 
 SceneClass findAnswer(const LabelModel& model, const float* row) {
   std::vector<float> logs(model.classes.size());
@@ -38,15 +38,15 @@ void addAnchors(const LabelModel& model, const Scene& scene, const FeatureTable&
   std::vector<SceneClass> wrong;
   for (std::size_t i = first; i < rows.labels.size(); ++i)
     wrong.push_back(findAnswer(model, rows.values.data() + i * table.columns()));
-  const std::size_t drawn = std::min(most_anchors, asked.size());
+  const std::size_t drawn = std::min(kMostAnchors, asked.size());
   for (std::size_t n = 0; n < drawn; ++n) {
     const float* row = table.row(asked[n * asked.size() / drawn]);
     const SceneClass answer = findAnswer(model, row);
     if (std::find(wrong.begin(), wrong.end(), answer) != wrong.end()) continue;
     rows.values.insert(rows.values.end(), row, row + table.columns());
     rows.labels.push_back(answer);
-    rows.patches.push_back(no_patch);
-    rows.weights.push_back(anchor_weight);
+    rows.patches.push_back(kNoPatch);
+    rows.weights.push_back(kAnchorWeight);
   }
 }
 
@@ -64,7 +64,7 @@ std::vector<TrainingFold> restoreFolds(const LabelModel& model) {
     for (std::size_t column = 0; column < columns; ++column)
       rows.values.push_back(model.bins.decode(column, stored.codes[i * columns + column]));
     rows.labels.push_back(model.classes[stored.labels[i]]);
-    rows.patches.push_back(no_patch);
+    rows.patches.push_back(kNoPatch);
     rows.weights.push_back(weight);
   };
   for (std::size_t i = 0; i < stored.size(); ++i) {
@@ -93,9 +93,9 @@ CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std:
   SamplingLimits limits;
   limits.held_out = 0;  // wrong answers alone say nothing of probabilities
   std::vector<TrainingFold> made;
-  addScene({fold, measureSceneFeatures(model, scene), labels, std::vector<std::uint32_t>(labels.size(), no_patch)},
+  addScene({fold, measureSceneFeatures(model, scene), labels, std::vector<std::uint32_t>(labels.size(), kNoPatch)},
            limits, made);
-  for (float& weight : made.front().samples.weights) weight = correction_weight;
+  for (float& weight : made.front().samples.weights) weight = kCorrectionWeight;
   folds.push_back(std::move(made.front()));
   return count;
 }
@@ -116,15 +116,15 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
     const std::size_t before = rows.labels.size();
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const bool is_member =
-          i == correction.point || (patches[i] == patches[correction.point] && patches[i] != no_patch);
+          i == correction.point || (patches[i] == patches[correction.point] && patches[i] != kNoPatch);
       if (!is_member) continue;
       rows.values.insert(rows.values.end(), table.row(i), table.row(i) + table.columns());
       rows.labels.push_back(has_one_wall ? withOneWall(correction.label) : correction.label);
-      rows.patches.push_back(no_patch);
+      rows.patches.push_back(kNoPatch);
     }
     const std::size_t members = rows.labels.size() - before;
-    const float weight = std::round((is_new_place ? patch_weight : known_patch_weight) / static_cast<float>(members));
-    rows.weights.resize(rows.labels.size(), std::clamp(weight, 2.0F, correction_weight));
+    const float weight = std::round((is_new_place ? kPatchWeight : kKnownPatchWeight) / static_cast<float>(members));
+    rows.weights.resize(rows.labels.size(), std::clamp(weight, 2.0F, kCorrectionWeight));
     added += members;
   }
   if (model.kind == ClassifierKind::Boosted && !is_new_place) addAnchors(model, scene, table, first, rows);

@@ -15,11 +15,11 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_folds = 5;
-constexpr std::size_t added_trees = 60;
-constexpr float least_new_score = -7.0F;  // log: of a class that the base does not know, before trees are added
-constexpr float least_samples = 10.0F;    // sum of weights: a class with less is not learnt
-constexpr std::size_t most_model_bytes = 980'000, least_sample_bytes = 200'000, most_sample_bytes = 840'000;
+constexpr std::size_t kMostFolds = 5;
+constexpr std::size_t kAddedTrees = 60;
+constexpr float kLeastNewScore = -7.0F;  // log: of a class that the base does not know, before trees are added
+constexpr float kLeastSamples = 10.0F;   // sum of weights: a class with less is not learnt
+constexpr std::size_t kMostModelBytes = 980'000, kLeastSampleBytes = 200'000, kMostSampleBytes = 840'000;
 
 /// Settings that cross-validation tries.
 struct TrialSetting {
@@ -62,7 +62,7 @@ struct SamplePool {
   std::vector<std::uint16_t> folds;  // place among the folds
 };
 
-constexpr std::size_t no_group = static_cast<std::size_t>(-1);  // leaves out nothing
+constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);  // leaves out nothing
 
 std::uint8_t positionIn(const std::vector<SceneClass>& classes, SceneClass wanted) {
   return static_cast<std::uint8_t>(std::find(classes.begin(), classes.end(), wanted) - classes.begin());
@@ -80,13 +80,13 @@ void foldWalls(std::vector<TrainingFold>& folds) {
 }
 
 std::vector<SceneClass> presentClasses(const std::vector<TrainingFold>& folds) {
-  std::vector<float> counts(class_count, 0.0F);
+  std::vector<float> counts(kClassCount, 0.0F);
   for (const TrainingFold& fold : folds)
     for (std::size_t i = 0; i < fold.samples.labels.size(); ++i)
       counts[toIndex(fold.samples.labels[i])] += fold.samples.weights[i];
   std::vector<SceneClass> classes;
   for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] >= least_samples) classes.push_back(static_cast<SceneClass>(i));
+    if (counts[i] >= kLeastSamples) classes.push_back(static_cast<SceneClass>(i));
   if (classes.size() < 2)
     throw urban_nav_core::DataError(
         "", classes.empty() ? "no labelled points" : std::string("points of ") + toString(classes[0]) + " alone",
@@ -98,10 +98,10 @@ SamplePool makePool(const std::vector<TrainingFold>& folds, const TrainingOption
   SamplePool pool;
   pool.columns = featureNames(options.features).size();
   pool.classes = presentClasses(folds);
-  std::vector<std::size_t> totals(class_count, 0);
+  std::vector<std::size_t> totals(kClassCount, 0);
   for (const TrainingFold& fold : folds)
     for (const SceneClass label : fold.samples.labels) ++totals[toIndex(label)];
-  std::vector<std::size_t> seen(class_count, 0);
+  std::vector<std::size_t> seen(kClassCount, 0);
   for (std::size_t f = 0; f < folds.size(); ++f) {
     const FoldRows& rows = folds[f].samples;
     for (std::size_t i = 0; i < rows.labels.size(); ++i) {
@@ -114,7 +114,7 @@ SamplePool makePool(const std::vector<TrainingFold>& folds, const TrainingOption
                          rows.values.begin() + static_cast<std::ptrdiff_t>((i + 1) * pool.columns));
       pool.labels.push_back(label);
       pool.weights.push_back(rows.weights[i]);
-      pool.groups.push_back(f % most_folds);
+      pool.groups.push_back(f % kMostFolds);
       pool.folds.push_back(static_cast<std::uint16_t>(f));
     }
   }
@@ -187,11 +187,11 @@ void scoreHeldOut(const std::vector<TrainingFold>& folds, std::size_t group, con
   const std::size_t classes = model.classes.size(), columns = model.bins.columns();
   held_out.points.classes = classes;
   for (std::size_t f = 0; f < folds.size(); ++f) {
-    if (f % most_folds != group) continue;
+    if (f % kMostFolds != group) continue;
     const FoldRows& rows = folds[f].held_out;
     std::uint32_t first = 0;
     for (const std::uint32_t patch : held_out.patches)
-      if (patch != no_patch) first = std::max(first, patch + 1);
+      if (patch != kNoPatch) first = std::max(first, patch + 1);
     std::vector<float> scores(rows.labels.size() * classes);
     urban_nav_core::forEach(rows.labels.size(), 256, [&](std::size_t i) {
       model.logProbabilities(rows.values.data() + i * columns, scores.data() + i * classes);
@@ -204,7 +204,7 @@ void scoreHeldOut(const std::vector<TrainingFold>& folds, std::size_t group, con
                                     scores.begin() + static_cast<std::ptrdiff_t>((i + 1) * classes));
       held_out.points.labels.push_back(label);
       held_out.points.weights.push_back(rows.weights[i]);
-      held_out.patches.push_back(rows.patches[i] == no_patch ? no_patch : first + rows.patches[i]);
+      held_out.patches.push_back(rows.patches[i] == kNoPatch ? kNoPatch : first + rows.patches[i]);
     }
   }
 }
@@ -250,7 +250,7 @@ NoveltyRanges measureRanges(const SamplePool& pool) {
 ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>& folds, const LabelModel& model) {
   const std::size_t classes = pool.classes.size(), used = printModel(model).size();
   const std::size_t room =
-      std::clamp(most_model_bytes - std::min(used, most_model_bytes), least_sample_bytes, most_sample_bytes);
+      std::clamp(kMostModelBytes - std::min(used, kMostModelBytes), kLeastSampleBytes, kMostSampleBytes);
   const std::size_t limit = room / (pool.columns + 10) / classes;  // label, weight and place take ten bytes
   ModelSamples kept;
   for (const TrainingFold& fold : folds) kept.folds.push_back(fold.name);
@@ -298,17 +298,17 @@ std::vector<float> forClasses(const std::vector<float>& before, const std::vecto
 /// Fits the fusion of patches, or takes it from the model that training continues from where no return has a patch.
 void fitOrKeepFusion(const HeldOutPatches& held_out, const LabelModel* base, LabelModel& model) {
   const bool has_patches =
-      std::any_of(held_out.patches.begin(), held_out.patches.end(), [](std::uint32_t p) { return p != no_patch; });
+      std::any_of(held_out.patches.begin(), held_out.patches.end(), [](std::uint32_t p) { return p != kNoPatch; });
   if (has_patches || !base) return fitPatchFusion(held_out, model);
   model.correlation = base->correlation;
   model.patch_calibration = base->patch_calibration;
   model.patch_calibration.bias = forClasses(base->patch_calibration.bias, base->classes, model.classes, 0.0F);
 }
 
-/// Returns an ensemble for more classes, which it gives least_new_score.
+/// Returns an ensemble for more classes, which it gives kLeastNewScore.
 TreeEnsemble widenEnsemble(TreeEnsemble ensemble, const std::vector<SceneClass>& from,
                            const std::vector<SceneClass>& to) {
-  ensemble.base = forClasses(ensemble.base, from, to, least_new_score);
+  ensemble.base = forClasses(ensemble.base, from, to, kLeastNewScore);
   for (LabelTree& tree : ensemble.trees) {
     std::vector<float> leaves;
     for (std::size_t leaf = 0; leaf < tree.leaves.size(); leaf += from.size()) {
@@ -330,9 +330,9 @@ bool addTrees(const SamplePool& pool, const TrainingOptions& options, LabelModel
     if (positionIn(pool.classes, before) == pool.classes.size()) return false;
   model.bins = base->bins;
   TreeSettings settings;
-  settings.trees = added_trees;
+  settings.trees = kAddedTrees;
   model.trees = continueBoosted(widenEnsemble(base->trees, base->classes, pool.classes),
-                                codeSamples(pool, no_group, model.bins), settings, options.seed);
+                                codeSamples(pool, kNoGroup, model.bins), settings, options.seed);
   model.calibration = base->calibration;
   model.calibration.bias = forClasses(base->calibration.bias, base->classes, pool.classes, 0.0F);
   model.patch_calibration = base->patch_calibration;
@@ -345,12 +345,12 @@ bool addTrees(const SamplePool& pool, const TrainingOptions& options, LabelModel
 HeldOutPatches crossValidate(const std::vector<TrainingFold>& folds, const SamplePool& pool,
                              const std::vector<TrialSetting>& trials, std::uint64_t seed, TrainedModel& trained,
                              const std::function<void(double)>& progress) {
-  const std::size_t groups = std::min(folds.size(), most_folds);
+  const std::size_t groups = std::min(folds.size(), kMostFolds);
   HeldOutPatches best;
   for (std::size_t t = 0; t < trials.size(); ++t) {
     HeldOutPatches held_out;
     for (std::size_t group = 0; group < groups; ++group) {
-      fitClassifier(pool, groups > 1 ? group : no_group, trials[t], seed, trained.model);
+      fitClassifier(pool, groups > 1 ? group : kNoGroup, trials[t], seed, trained.model);
       scoreHeldOut(folds, group, trained.model, held_out);
       progress(static_cast<double>(t * groups + group + 1) / static_cast<double>(trials.size() * groups + 1));
     }
@@ -368,7 +368,7 @@ void trainAnew(const std::vector<TrainingFold>& folds, const SamplePool& pool, c
   LabelModel& model = trained.model;
   const std::vector<TrialSetting> trials = makeTrials(options.kind);
   HeldOutPatches held_out = crossValidate(folds, pool, trials, options.seed, trained, progress);
-  fitClassifier(pool, no_group, trials[trained.chosen], options.seed, model);
+  fitClassifier(pool, kNoGroup, trials[trained.chosen], options.seed, model);
   if (held_out.points.size() == 0) return;
   model.calibration = fitCalibration(held_out.points);
   for (std::size_t i = 0; i < held_out.points.size(); ++i)

@@ -23,7 +23,7 @@ std::uint32_t scatter(std::uint32_t number) { return number * 2654435761U; }  //
 std::uint32_t firstFreePatch(const FoldRows& rows) {
   std::uint32_t first = 0;
   for (const std::uint32_t patch : rows.patches)
-    if (patch != no_patch) first = std::max(first, patch + 1);
+    if (patch != kNoPatch) first = std::max(first, patch + 1);
   return first;
 }
 
@@ -36,9 +36,9 @@ void addHeldOut(const TrainingScene& scene, std::size_t limit, FoldRows& rows) {
   const std::uint32_t first = firstFreePatch(rows);
   for (std::uint32_t i = 0; i < scene.labels.size(); ++i) {
     if (scene.labels[i] == SceneClass::None) continue;
-    const bool has_patch = scene.patches[i] != no_patch;
+    const bool has_patch = scene.patches[i] != kNoPatch;
     if (scatter(has_patch ? scene.patches[i] : i) > threshold) continue;
-    addRow(scene, i, has_patch ? first + scene.patches[i] : no_patch, rows);
+    addRow(scene, i, has_patch ? first + scene.patches[i] : kNoPatch, rows);
   }
 }
 
@@ -47,7 +47,7 @@ void appendRows(const FoldRows& from, FoldRows& to) {
   to.values.insert(to.values.end(), from.values.begin(), from.values.end());
   to.labels.insert(to.labels.end(), from.labels.begin(), from.labels.end());
   to.weights.insert(to.weights.end(), from.weights.begin(), from.weights.end());
-  for (const std::uint32_t patch : from.patches) to.patches.push_back(patch == no_patch ? no_patch : first + patch);
+  for (const std::uint32_t patch : from.patches) to.patches.push_back(patch == kNoPatch ? kNoPatch : first + patch);
 }
 
 }  // namespace
@@ -66,13 +66,13 @@ void mergeFold(TrainingFold fold, std::vector<TrainingFold>& folds) {
 void addScene(const TrainingScene& scene, const SamplingLimits& limits, std::vector<TrainingFold>& folds) {
   auto fold = std::find_if(folds.begin(), folds.end(), [&](const TrainingFold& f) { return f.name == scene.fold; });
   if (fold == folds.end()) fold = folds.insert(folds.end(), TrainingFold{scene.fold, {}, {}});
-  std::array<std::vector<std::size_t>, class_count> members;
+  std::array<std::vector<std::size_t>, kClassCount> members;
   for (std::size_t i = 0; i < scene.labels.size(); ++i)
     if (scene.labels[i] != SceneClass::None) members[toIndex(scene.labels[i])].push_back(i);
   for (const std::vector<std::size_t>& of_class : members) {
     const std::size_t wanted = std::min(of_class.size(), limits.samples_per_class);
     for (std::size_t i = 0; i < wanted; ++i)
-      addRow(scene, of_class[i * of_class.size() / wanted], no_patch, fold->samples);
+      addRow(scene, of_class[i * of_class.size() / wanted], kNoPatch, fold->samples);
   }
   addHeldOut(scene, limits.held_out, fold->held_out);
 }

@@ -10,8 +10,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t codes = FeatureBins::code_count;
-constexpr float least_entry = 1e-3F;  // of a histogram, in weights: less is rounding of a difference
+constexpr std::size_t kCodes = FeatureBins::kCodeCount;
+constexpr float kLeastEntry = 1e-3F;  // of a histogram, in weights: less is rounding of a difference
 
 }  // namespace
 
@@ -23,12 +23,12 @@ TreeBuilder::TreeBuilder(const CodedSamples& samples, const TreeSettings& settin
 }
 
 std::vector<float> TreeBuilder::makeHistogram(const std::vector<std::uint32_t>& samples) const {
-  std::vector<float> histogram(samples_.features * codes * width_, 0.0F);
+  std::vector<float> histogram(samples_.features * kCodes * width_, 0.0F);
   const std::size_t values = width_ - 1;
   urban_nav_core::forEach(tree_features_.size(), 4, [&](std::size_t number) {
     const std::size_t f = tree_features_[number];
     const std::uint8_t* column = columns_.data() + f * samples_.size();
-    float* entries = histogram.data() + f * codes * width_;
+    float* entries = histogram.data() + f * kCodes * width_;
     for (const std::uint32_t i : samples) {
       float* entry = entries + column[i] * width_;
       const float* derivatives = derivatives_->data() + i * values;
@@ -41,8 +41,8 @@ std::vector<float> TreeBuilder::makeHistogram(const std::vector<std::uint32_t>& 
 
 std::vector<double> TreeBuilder::sumHistogram(const std::vector<float>& histogram) const {
   std::vector<double> total(width_, 0.0);
-  const float* entries = histogram.data() + tree_features_.front() * codes * width_;
-  for (std::size_t code = 0; code < codes; ++code)
+  const float* entries = histogram.data() + tree_features_.front() * kCodes * width_;
+  for (std::size_t code = 0; code < kCodes; ++code)
     for (std::size_t k = 0; k < width_; ++k) total[k] += static_cast<double>(entries[code * width_ + k]);
   return total;
 }
@@ -57,16 +57,16 @@ double TreeBuilder::scoreTotal(const double* total) const {
 TreeBuilder::Split TreeBuilder::bestSplitBy(const Leaf& leaf, std::uint8_t feature) const {
   Split best;
   const double whole = scoreTotal(leaf.total.data());
-  const float* entries = leaf.histogram.data() + feature * codes * width_;
+  const float* entries = leaf.histogram.data() + feature * kCodes * width_;
   const std::size_t weight = width_ - 1;
   std::vector<double> left(width_), right(width_);
-  const bool has_missing = entries[weight] > least_entry;
+  const bool has_missing = entries[weight] > kLeastEntry;
   for (const bool missing_right : {false, true}) {
     if (missing_right && !has_missing) continue;
     for (std::size_t k = 0; k < width_; ++k) left[k] = missing_right ? 0.0 : static_cast<double>(entries[k]);
-    for (std::size_t code = 1; code + 1 < codes; ++code) {
+    for (std::size_t code = 1; code + 1 < kCodes; ++code) {
       const float* entry = entries + code * width_;
-      if (!(entry[weight] > least_entry)) continue;  // as the threshold before
+      if (!(entry[weight] > kLeastEntry)) continue;  // as the threshold before
       for (std::size_t k = 0; k < width_; ++k) left[k] += static_cast<double>(entry[k]);
       if (left[weight] < settings_.least_weight) continue;
       if (leaf.total[weight] - left[weight] < settings_.least_weight) break;

@@ -11,7 +11,7 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float largest_added_leaf = 0.5F;  // like the largest step of Chen and Guestrin's library for rare classes
+constexpr float kLargestAddedLeaf = 0.5F;  // like the largest step of Chen and Guestrin's library for rare classes
 
 std::vector<double> weightedShares(const CodedSamples& samples) {
   std::vector<double> shares(samples.classes, 1e-6);
@@ -117,7 +117,7 @@ TreeEnsemble trainBoosted(const CodedSamples& samples, const TreeSettings& setti
 
 TreeEnsemble continueBoosted(TreeEnsemble ensemble, const CodedSamples& samples, const TreeSettings& settings,
                              std::uint64_t seed) {
-  boost(samples, settings, largest_added_leaf, seed, ensemble);
+  boost(samples, settings, kLargestAddedLeaf, seed, ensemble);
   return ensemble;
 }
 

@@ -69,7 +69,7 @@ PlacedView viewAt(double x, double y) {
   return view;
 }
 
-const cv::Mat grey_image(81, 101, CV_8UC3, cv::Scalar(90, 100, 110));
+const cv::Mat kGreyImage(81, 101, CV_8UC3, cv::Scalar(90, 100, 110));
 
 TEST(MapLabeler, LabelsEveryPointOnceByShapeWhereNoImageShowsIt) {
   testing::Yard yard = testing::makeYard(31);
@@ -98,7 +98,7 @@ TEST(MapLabeler, GivesNoLabelToPointsThatAreNotFinite) {
 
 TEST(MapLabeler, UsesAnImageForThePointsThatItShows) {
   const testing::Yard yard = testing::makeYard(32);
-  const LabelledYard made = labelPoints(yard.scene.points, {viewAt(4.0, 4.0), viewAt(4000.0, 4.0)}, grey_image);
+  const LabelledYard made = labelPoints(yard.scene.points, {viewAt(4.0, 4.0), viewAt(4000.0, 4.0)}, kGreyImage);
   ASSERT_EQ(made.shown.size(), 1U) << "the other one is elsewhere";
   EXPECT_GT(made.shown[0], 500U);
   EXPECT_LT(made.shown[0], yard.labels.size());
@@ -112,7 +112,7 @@ TEST(MapLabeler, FollowsClassImagesAtThePointsThatTheirImageShows) {
   const testing::Yard yard = testing::makeYard(32);
   const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
   const auto label = [&](const cv::Mat& classes) {
-    return labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, grey_image, false, model, classes);
+    return labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, kGreyImage, false, model, classes);
   };
   const auto image_of = [](SceneClass of_all, int width = 101) {
     return cv::Mat(81, width, CV_8UC1, cv::Scalar(static_cast<double>(toIndex(of_all))));
@@ -173,8 +173,8 @@ TEST(MapLabeler, HoldsThePointsOfAPartOfALongMapAndLabelsThemAsIfItHeldAll) {
       points.push_back(point + Eigen::Vector3f(0.0F, 15.0F * static_cast<float>(part), 0.0F));
     views.push_back(viewAt(4.0, 15.0 * part + 4.0));
   }
-  const LabelledYard swept = labelPoints(points, views, grey_image),
-                     at_once = labelPoints(points, views, grey_image, true);
+  const LabelledYard swept = labelPoints(points, views, kGreyImage),
+                     at_once = labelPoints(points, views, kGreyImage, true);
   EXPECT_EQ(std::count(swept.times.begin(), swept.times.end(), 1), static_cast<std::ptrdiff_t>(points.size()));
   EXPECT_LT(swept.most_held, points.size() * 6 / 10);
   EXPECT_EQ(swept.shown, at_once.shown);

@@ -12,7 +12,7 @@ TEST(DefaultModel, KnowsTheSevenClassesOfThePaperAndIsSmall) {
   EXPECT_EQ(model.classes.size(), 8u);
   EXPECT_EQ(model.classes.front(), SceneClass::Other);
   EXPECT_EQ(model.classes.back(), SceneClass::Vehicle);
-  EXPECT_EQ(model.device, lms291_device);
+  EXPECT_EQ(model.device, kLms291Device);
   EXPECT_GE(model.sources.size(), 10u);
   EXPECT_LE(defaultModelBytes().size(), 1'000'000u);
   EXPECT_GE(model.samples.size(), 5000u) << "so that it can be taught";

@@ -31,9 +31,9 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector3d;
 
-constexpr StampNs street_start = 1'225'719'872'000'000'000;
-constexpr int street_frames = 160;  // of 50 ms and 5 cm
-constexpr int columns = 96, rows = 128;
+constexpr StampNs kStreetStart = 1'225'719'872'000'000'000;
+constexpr int kStreetFrames = 160;  // of 50 ms and 5 cm
+constexpr int kColumns = 96, kRows = 128;
 
 /// A robot that drives along x beside a wall at y = 4, with a laser and a camera that look to the left.
 class StreetRobot : public urban_nav_ros::testing::Listener {
@@ -43,7 +43,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
     keep("labels/image", images);
     keep("scene_labeler/status", statuses);
   }
-  static StampNs toStamp(int frame) { return street_start + frame * 50'000'000LL; }
+  static StampNs toStamp(int frame) { return kStreetStart + frame * 50'000'000LL; }
 
   void placeSensors() {
     Eigen::Matrix3d R_laser, R_camera;
@@ -59,8 +59,8 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
   void calibrate() {
     sensor_msgs::CameraInfo info;
     info.header.frame_id = "camera4";
-    info.width = columns;
-    info.height = rows;
+    info.width = kColumns;
+    info.height = kRows;
     info.distortion_model = "plumb_bob";
     info.D.assign(5, 0.0);
     info.K = {60.0, 0.0, 48.0, 0.0, 60.0, 64.0, 0.0, 0.0, 1.0};
@@ -69,7 +69,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
     info_.publish(info);
   }
   void drive() {
-    for (int i = 0; i < street_frames; ++i) {
+    for (int i = 0; i < kStreetFrames; ++i) {
       nav_msgs::Odometry odometry;
       odometry.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
       odometry.pose.pose =
@@ -109,7 +109,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
  private:
   void show(StampNs stamp) {
     sensor_msgs::Image message =
-        urban_nav_ros::toColourImageMessage(cv::Mat(rows, columns, CV_8UC3, cv::Scalar(90, 110, 130)));
+        urban_nav_ros::toColourImageMessage(cv::Mat(kRows, kColumns, CV_8UC3, cv::Scalar(90, 110, 130)));
     message.header.stamp = urban_nav_ros::toRosTime(stamp);
     message.header.frame_id = "camera4";
     image_.publish(message);
@@ -155,7 +155,7 @@ TEST(SceneLabelerNodelet, LabelsWhatTheLaserAndTheCameraOfASideSee) {
   EXPECT_EQ(robot.clouds.back().header.frame_id, "odom");
   EXPECT_EQ(robot.images.back().encoding, "mono8");
   EXPECT_EQ(robot.images.back().header.frame_id, "camera4");
-  EXPECT_EQ(robot.images.back().width, static_cast<unsigned>(columns));
+  EXPECT_EQ(robot.images.back().width, static_cast<unsigned>(kColumns));
   sensor_msgs::PointCloud2ConstIterator<float> x(robot.clouds.front(), "x"), p(robot.clouds.front(), "probability");
   sensor_msgs::PointCloud2ConstIterator<std::uint8_t> label(robot.clouds.front(), "label");
   for (; x != x.end(); ++x, ++p, ++label) {

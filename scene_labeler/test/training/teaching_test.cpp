@@ -126,7 +126,7 @@ TEST(Teaching, KeepsAnswersThatNobodyCorrectedUnlessThePlaceIsNew) {
     addPatchCorrections(model, yard.scene, {{lawn, SceneClass::Grass}}, 12, fold);
     std::vector<SceneClass> labels;
     for (std::size_t i = 0; i < fold.samples.labels.size(); ++i)
-      if (fold.samples.weights[i] == anchor_weight) labels.push_back(fold.samples.labels[i]);
+      if (fold.samples.weights[i] == kAnchorWeight) labels.push_back(fold.samples.labels[i]);
     return labels;
   };
   testing::Yard yard = testing::makeYard(14);

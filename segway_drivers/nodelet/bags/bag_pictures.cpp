@@ -26,7 +26,7 @@ using urban_nav_input::Recording;
 
 namespace {
 
-constexpr int simulated_quality = 90;
+constexpr int kSimulatedQuality = 90;
 
 std::string withoutSlash(const std::string& topic) { return topic.rfind('/', 0) == 0 ? topic.substr(1) : topic; }
 
@@ -133,7 +133,7 @@ FrameReader readLadybugFrames(const std::string& bag) {
     if (!images) return std::nullopt;
     std::array<cv::Mat, 5> cameras;
     std::copy(images->begin(), images->end(), cameras.begin());
-    frame.bytes = packLadybugFrame(cameras, simulated_quality);
+    frame.bytes = packLadybugFrame(cameras, kSimulatedQuality);
     return frame;
   };
 }
@@ -147,9 +147,9 @@ std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& path
     const auto message = each->as<sensor_msgs::CameraInfo>();
     if (!message || message->width == 0 || message->height == 0) continue;
     sensor_msgs::CameraInfo info = *message;
-    const double sx = static_cast<double>(bb2_width) / info.width, sy = static_cast<double>(bb2_height) / info.height;
-    info.width = bb2_width;
-    info.height = bb2_height;
+    const double sx = static_cast<double>(kBb2Width) / info.width, sy = static_cast<double>(kBb2Height) / info.height;
+    info.width = kBb2Width;
+    info.height = kBb2Height;
     for (const auto& [matrix, columns] : {std::pair{info.K.data(), 3}, std::pair{info.P.data(), 4}}) {
       matrix[0] *= sx;
       matrix[2] = (matrix[2] + 0.5) * sx - 0.5;

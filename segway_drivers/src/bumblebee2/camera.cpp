@@ -9,22 +9,22 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::uint64_t bb2_data_format = 0x1048, bb2_embedded = 0x12F8, bb2_pattern = 0x1040, bb2_sensor = 0x1F28;
-constexpr std::uint32_t bb2_present = 0x80000000, bb2_embedded_mask = 0x47;  // time, gain, shutter, frame counter
-constexpr std::size_t bb2_trial_frames = 5;
-constexpr double bb2_trial_tolerance = 1e-3;  // s
-constexpr int bb2_order_frames = 5;
+constexpr std::uint64_t kBb2DataFormat = 0x1048, kBb2Embedded = 0x12F8, kBb2Pattern = 0x1040, kBb2Sensor = 0x1F28;
+constexpr std::uint32_t kBb2Present = 0x80000000, kBb2EmbeddedMask = 0x47;  // time, gain, shutter, frame counter
+constexpr std::size_t kBb2TrialFrames = 5;
+constexpr double kBb2TrialTolerance = 1e-3;  // s
+constexpr int kBb2OrderFrames = 5;
 
 /// Whether times advance by whole frame periods.
 bool advances(const std::vector<double>& times, double period) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     double step = times[i] - times[i - 1];
-    if (step < 0.0) step += bus_time_wrap;
+    if (step < 0.0) step += kBusTimeWrap;
     const double periods = std::round(step / period);
-    if (periods < 1.0 || periods > 20.0 || std::abs(step - periods * period) > bb2_trial_tolerance * periods)
+    if (periods < 1.0 || periods > 20.0 || std::abs(step - periods * period) > kBb2TrialTolerance * periods)
       return false;
   }
-  return times.size() == bb2_trial_frames;
+  return times.size() == kBb2TrialFrames;
 }
 
 }  // namespace
@@ -35,17 +35,17 @@ bool Bb2Camera::start(std::string& error) {
   last_sequence_.reset();
   checked_ = reversed_ = 0;
   if (!source_.open(error)) return false;
-  source_.writeRegister(bb2_data_format, bb2_present);
-  source_.writeRegister(bb2_embedded, bb2_present | bb2_embedded_mask);
-  const auto sensor = source_.readRegister(bb2_sensor), pattern = source_.readRegister(bb2_pattern);
-  const auto format = source_.readRegister(bb2_data_format), embedded = source_.readRegister(bb2_embedded);
+  source_.writeRegister(kBb2DataFormat, kBb2Present);
+  source_.writeRegister(kBb2Embedded, kBb2Present | kBb2EmbeddedMask);
+  const auto sensor = source_.readRegister(kBb2Sensor), pattern = source_.readRegister(kBb2Pattern);
+  const auto format = source_.readRegister(kBb2DataFormat), embedded = source_.readRegister(kBb2Embedded);
   if (!sensor || !format || !embedded) {
     error = "registers cannot be read";
     return false;
   }
   identity_ = "Bumblebee2, sensor code " + std::to_string(*sensor & 0xFU);
-  if (*format != bb2_present) events_.push_back({true, "order of the imagers cannot be set"});
-  if ((*embedded & bb2_embedded_mask) != bb2_embedded_mask)
+  if (*format != kBb2Present) events_.push_back({true, "order of the imagers cannot be set"});
+  if ((*embedded & kBb2EmbeddedMask) != kBb2EmbeddedMask)
     events_.push_back({true, "embedded information cannot be switched on"});
   if (pattern) {
     std::string text;
@@ -59,7 +59,7 @@ std::optional<Bb2StampedPair> Bb2Camera::next(TimeNs timeout) {
   const std::optional<CameraFrame> raw = source_.next(timeout);
   if (!raw) return std::nullopt;
   counters_.bytes += static_cast<std::int64_t>(raw->bytes.size());
-  if (raw->corrupt || raw->bytes.size() < bb2_frame_size) {
+  if (raw->corrupt || raw->bytes.size() < kBb2FrameSize) {
     ++counters_.bad_checksums;
     return std::nullopt;
   }
@@ -93,21 +93,21 @@ bool Bb2Camera::findEmbedding(const CameraFrame& raw) {
   for (const Bb2Embedding embedding : {Bb2Embedding::Raw, Bb2Embedding::Imager}) {
     std::vector<double>& times = candidate_times_[static_cast<std::size_t>(embedding)];
     times.push_back(splitBb2Frame(raw.bytes, options_.swap, embedding).bus_time.value_or(-1.0));
-    if (times.size() > bb2_trial_frames) times.erase(times.begin());
+    if (times.size() > kBb2TrialFrames) times.erase(times.begin());
     if (advances(times, 1.0 / options_.rate)) embedding_ = embedding;
   }
-  if (!embedding_ && counters_.frames == 20 * static_cast<std::int64_t>(bb2_trial_frames))
+  if (!embedding_ && counters_.frames == 20 * static_cast<std::int64_t>(kBb2TrialFrames))
     events_.push_back({true, "no time of the bus in the images"});
   return embedding_.has_value();
 }
 
 void Bb2Camera::checkOrder(const Bb2Frame& frame) {
-  if (checked_ >= bb2_order_frames) return;
+  if (checked_ >= kBb2OrderFrames) return;
   const auto disparity = medianDisparity(frame.left, frame.right);
   if (!disparity) return;
   ++checked_;
   reversed_ += *disparity < 0.0 ? 1 : 0;
-  if (checked_ == bb2_order_frames && 2 * reversed_ > checked_)
+  if (checked_ == kBb2OrderFrames && 2 * reversed_ > checked_)
     events_.push_back({true, "left and right are exchanged: set bumblebee2.swap_images"});
 }
 

@@ -15,7 +15,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t most_coefficients = 10000, most_per_axis = 100;
+constexpr std::size_t kMostCoefficients = 10000, kMostPerAxis = 100;
 
 struct CalibrationLine {
   std::string key;
@@ -120,14 +120,14 @@ std::pair<int, CalibrationSurface> readCalibrationWarp(CalibrationReader& reader
     if (line.key == "KnotsY") surface.knots_y = reader.numbers(line);
     if (line.key == "NumberCoefs") {
       const auto counts = reader.numbers(line, 2);
-      if (counts[0] < 4 || counts[1] < 4 || counts[0] > most_per_axis || counts[1] > most_per_axis)
+      if (counts[0] < 4 || counts[1] < 4 || counts[0] > kMostPerAxis || counts[1] > kMostPerAxis)
         reader.refuse(line, "4...100 an axis");
       surface.count_x = static_cast<int>(counts[0]);
       surface.count_y = static_cast<int>(counts[1]);
     }
     if (line.key == "Coefs")
       surface.coefficients = reader.following(std::min(
-          most_coefficients, static_cast<std::size_t>(surface.count_x) * static_cast<std::size_t>(surface.count_y)));
+          kMostCoefficients, static_cast<std::size_t>(surface.count_x) * static_cast<std::size_t>(surface.count_y)));
   }
   throw UserError(reader.name(), "ends within a surface", "EndWarp");
 }

@@ -16,7 +16,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr unsigned dma_buffers = 8;
+constexpr unsigned kDmaBuffers = 8;
 
 /// Calls of libdc1394 and nothing else.
 class BusCamera : public FrameSource {
@@ -74,7 +74,7 @@ class BusCamera : public FrameSource {
         dc1394_video_set_mode(camera_, mode) == DC1394_SUCCESS &&
         dc1394_format7_set_roi(camera_, mode, format.raw16 ? DC1394_COLOR_CODING_RAW16 : DC1394_COLOR_CODING_MONO8,
                                format.packet, 0, 0, format.width, format.height) == DC1394_SUCCESS &&
-        dc1394_capture_setup(camera_, dma_buffers, DC1394_CAPTURE_FLAGS_DEFAULT) == DC1394_SUCCESS &&
+        dc1394_capture_setup(camera_, kDmaBuffers, DC1394_CAPTURE_FLAGS_DEFAULT) == DC1394_SUCCESS &&
         dc1394_video_set_transmission(camera_, DC1394_ON) == DC1394_SUCCESS;
     if (!good) error = "the camera or the bus refuses the format";
     return good;

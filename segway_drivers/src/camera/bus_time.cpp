@@ -12,9 +12,9 @@ std::optional<double> parseBusTime(std::uint32_t word) {
 }
 
 TimeNs hostTimeOfBusTime(double event_s, double now_s, TimeNs now) {
-  double age = std::fmod(now_s - event_s, bus_time_wrap);
-  if (age < 0.0) age += bus_time_wrap;
-  if (age > bus_time_wrap - 1.0) age -= bus_time_wrap;  // an event just after the instant
+  double age = std::fmod(now_s - event_s, kBusTimeWrap);
+  if (age < 0.0) age += kBusTimeWrap;
+  if (age > kBusTimeWrap - 1.0) age -= kBusTimeWrap;  // an event just after the instant
   return now - static_cast<TimeNs>(std::llround(1e9 * age));
 }
 

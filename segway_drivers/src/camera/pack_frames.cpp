@@ -12,8 +12,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t packed_container = 1'031'680, packed_directory = 0x340, packed_jpegs = 0x400;
-constexpr std::array<int, 4> channel_of_slot = {0, 1, 1, 2};  // B G G R of BGR
+constexpr std::size_t kPackedContainer = 1'031'680, kPackedDirectory = 0x340, kPackedJpegs = 0x400;
+constexpr std::array<int, 4> kChannelOfSlot = {0, 1, 1, 2};  // B G G R of BGR
 
 cv::Mat scaleTo(const cv::Mat& image, cv::Size size) {
   if (image.size() == size) return image;
@@ -29,14 +29,14 @@ void storeBig32(Bytes& bytes, std::size_t at, std::uint32_t word) {
 }  // namespace
 
 Bytes packBb2Frame(const cv::Mat& left, const cv::Mat& right) {
-  const cv::Size size(bb2_width, bb2_height);
+  const cv::Size size(kBb2Width, kBb2Height);
   cv::Mat both;
   cv::merge(std::vector<cv::Mat>{scaleTo(right, size), scaleTo(left, size)}, both);
-  return Bytes(both.data, both.data + bb2_frame_size);
+  return Bytes(both.data, both.data + kBb2FrameSize);
 }
 
 Bytes packLadybugFrame(const std::array<cv::Mat, 5>& cameras, int quality) {
-  Bytes frame(packed_jpegs, 0);
+  Bytes frame(kPackedJpegs, 0);
   const std::array<std::uint8_t, 8> mark = {0xCA, 0xFE, 0xBA, 0xBE, 0, 0, 0, 2}, pattern = {'B', 'G', 'G', 'R'};
   std::copy(mark.begin(), mark.end(), frame.begin() + 0x10);
   std::copy(pattern.begin(), pattern.begin() + 4, frame.begin() + 0x48);
@@ -47,15 +47,15 @@ Bytes packLadybugFrame(const std::array<cv::Mat, 5>& cameras, int quality) {
     cv::split(scaleTo(lying, {512, 384}), planes);
     for (std::size_t slot = 0; slot < 4; ++slot) {
       Bytes jpeg;
-      cv::imencode(".jpg", planes[channel_of_slot[slot]], jpeg, {cv::IMWRITE_JPEG_QUALITY, quality});
-      const std::size_t entry = packed_directory + 32 * camera + 8 * slot;
+      cv::imencode(".jpg", planes[kChannelOfSlot[slot]], jpeg, {cv::IMWRITE_JPEG_QUALITY, quality});
+      const std::size_t entry = kPackedDirectory + 32 * camera + 8 * slot;
       storeBig32(frame, entry, static_cast<std::uint32_t>(frame.size()));
       storeBig32(frame, entry + 4, static_cast<std::uint32_t>(jpeg.size()));
       frame.insert(frame.end(), jpeg.begin(), jpeg.end());
     }
   }
   storeBig32(frame, 0x08, static_cast<std::uint32_t>(frame.size()));
-  frame.resize(std::max(frame.size(), packed_container), 0);
+  frame.resize(std::max(frame.size(), kPackedContainer), 0);
   return frame;
 }
 

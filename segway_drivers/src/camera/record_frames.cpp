@@ -15,8 +15,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs recording_wait = 100'000'000;  // ns
-constexpr double longest_session = 1e8;         // s
+constexpr TimeNs kRecordingWait = 100'000'000;  // ns
+constexpr double kLongestSession = 1e8;         // s
 
 bool configureCamera(SimSource& source, SimCameraOptions::Model model) {
   std::string error;
@@ -64,14 +64,14 @@ std::int64_t recordFrames(const FrameReader& read, const SimCameraOptions& optio
   bool streams = configureCamera(source, options.model);
   while (!source.isFinished() && !stop()) {
     if (source.isGone()) {
-      source.next(recording_wait);
+      source.next(kRecordingWait);
       const double lost_until = endOfLoss(options.faults, 1e-9 * static_cast<double>(now - begin));
-      if (lost_until > longest_session) break;
+      if (lost_until > kLongestSession) break;
       now = std::max(now, begin + static_cast<TimeNs>(std::ceil(1e9 * lost_until)));
       streams = false;
     }
     if (!streams) streams = configureCamera(source, options.model);
-    std::optional<CameraFrame> frame = source.next(recording_wait);
+    std::optional<CameraFrame> frame = source.next(kRecordingWait);
     if (!frame) continue;
     ++frames;
     cutPadding(frame->bytes, options.model);

@@ -12,14 +12,14 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double ring_s = 0.4;  // s for which a frame waits in the ring of buffers
-constexpr std::uint64_t sim_pattern = 0x1040, sim_data_format = 0x1048, sim_embedded = 0x12F8, sim_sensor = 0x1F28,
-                        sim_base_serial = 0x1F20, sim_head_serial = 0x1F80;
-constexpr std::size_t ladybug_sequence_at = 0x20;
-constexpr double ticks_per_second = 24.576e6;
+constexpr double kRingS = 0.4;  // s for which a frame waits in the ring of buffers
+constexpr std::uint64_t kSimPattern = 0x1040, kSimDataFormat = 0x1048, kSimEmbedded = 0x12F8, kSimSensor = 0x1F28,
+                        kSimBaseSerial = 0x1F20, kSimHeadSerial = 0x1F80;
+constexpr std::size_t kLadybugSequenceAt = 0x20;
+constexpr double kTicksPerSecond = 24.576e6;
 
 std::uint32_t busTimeWord(double seconds) {
-  const auto ticks = static_cast<std::uint64_t>(std::llround(seconds * ticks_per_second)) % (128U * 24'576'000U);
+  const auto ticks = static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond)) % (128U * 24'576'000U);
   const auto whole = static_cast<std::uint32_t>(ticks / 24'576'000U),
              rest = static_cast<std::uint32_t>(ticks % 24'576'000U);
   return whole << 25 | (rest / 3072U) << 12 | rest % 3072U;
@@ -59,15 +59,15 @@ bool SimSource::isOffBus(double t) const {
 bool SimSource::isGone() const { return isOffBus(elapsed()); }
 
 void SimSource::powerOn() {
-  registers_ = {{sim_pattern, options_.pattern}, {sim_data_format, 0},
-                {sim_embedded, 0x80000000},      {sim_sensor, 0x1},
-                {sim_base_serial, 0x00ABCDEF},   {sim_head_serial, 0x00FEDCBA}};
+  registers_ = {{kSimPattern, options_.pattern}, {kSimDataFormat, 0},
+                {kSimEmbedded, 0x80000000},      {kSimSensor, 0x1},
+                {kSimBaseSerial, 0x00ABCDEF},    {kSimHeadSerial, 0x00FEDCBA}};
   sequence_ = 0;
 }
 
 double SimSource::busTime(double elapsed_s) const {
-  const double time = std::fmod(options_.bus_begin + elapsed_s * (1.0 + options_.bus_skew), bus_time_wrap);
-  return time < 0.0 ? time + bus_time_wrap : time;
+  const double time = std::fmod(options_.bus_begin + elapsed_s * (1.0 + options_.bus_skew), kBusTimeWrap);
+  return time < 0.0 ? time + kBusTimeWrap : time;
 }
 
 bool SimSource::open(std::string& error) {
@@ -119,7 +119,7 @@ std::optional<CameraFrame> SimSource::next(TimeNs timeout) {
     SimFrame frame = std::move(*waiting_);
     waiting_.reset();
     const bool lost = isGone() || isOffBus(frame.time) || isFaulty(SimCameraFault::Kind::Silence, frame.time) ||
-                      elapsed() > frame.time + options_.transfer + ring_s;
+                      elapsed() > frame.time + options_.transfer + kRingS;
     if (!lost) embed(frame);
     ++sequence_;
     if (lost) continue;
@@ -131,12 +131,12 @@ void SimSource::embed(SimFrame& frame) const {
   const std::uint32_t time = busTimeWord(busTime(frame.time));
   if (options_.model == SimCameraOptions::Model::Ladybug2) {
     putBig32(frame.bytes, 0, time);
-    putBig32(frame.bytes, ladybug_sequence_at, sequence_);
+    putBig32(frame.bytes, kLadybugSequenceAt, sequence_);
     return;
   }
-  if (registers_.at(sim_data_format) != 0x80000000)
+  if (registers_.at(kSimDataFormat) != 0x80000000)
     for (std::size_t i = 0; i + 1 < frame.bytes.size(); i += 2) std::swap(frame.bytes[i], frame.bytes[i + 1]);
-  if ((registers_.at(sim_embedded) & 0x47U) != 0x47U) return;
+  if ((registers_.at(kSimEmbedded) & 0x47U) != 0x47U) return;
   putBig32(frame.bytes, 0, time);
   putBig32(frame.bytes, 4, 0x82000100);
   putBig32(frame.bytes, 8, 0x82000200);

@@ -10,32 +10,32 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double least_sigma = 10e-6;       // s
-constexpr double acquisition = 2.0;         // s in which lower arrivals are no surprise
-constexpr double young = 20.0;              // s in which the line still improves fast
-constexpr double gated_from = 60.0;         // s after which the skew may change slowly only
-constexpr double disproof = 0.5e-3;         // s below the line
-constexpr double contradiction = 0.25;      // s below the line that no backlog explains
-constexpr int passing_contradiction = 5;    // measurements
-constexpr double late_limit = 0.05;         // s above the line
-constexpr double late_duration = 1.0;       // s
-constexpr double refused_limit = 600.0;     // s without an accepted skew
-constexpr double slew_rate = 1e-3;          // s/s, of corrections after acquisition
-constexpr double young_slew_rate = 10e-3;   // s/s
-constexpr double skew_gate = 2.0;           // standard deviations of a slope beyond the accepted change
-constexpr double skew_drift = 1e-6 / 60.0;  // 1/s, of a crystal that warms up
-constexpr double memory_of_change = 0.98;   // per estimate, one a second
-constexpr double hard_from = 3.0;           // s after which the data may show a skew beyond the tolerance
-constexpr double most_bias = 1e-3;          // s
-constexpr double unknown_spacing = 5e-3;    // s
-constexpr double block_periods = 32.0, least_block = 0.5;  // s
-constexpr std::size_t most_points = 16384;
+constexpr double kLeastSigma = 10e-6;       // s
+constexpr double kAcquisition = 2.0;        // s in which lower arrivals are no surprise
+constexpr double kYoung = 20.0;             // s in which the line still improves fast
+constexpr double kGatedFrom = 60.0;         // s after which the skew may change slowly only
+constexpr double kDisproof = 0.5e-3;        // s below the line
+constexpr double kContradiction = 0.25;     // s below the line that no backlog explains
+constexpr int kPassingContradiction = 5;    // measurements
+constexpr double kLateLimit = 0.05;         // s above the line
+constexpr double kLateDuration = 1.0;       // s
+constexpr double kRefusedLimit = 600.0;     // s without an accepted skew
+constexpr double kSlewRate = 1e-3;          // s/s, of corrections after acquisition
+constexpr double kYoungSlewRate = 10e-3;    // s/s
+constexpr double kSkewGate = 2.0;           // standard deviations of a slope beyond the accepted change
+constexpr double kSkewDrift = 1e-6 / 60.0;  // 1/s, of a crystal that warms up
+constexpr double kMemoryOfChange = 0.98;    // per estimate, one a second
+constexpr double kHardFrom = 3.0;           // s after which the data may show a skew beyond the tolerance
+constexpr double kMostBias = 1e-3;          // s
+constexpr double kUnknownSpacing = 5e-3;    // s
+constexpr double kBlockPeriods = 32.0, kLeastBlock = 0.5;  // s
+constexpr std::size_t kMostPoints = 16384;
 
 }  // namespace
 
 ClockFilter::ClockFilter(const ClockOptions& options) : options_(options) {
   options_.hard_tolerance = std::max(options_.hard_tolerance, options_.tolerance);
-  now_.points.reserve(2 * most_points);
+  now_.points.reserve(2 * kMostPoints);
   now_.prior_sigma = 0.5 * options_.tolerance;
 }
 
@@ -57,7 +57,7 @@ double ClockFilter::residual(const Epoch& epoch, const ClockPoint& point) const 
 void ClockFilter::beginEpoch(const ClockPoint& point, bool offset_known, bool keep_latest) {
   now_.declared_x = point.x;
   std::size_t kept = now_.points.size();
-  while (keep_latest && kept > now_.first && now_.points[kept - 1].x > point.x - acquisition) --kept;
+  while (keep_latest && kept > now_.first && now_.points[kept - 1].x > point.x - kAcquisition) --kept;
   now_.points.erase(now_.points.begin(), now_.points.begin() + static_cast<std::ptrdiff_t>(kept));
   now_.first = 0;
   now_.begin_x = now_.accepted_at = now_.next_fit = now_.points.empty() ? point.x : now_.points.front().x;
@@ -87,16 +87,16 @@ void ClockFilter::contradict(const ClockPoint& point, bool offset_known, bool ke
 bool ClockFilter::returnToEarlier(const ClockPoint& point, bool is_contradicted) {
   if (!earlier_) return false;
   const double distance = residual(*earlier_, point);
-  const bool fits = point.x > earlier_->last_x && distance > -std::max(disproof, 5.0 * earlier_->sigma) &&
-                    distance < std::max(late_limit, 3.0 * options_.period);
+  const bool fits = point.x > earlier_->last_x && distance > -std::max(kDisproof, 5.0 * earlier_->sigma) &&
+                    distance < std::max(kLateLimit, 3.0 * options_.period);
   if (is_contradicted && fits) {
     now_ = std::move(*earlier_);
-    now_.points.reserve(2 * most_points);
+    now_.points.reserve(2 * kMostPoints);
     earlier_.reset();
     ++epoch_;
     return true;
   }
-  if (!is_contradicted && ++since_contradiction_ >= passing_contradiction) earlier_.reset();
+  if (!is_contradicted && ++since_contradiction_ >= kPassingContradiction) earlier_.reset();
   return false;
 }
 
@@ -113,7 +113,7 @@ ClockEstimate ClockFilter::add(double device_s, TimeNs arrival) {
   if (point.x != now_.last_x) {
     const double distance = residual(now_, point), age = point.x - now_.declared_x;
     const bool back = point.x < now_.last_x;
-    const bool early = distance < -std::max(contradiction, 10.0 * options_.period);
+    const bool early = distance < -std::max(kContradiction, 10.0 * options_.period);
     if (!returnToEarlier(point, back || early)) {
       const bool late = !back && isPersistentlyLate(point, distance);
       if (back) {
@@ -122,7 +122,7 @@ ClockEstimate ClockFilter::add(double device_s, TimeNs arrival) {
         contradict(point, true, false);
       } else if (isDisproved(distance, age) || late) {
         ++epoch_;
-        beginEpoch(point, !late, distance > -late_limit && !late);
+        beginEpoch(point, !late, distance > -kLateLimit && !late);
       }
     }
     now_.last_x = point.x;
@@ -149,18 +149,18 @@ ClockEstimate ClockFilter::estimate(double device_s) const {
 }
 
 bool ClockFilter::isDisproved(double residual, double age) const {
-  return age > acquisition && residual < -std::max(disproof, (age < young ? 8.0 : 5.0) * now_.sigma);
+  return age > kAcquisition && residual < -std::max(kDisproof, (age < kYoung ? 8.0 : 5.0) * now_.sigma);
 }
 
 /// Late by several periods for a second while arrivals keep the pace of the device: not a backlog, which arrives faster
 /// than it was measured.
 bool ClockFilter::isPersistentlyLate(const ClockPoint& point, double residual) {
-  if (residual < std::max(late_limit, 3.0 * options_.period)) {
+  if (residual < std::max(kLateLimit, 3.0 * options_.period)) {
     now_.late_since.reset();
     return false;
   }
-  if (!now_.late_since || point.z < now_.late_since->z - late_limit) now_.late_since = point;
-  return point.x - now_.late_since->x >= late_duration + 4.0 * options_.period;
+  if (!now_.late_since || point.z < now_.late_since->z - kLateLimit) now_.late_since = point;
+  return point.x - now_.late_since->x >= kLateDuration + 4.0 * options_.period;
 }
 
 void ClockFilter::addPoint(const ClockPoint& point) {
@@ -170,12 +170,12 @@ void ClockFilter::addPoint(const ClockPoint& point) {
     now_.first = 0;
   }
   points.push_back(point);
-  while (points[now_.first].x < point.x - options_.window || points.size() - now_.first > most_points) ++now_.first;
+  while (points[now_.first].x < point.x - options_.window || points.size() - now_.first > kMostPoints) ++now_.first;
   now_.line = std::min(now_.line, point.z - now_.skew * (point.x - now_.begin_x));
   if (point.x >= now_.next_fit) {
     fit();
     const double age = point.x - now_.begin_x;
-    now_.next_fit = point.x + (age < acquisition ? 0.0 : age < young ? 0.1 : 1.0);
+    now_.next_fit = point.x + (age < kAcquisition ? 0.0 : age < kYoung ? 0.1 : 1.0);
   }
   updateSigma(point.x);
 }
@@ -183,12 +183,12 @@ void ClockFilter::addPoint(const ClockPoint& point) {
 void ClockFilter::fit() {
   const ClockPoint* points = now_.points.data() + now_.first;
   const std::size_t count = now_.points.size() - now_.first;
-  const double block = std::max(least_block, block_periods * options_.period);
+  const double block = std::max(kLeastBlock, kBlockPeriods * options_.period);
   const auto fitted = fitLowerLine(points, count, block, now_.skew, options_.hard_tolerance);
   if (!fitted) return;
   const double x = points[count - 1].x, age = x - now_.begin_x;
   acceptSkew(fitted->slope, fitted->slope_sigma, age);
-  if (x - now_.accepted_at > refused_limit) {
+  if (x - now_.accepted_at > kRefusedLimit) {
     ++epoch_;
     now_.skew_known = false;
     now_.prior_skew = 0.0;
@@ -208,28 +208,28 @@ void ClockFilter::fit() {
 /// and only from a floor that is known better than the skew is by now.
 void ClockFilter::acceptSkew(double slope, double slope_sigma, double age) {
   const double x = now_.points.back().x;
-  if (age < gated_from) {
+  if (age < kGatedFrom) {
     const double own = 1.0 / (slope_sigma * slope_sigma), prior = 1.0 / (now_.prior_sigma * now_.prior_sigma);
     double limit = options_.tolerance;
-    if (age > hard_from && std::abs(slope) > limit + 3.0 * slope_sigma) limit = options_.hard_tolerance;
+    if (age > kHardFrom && std::abs(slope) > limit + 3.0 * slope_sigma) limit = options_.hard_tolerance;
     const double weight = limit > options_.tolerance ? 1.0 : own / (own + prior);
     now_.skew = std::clamp(now_.prior_skew + weight * (slope - now_.prior_skew), -limit, limit);
     now_.skew_sigma = std::sqrt(1.0 / (own + prior));
     now_.accepted_at = x;
-    now_.skew_known = now_.skew_known || age > young;
+    now_.skew_known = now_.skew_known || age > kYoung;
     return;
   }
-  const double change = std::abs(slope - now_.skew), known = now_.skew_sigma + skew_drift * (x - now_.accepted_at);
-  if (change > options_.max_skew_change + skew_gate * slope_sigma || slope_sigma > known) return;
+  const double change = std::abs(slope - now_.skew), known = now_.skew_sigma + kSkewDrift * (x - now_.accepted_at);
+  if (change > options_.max_skew_change + kSkewGate * slope_sigma || slope_sigma > known) return;
   // A change beyond chance may be the onset of a tilt: it counts as uncertainty for a while.
-  now_.skew_sigma = std::max({slope_sigma, 0.5 * change, memory_of_change * now_.skew_sigma});
+  now_.skew_sigma = std::max({slope_sigma, 0.5 * change, kMemoryOfChange * now_.skew_sigma});
   now_.skew = slope;
   now_.accepted_at = x;
 }
 
 void ClockFilter::updateSigma(double x) {
-  const double of_skew = (now_.skew_sigma + skew_drift * (x - now_.accepted_at)) * (x - now_.mean_x);
-  now_.sigma = std::max(least_sigma, std::hypot(2.0 * now_.spacing.value_or(unknown_spacing), of_skew));
+  const double of_skew = (now_.skew_sigma + kSkewDrift * (x - now_.accepted_at)) * (x - now_.mean_x);
+  now_.sigma = std::max(kLeastSigma, std::hypot(2.0 * now_.spacing.value_or(kUnknownSpacing), of_skew));
 }
 
 /// Time on the line less the expected bias of its height, slewed after acquisition, later than the one before in the
@@ -237,13 +237,13 @@ void ClockFilter::updateSigma(double x) {
 TimeNs ClockFilter::toStamp(double x) {
   // The least delay so far exceeds the floor by the distance between low delays in the mean: matters while it is large.
   const double age = x - now_.begin_x;
-  const double bias = std::max(0.0, 1.0 - age / young) * std::min(now_.spacing.value_or(0.0), most_bias);
+  const double bias = std::max(0.0, 1.0 - age / kYoung) * std::min(now_.spacing.value_or(0.0), kMostBias);
   double host = x + now_.line - bias + now_.skew * age;
   if (now_.published) {
     const double step = x - now_.published_x;
-    if (age > acquisition) {
+    if (age > kAcquisition) {
       const double steady = *now_.published + step * (1.0 + now_.skew);
-      const double most = (age < young ? young_slew_rate : slew_rate) * step;
+      const double most = (age < kYoung ? kYoungSlewRate : kSlewRate) * step;
       host = std::clamp(host, steady - most, steady + most);
     }
     host = std::max(host, *now_.published + 1e-9);

@@ -9,7 +9,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double least_slope_sigma = 1e-12;  // s/s, above round-off
+constexpr double kLeastSlopeSigma = 1e-12;  // s/s, above round-off
 
 double hullEdgeSlope(const ClockPoint& a, const ClockPoint& b) { return (b.z - a.z) / (b.x - a.x); }
 
@@ -72,7 +72,7 @@ SlopeEstimate estimateFloorSlope(const std::vector<ClockPoint>& hull, double mea
   }
   const double mean = moments.first / moments.zeroth;
   return {peak + mean,
-          std::max(std::sqrt(std::max(moments.second / moments.zeroth - mean * mean, 0.0)), least_slope_sigma)};
+          std::max(std::sqrt(std::max(moments.second / moments.zeroth - mean * mean, 0.0)), kLeastSlopeSigma)};
 }
 
 }  // namespace segway_drivers

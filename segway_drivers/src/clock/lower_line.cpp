@@ -10,12 +10,12 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t fewest_blocks = 6;  // below that every point belongs to the floor
-constexpr double widest_floor = 6.0;      // times the median step between lowest points of adjacent blocks
-constexpr double least_floor = 0.1e-3;    // s
-constexpr double least_spacing = 1e-7;    // s
-constexpr std::size_t fewest_raised = 100;
-constexpr double slope_agreement = 3.0;  // standard deviations
+constexpr std::size_t kFewestBlocks = 6;  // below that every point belongs to the floor
+constexpr double kWidestFloor = 6.0;      // times the median step between lowest points of adjacent blocks
+constexpr double kLeastFloor = 0.1e-3;    // s
+constexpr double kLeastSpacing = 1e-7;    // s
+constexpr std::size_t kFewestRaised = 100;
+constexpr double kSlopeAgreement = 3.0;  // standard deviations
 
 struct ClockBlock {
   std::size_t begin = 0, end = 0;  // of the points
@@ -46,7 +46,7 @@ double floorHeight(const std::vector<ClockBlock>& blocks, double skew) {
     steps.push_back(std::abs(lowestAlong(blocks[i].hull, skew) - lowestAlong(blocks[i - 1].hull, skew)));
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  return std::max(least_floor, widest_floor * *middle);
+  return std::max(kLeastFloor, kWidestFloor * *middle);
 }
 
 double clockEdgeSlope(const ClockPoint& a, const ClockPoint& b) { return (b.z - a.z) / (b.x - a.x); }
@@ -84,13 +84,13 @@ double floorSpacing(const std::vector<ClockPoint>& points, double slope) {
 
 /// Averages the slope with that of a stretch of raised delays, if that has a floor of its own which agrees with it.
 void includeRaised(const std::vector<ClockPoint>& points, SlopeEstimate& slope) {
-  if (points.size() < fewest_raised) return;
+  if (points.size() < kFewestRaised) return;
   const std::vector<ClockPoint> hull = lowerHull(points.data(), points.size());
   double mean_x = 0.0;
   for (const ClockPoint& point : points) mean_x += point.x / static_cast<double>(points.size());
   const double spacing = floorSpacing(points, slope.slope);
-  const SlopeEstimate own = estimateFloorSlope(hull, mean_x, std::max(spacing, least_spacing));
-  if (std::abs(own.slope - slope.slope) > slope_agreement * std::hypot(own.sigma, slope.sigma)) return;
+  const SlopeEstimate own = estimateFloorSlope(hull, mean_x, std::max(spacing, kLeastSpacing));
+  if (std::abs(own.slope - slope.slope) > kSlopeAgreement * std::hypot(own.sigma, slope.sigma)) return;
   const double a = 1.0 / (slope.sigma * slope.sigma), b = 1.0 / (own.sigma * own.sigma);
   slope.slope += b / (a + b) * (own.slope - slope.slope);
   slope.sigma = 1.0 / std::sqrt(a + b);
@@ -119,7 +119,7 @@ std::optional<LowerLine> fitLowerLine(const ClockPoint* points, std::size_t coun
   const std::vector<ClockBlock> blocks = cutIntoBlocks(points, count, block);
   std::optional<double> first;
   double height = 0.0, floor = 0.0;
-  if (blocks.size() >= fewest_blocks) {
+  if (blocks.size() >= kFewestBlocks) {
     height = floorHeight(blocks, skew);
     first = slopeOfMostBlocks(hull, blocks, height, limit);
     if (first) floor = lowestAlong(hull, *first) + height;
@@ -140,8 +140,8 @@ std::optional<LowerLine> fitLowerLine(const ClockPoint* points, std::size_t coun
     line.mean_z += point.z / line.points;
   }
   if (on_floor.size() < count) hull = lowerHull(on_floor.data(), on_floor.size());
-  line.spacing = floorSpacing(on_floor, estimateFloorSlope(hull, line.mean_x, least_spacing).slope);
-  SlopeEstimate slope = estimateFloorSlope(hull, line.mean_x, std::max(line.spacing, least_spacing));
+  line.spacing = floorSpacing(on_floor, estimateFloorSlope(hull, line.mean_x, kLeastSpacing).slope);
+  SlopeEstimate slope = estimateFloorSlope(hull, line.mean_x, std::max(line.spacing, kLeastSpacing));
   for (const std::vector<ClockPoint>& stretch : raised) includeRaised(stretch, slope);
   line.slope = slope.slope;
   line.slope_sigma = slope.sigma;

@@ -10,7 +10,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs shortest_pause = 200'000'000, longest_pause = 2'000'000'000;  // ns
+constexpr TimeNs kShortestPause = 200'000'000, kLongestPause = 2'000'000'000;  // ns
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void DriverLoop::act() {
 void DriverLoop::lose(TimeNs now) {
   port_.reset();
   core_.close(now);
-  pause_ = shortest_pause;
+  pause_ = kShortestPause;
   next_try_ = now + pause_;
 }
 
@@ -86,7 +86,7 @@ void DriverLoop::tryOpen(TimeNs now) {
     act();
     return;
   }
-  pause_ = std::min(pause_ + shortest_pause, longest_pause);
+  pause_ = std::min(pause_ + kShortestPause, kLongestPause);
   next_try_ = now + pause_;
 }
 

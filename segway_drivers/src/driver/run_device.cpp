@@ -17,7 +17,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr TimeNs run_wait = 2'000'000;  // ns
+constexpr TimeNs kRunWait = 2'000'000;  // ns
 
 /// Writes stamped messages in real time.
 class RunTable {
@@ -93,7 +93,7 @@ RunResult runDevice(const RunJob& job, const Parameters& parameters,
   for (TimeNs now = begin; now < end; now = steadyTime()) {
     for (; base != nullptr && next_wish < wishes.size() && wishes[next_wish].time <= now - begin; ++next_wish)
       base->guard().setWish(wishes[next_wish].wish, now);
-    loop.step(std::min(run_wait, end - now));
+    loop.step(std::min(kRunWait, end - now));
     if (const TimeNs step = table.followHostClock(); step != 0)
       report({true, "host clock stepped by " + std::to_string(step / 1'000'000) + " ms"});
     for (const DriverEvent& event : core->takeEvents()) report(event);

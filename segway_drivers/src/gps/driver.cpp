@@ -10,9 +10,9 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::array<int, 4> gps_rates = {9600, 4800, 38400, 115200};
-constexpr TimeNs gps_loss = 2'500'000'000, gps_reopen = 10'000'000'000;  // ns
-constexpr int gps_proof = 2;                                             // messages with a right checksum
+constexpr std::array<int, 4> kGpsRates = {9600, 4800, 38400, 115200};
+constexpr TimeNs kGpsLoss = 2'500'000'000, kGpsReopen = 10'000'000'000;  // ns
+constexpr int kGpsProof = 2;                                             // messages with a right checksum
 
 }  // namespace
 
@@ -27,7 +27,7 @@ GpsDriver::GpsDriver(const Options& options) : options_(options), stream_(option
       for (const std::string& each : kinds_) all += (all.empty() ? "" : " ") + each;
       setIdentity(all);
     }
-    if (++messages_ >= gps_proof) setState(DriverState::Streaming);
+    if (++messages_ >= kGpsProof) setState(DriverState::Streaming);
   };
 }
 
@@ -45,8 +45,8 @@ void GpsDriver::begin(TimeNs now) {
 }
 
 void GpsDriver::tryRate(TimeNs now) {
-  setBaud(gps_rates[rate_]);
-  stream_.setBaud(gps_rates[rate_]);
+  setBaud(kGpsRates[rate_]);
+  stream_.setBaud(kGpsRates[rate_]);
   stream_.clear();
   messages_ = 0;
   last_message_ = now;
@@ -62,19 +62,19 @@ void GpsDriver::tick(TimeNs now) {
   now_ = now;
   stream_.expire(now);
   const TimeNs silent = now - last_message_;
-  if (state() == DriverState::Streaming && silent > gps_loss) setState(DriverState::Stalled, "no sentence for 2.5 s");
-  if (state() == DriverState::Stalled && silent > gps_reopen) {
+  if (state() == DriverState::Streaming && silent > kGpsLoss) setState(DriverState::Stalled, "no sentence for 2.5 s");
+  if (state() == DriverState::Stalled && silent > kGpsReopen) {
     last_message_ = now;
     reopen();
   }
-  if (state() == DriverState::Identifying && silent > gps_loss) {
+  if (state() == DriverState::Identifying && silent > kGpsLoss) {
     countTimeout();
     if (options_.gpsd) {
       last_message_ = now;
       reopen();
       return;
     }
-    rate_ = (rate_ + 1) % gps_rates.size();
+    rate_ = (rate_ + 1) % kGpsRates.size();
     tryRate(now);
   }
 }

@@ -9,8 +9,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::string_view gpsd_begin = "{\"class\":";
-constexpr double gpsd_level = 1.96;  // gpsd states errors at the 95 % level
+constexpr std::string_view kGpsdBegin = "{\"class\":";
+constexpr double kGpsdLevel = 1.96;  // gpsd states errors at the 95 % level
 
 std::optional<double> gpsdNumber(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
@@ -26,7 +26,7 @@ std::string gpsdText(const nlohmann::json& object, const char* key) {
 
 std::optional<double> gpsdSigma(const nlohmann::json& object, const char* key) {
   const auto value = gpsdNumber(object, key);
-  return value && *value >= 0.0 ? std::optional<double>(*value / gpsd_level) : std::nullopt;
+  return value && *value >= 0.0 ? std::optional<double>(*value / kGpsdLevel) : std::nullopt;
 }
 
 /// Text that can stand in a cell of a table.
@@ -81,12 +81,12 @@ Bytes makeGpsdWatch() {
 
 FrameProbe probeGpsdLine(ByteView bytes) {
   using Kind = FrameProbe::Kind;
-  for (std::size_t i = 0; i < bytes.size && i < gpsd_begin.size(); ++i)
-    if (bytes[i] != static_cast<std::uint8_t>(gpsd_begin[i])) return {Kind::NoFrame, 0};
+  for (std::size_t i = 0; i < bytes.size && i < kGpsdBegin.size(); ++i)
+    if (bytes[i] != static_cast<std::uint8_t>(kGpsdBegin[i])) return {Kind::NoFrame, 0};
   const auto* end = std::find(bytes.begin(), bytes.end(), std::uint8_t{'\n'});
-  if (end == bytes.end()) return {bytes.size < gpsd_longest_line ? Kind::Incomplete : Kind::NoFrame, 0};
+  if (end == bytes.end()) return {bytes.size < kGpsdLongestLine ? Kind::Incomplete : Kind::NoFrame, 0};
   const auto size = static_cast<std::size_t>(end - bytes.begin()) + 1;
-  return {size <= gpsd_longest_line ? Kind::Frame : Kind::NoFrame, size};
+  return {size <= kGpsdLongestLine ? Kind::Frame : Kind::NoFrame, size};
 }
 
 std::optional<GpsdReport> parseGpsdLine(std::string_view line) {

@@ -9,8 +9,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t nmea_longest = 250;  // bytes; 82 by the standard, longer in fact
-constexpr char nmea_digits[] = "0123456789ABCDEF";
+constexpr std::size_t kNmeaLongest = 250;  // bytes; 82 by the standard, longer in fact
+constexpr char kNmeaDigits[] = "0123456789ABCDEF";
 
 int nmeaDigit(std::uint8_t c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -24,8 +24,8 @@ Bytes makeNmeaSentence(std::string_view body) {
   unsigned sum = 0;
   for (const char c : body) sum ^= static_cast<std::uint8_t>(c);
   std::string text = "$" + std::string(body) + "*";
-  text += nmea_digits[sum >> 4 & 15U];
-  text += nmea_digits[sum & 15U];
+  text += kNmeaDigits[sum >> 4 & 15U];
+  text += kNmeaDigits[sum & 15U];
   text += "\r\n";
   return Bytes(text.begin(), text.end());
 }
@@ -35,7 +35,7 @@ FrameProbe probeNmeaSentence(ByteView bytes) {
   if (bytes[0] != '$') return {Kind::NoFrame, 0};
   unsigned sum = 0;
   std::size_t star = 0;
-  for (std::size_t i = 1; i < bytes.size && i < nmea_longest; ++i) {
+  for (std::size_t i = 1; i < bytes.size && i < kNmeaLongest; ++i) {
     const std::uint8_t c = bytes[i];
     if (c == '\n' || c == '\r') {
       if (c == '\r' && i + 1 == bytes.size) return {Kind::Incomplete, 0};
@@ -50,7 +50,7 @@ FrameProbe probeNmeaSentence(ByteView bytes) {
     if (c == '*') star = i;
     else if (star == 0) sum ^= c;
   }
-  return {bytes.size < nmea_longest ? Kind::Incomplete : Kind::NoFrame, 0};
+  return {bytes.size < kNmeaLongest ? Kind::Incomplete : Kind::NoFrame, 0};
 }
 
 NmeaSentence splitNmeaSentence(ByteView sentence) {

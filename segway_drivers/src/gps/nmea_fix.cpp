@@ -11,9 +11,9 @@ using urban_nav_core::parseNumber;
 
 namespace {
 
-constexpr double nmea_knot = 1852.0 / 3600.0;  // m/s
-constexpr double half_of_circular = 1.1774;    // 50 % radius of a circular normal distribution, in sigmas
-constexpr double half_of_normal = 0.6745;      // 50 % of a normal distribution, in sigmas
+constexpr double kNmeaKnot = 1852.0 / 3600.0;  // m/s
+constexpr double kHalfOfCircular = 1.1774;     // 50 % radius of a circular normal distribution, in sigmas
+constexpr double kHalfOfNormal = 0.6745;       // 50 % of a normal distribution, in sigmas
 
 /// Value of `ddmm.mmmm` or `dddmm.mmmm` and its hemisphere, deg.
 std::optional<double> parseNmeaAngle(std::string_view text, std::string_view side, char negative, double limit) {
@@ -112,7 +112,7 @@ void NmeaFixBuilder::addRmc(const NmeaSentence& s) {
     fix.latitude = latitude;
     fix.longitude = longitude;
   }
-  if (const auto knots = positive(s.field(6))) fix.speed = *knots * nmea_knot;
+  if (const auto knots = positive(s.field(6))) fix.speed = *knots * kNmeaKnot;
   const auto course = positive(s.field(7));
   if (course && *course <= 360.0) fix.track = course;
 }
@@ -129,10 +129,10 @@ void NmeaFixBuilder::addOther(const NmeaSentence& s) {
     fix.sigma_e = positive(s.field(6));
     fix.sigma_u = positive(s.field(7));
   } else if (s.kind == "PGRME" && !fix.sigma_e) {
-    if (const auto horizontal = positive(s.field(0))) fix.sigma_e = fix.sigma_n = *horizontal / half_of_circular;
-    if (const auto vertical = positive(s.field(2))) fix.sigma_u = *vertical / half_of_normal;
+    if (const auto horizontal = positive(s.field(0))) fix.sigma_e = fix.sigma_n = *horizontal / kHalfOfCircular;
+    if (const auto vertical = positive(s.field(2))) fix.sigma_u = *vertical / kHalfOfNormal;
   } else if (s.kind == "VTG" && !fix.speed) {
-    if (const auto knots = positive(s.field(4))) fix.speed = *knots * nmea_knot;
+    if (const auto knots = positive(s.field(4))) fix.speed = *knots * kNmeaKnot;
   }
 }
 

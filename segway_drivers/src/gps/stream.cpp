@@ -10,7 +10,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs gps_silence = 400'000'000;  // ns
+constexpr TimeNs kGpsSilence = 400'000'000;  // ns
 
 FrameProbe probeGps(ByteView bytes) {
   switch (bytes[0]) {
@@ -24,7 +24,7 @@ FrameProbe probeGps(ByteView bytes) {
 
 GpsStream::GpsStream(const Options& options)
     : options_(options),
-      frames_(gpsd_longest_line + 1, probeGps),
+      frames_(kGpsdLongestLine + 1, probeGps),
       sink_([this](const StreamFrame& frame) { take(frame); }),
       nmea_(options.uere),
       nmea_sink_([this](const GpsFix& fix) { giveOut(fix); }) {}
@@ -36,7 +36,7 @@ void GpsStream::feed(ByteView chunk, const ChunkArrival& arrival) {
 
 void GpsStream::expire(TimeNs now) {
   frames_.expire(now, sink_);
-  if (last_arrival_ != 0 && now - last_arrival_ >= gps_silence) nmea_.finish(nmea_sink_);
+  if (last_arrival_ != 0 && now - last_arrival_ >= kGpsSilence) nmea_.finish(nmea_sink_);
 }
 
 void GpsStream::finish() {

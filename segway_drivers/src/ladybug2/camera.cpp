@@ -9,10 +9,10 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::uint64_t lady_base_serial = 0x1F20, lady_head_serial = 0x1F80, lady_jpeg = 0x1E80, lady_fill = 0x1E84,
-                        lady_selection = 0x1E88;
-constexpr std::uint32_t lady_jpeg_automatic = 0x83000000, lady_full = 0x8000007F, lady_ring_only = 0x80FFFFF0;
-constexpr double least_share_of_period = 0.75;
+constexpr std::uint64_t kLadyBaseSerial = 0x1F20, kLadyHeadSerial = 0x1F80, kLadyJpeg = 0x1E80, kLadyFill = 0x1E84,
+                        kLadySelection = 0x1E88;
+constexpr std::uint32_t kLadyJpegAutomatic = 0x83000000, kLadyFull = 0x8000007F, kLadyRingOnly = 0x80FFFFF0;
+constexpr double kLeastShareOfPeriod = 0.75;
 
 CameraFormat ladybugFormat() {
   CameraFormat format;
@@ -29,17 +29,17 @@ CameraFormat ladybugFormat() {
 
 bool LadybugCamera::start(std::string& error) {
   if (!source_.open(error)) return false;
-  const auto base = source_.readRegister(lady_base_serial), head = source_.readRegister(lady_head_serial);
+  const auto base = source_.readRegister(kLadyBaseSerial), head = source_.readRegister(kLadyHeadSerial);
   if (!base || !head) {
     error = "registers cannot be read";
     return false;
   }
   identity_ = "Ladybug2, base " + std::to_string(*base) + ", head " + std::to_string(*head);
   const bool set =
-      source_.writeRegister(lady_jpeg, lady_jpeg_automatic | static_cast<std::uint32_t>(options_.quality)) &&
-      source_.writeRegister(lady_fill, lady_full) && source_.writeRegister(lady_selection, lady_ring_only);
-  const auto selection = source_.readRegister(lady_selection);
-  if (!set || !selection || (*selection & 0xFFFFFFU) != (lady_ring_only & 0xFFFFFFU))
+      source_.writeRegister(kLadyJpeg, kLadyJpegAutomatic | static_cast<std::uint32_t>(options_.quality)) &&
+      source_.writeRegister(kLadyFill, kLadyFull) && source_.writeRegister(kLadySelection, kLadyRingOnly);
+  const auto selection = source_.readRegister(kLadySelection);
+  if (!set || !selection || (*selection & 0xFFFFFFU) != (kLadyRingOnly & 0xFFFFFFU))
     events_.push_back({true, "selection or quality of the JPEGs cannot be set"});
   return source_.start(ladybugFormat(), error);
 }
@@ -63,7 +63,7 @@ std::optional<LadybugStampedFrame> LadybugCamera::next(TimeNs timeout) {
   LadybugStampedFrame stamped;
   stamped.stamp = hostTimeOfBusTime(*frame->bus_time, cycle->bus_s, cycle->host) -
                   static_cast<TimeNs>(std::llround(1e9 * options_.latency));
-  const auto least = static_cast<TimeNs>(1e9 * least_share_of_period / options_.rate);
+  const auto least = static_cast<TimeNs>(1e9 * kLeastShareOfPeriod / options_.rate);
   if (last_stamp_ && stamped.stamp < *last_stamp_ + least) return std::nullopt;
   last_stamp_ = stamped.stamp;
   stamped.sequence = frame->sequence;
@@ -77,7 +77,7 @@ std::optional<LadybugStampedFrame> LadybugCamera::next(TimeNs timeout) {
 /// Counts what is missing. Returns false for a frame that came before.
 bool LadybugCamera::countFrame(const LadybugFrame& frame) {
   int bad = 0;
-  for (std::size_t camera = 0; camera + 1 < ladybug_cameras; ++camera)
+  for (std::size_t camera = 0; camera + 1 < kLadybugCameras; ++camera)
     for (const ByteView plane : frame.planes[camera]) bad += plane.size == 0 ? 1 : 0;
   bad_channels_ += bad;
   if (bad > 0 && !reported_channels_)

@@ -9,13 +9,13 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::array<int, 4> lms_rates = {500000, 38400, 19200, 9600};
-constexpr TimeNs lms_listen = 100'000'000, lms_find_timeout = 200'000'000, lms_settle = 250'000'000;  // ns
-constexpr TimeNs lms_mode_timeout = 3'000'000'000, lms_query_timeout = 400'000'000, lms_first_timeout = 250'000'000,
-                 lms_rewrite_timeout = 15'000'000'000;
-constexpr TimeNs lms_silence = 200'000'000;
-constexpr int lms_soft_restarts = 3, lms_rounds_per_opening = 3;
-constexpr std::uint8_t lms_mode_15_bits = 0x05, lms_unit_mm = 0x01;
+constexpr std::array<int, 4> kLmsRates = {500000, 38400, 19200, 9600};
+constexpr TimeNs kLmsListen = 100'000'000, kLmsFindTimeout = 200'000'000, kLmsSettle = 250'000'000;  // ns
+constexpr TimeNs kLmsModeTimeout = 3'000'000'000, kLmsQueryTimeout = 400'000'000, kLmsFirstTimeout = 250'000'000,
+                 kLmsRewriteTimeout = 15'000'000'000;
+constexpr TimeNs kLmsSilence = 200'000'000;
+constexpr int kLmsSoftRestarts = 3, kLmsRoundsPerOpening = 3;
+constexpr std::uint8_t kLmsMode15Bits = 0x05, kLmsUnitMm = 0x01;
 
 std::string textOfReply(ByteView payload) {
   std::string text;
@@ -42,25 +42,25 @@ void LmsDriver::enter(Phase phase, TimeNs now) {
   request_.stop();
   switch (phase) {
     case Phase::Listen:
-      setBaud(lms_rates[0]);
-      stream_.setBaud(lms_rates[0]);
+      setBaud(kLmsRates[0]);
+      stream_.setBaud(kLmsRates[0]);
       stream_.clear();
-      deadline_ = now + lms_listen;
+      deadline_ = now + kLmsListen;
       break;
     case Phase::Find: find(0); break;
-    case Phase::Raise: request_.start(*lmsBaudCommand(lms_rates[0]), lms_mode_timeout); break;
+    case Phase::Raise: request_.start(*lmsBaudCommand(kLmsRates[0]), kLmsModeTimeout); break;
     case Phase::Settle:
-      setBaud(lms_rates[0]);
-      stream_.setBaud(lms_rates[0]);
+      setBaud(kLmsRates[0]);
+      stream_.setBaud(kLmsRates[0]);
       stream_.clear();
-      deadline_ = now + lms_settle;
+      deadline_ = now + kLmsSettle;
       break;
-    case Phase::Status: request_.start(lmsStatusCommand(), lms_first_timeout); break;
-    case Phase::Type: request_.start(lmsTypeCommand(), lms_query_timeout); break;
-    case Phase::Configuration: request_.start(lmsConfigurationCommand(), lms_query_timeout); break;
-    case Phase::Installation: request_.start(lmsInstallationCommand(), lms_mode_timeout); break;
-    case Phase::Rewrite: request_.start(lmsWriteConfigurationCommand(configuration_), lms_rewrite_timeout, 1); break;
-    case Phase::Start: request_.start(lmsStreamReflectivitiesCommand(), lms_mode_timeout); break;
+    case Phase::Status: request_.start(lmsStatusCommand(), kLmsFirstTimeout); break;
+    case Phase::Type: request_.start(lmsTypeCommand(), kLmsQueryTimeout); break;
+    case Phase::Configuration: request_.start(lmsConfigurationCommand(), kLmsQueryTimeout); break;
+    case Phase::Installation: request_.start(lmsInstallationCommand(), kLmsModeTimeout); break;
+    case Phase::Rewrite: request_.start(lmsWriteConfigurationCommand(configuration_), kLmsRewriteTimeout, 1); break;
+    case Phase::Start: request_.start(lmsStreamReflectivitiesCommand(), kLmsModeTimeout); break;
     case Phase::Stream:
       last_scan_ = now;
       setState(DriverState::Streaming);
@@ -71,10 +71,10 @@ void LmsDriver::enter(Phase phase, TimeNs now) {
 void LmsDriver::find(std::size_t rate) {
   rate_ = rate;
   setState(DriverState::Identifying);
-  setBaud(lms_rates[rate_]);
-  stream_.setBaud(lms_rates[rate_]);
+  setBaud(kLmsRates[rate_]);
+  stream_.setBaud(kLmsRates[rate_]);
   stream_.clear();
-  request_.start(lmsStopCommand(), lms_find_timeout, 1);
+  request_.start(lmsStopCommand(), kLmsFindTimeout, 1);
 }
 
 void LmsDriver::tick(TimeNs now) {
@@ -93,19 +93,19 @@ void LmsDriver::tick(TimeNs now) {
 /// A request without answer: the next rate, or all from the beginning, and now and then the port anew.
 void LmsDriver::fail() {
   countTimeout();
-  if (phase_ == Phase::Find && rate_ + 1 < lms_rates.size()) {
+  if (phase_ == Phase::Find && rate_ + 1 < kLmsRates.size()) {
     find(rate_ + 1);
     return;
   }
   if (phase_ != Phase::Find)
-    report(true, "no answer to " + printHex(request_.bytes()) + " at " + std::to_string(lms_rates[rate_]) + " baud");
-  if (++rounds_ < lms_rounds_per_opening) enter(Phase::Listen, now_);
+    report(true, "no answer to " + printHex(request_.bytes()) + " at " + std::to_string(kLmsRates[rate_]) + " baud");
+  if (++rounds_ < kLmsRoundsPerOpening) enter(Phase::Listen, now_);
   else reopen();
 }
 
 void LmsDriver::watch(TimeNs now) {
-  if (now - last_scan_ < lms_silence) return;
-  if (soft_restarts_ < lms_soft_restarts) {
+  if (now - last_scan_ < kLmsSilence) return;
+  if (soft_restarts_ < kLmsSoftRestarts) {
     setState(DriverState::Stalled, "no scan for 0.2 s");
     ++soft_restarts_;
     last_scan_ = now;
@@ -155,7 +155,7 @@ void LmsDriver::takeModeReply(ByteView payload) {
     enter(Phase::Find, now_);
     return;
   }
-  const bool fast = lms_rates[rate_] == lms_rates[0];
+  const bool fast = kLmsRates[rate_] == kLmsRates[0];
   switch (phase_) {
     case Phase::Find:
       setState(DriverState::Configuring);
@@ -192,8 +192,8 @@ void LmsDriver::takeConfiguration(ByteView payload) {
   }
   if (options_.configure && !rewritten_) {
     rewritten_ = true;
-    configuration_[5] = lms_mode_15_bits;
-    configuration_[6] = lms_unit_mm;
+    configuration_[5] = kLmsMode15Bits;
+    configuration_[6] = kLmsUnitMm;
     enter(Phase::Installation, now_);
     return;
   }

@@ -7,7 +7,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t lms_code_count = 10;
+constexpr std::size_t kLmsCodeCount = 10;
 
 bool isOpenAir(unsigned code) { return code == 1 || code == 6 || code == 9; }
 
@@ -15,10 +15,10 @@ bool isOpenAir(unsigned code) { return code == 1 || code == 6 || code == 9; }
 void decodeLmsRanges(const std::uint8_t* words, std::size_t count, int bits, double unit, LmsScan& scan) {
   const unsigned limit = 1U << bits;
   scan.ranges.reserve(count);
-  scan.codes.assign(lms_code_count, 0);
+  scan.codes.assign(kLmsCodeCount, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const unsigned value = littleWord(words + 2 * i) & (limit - 1);
-    const unsigned code = limit - value < lms_code_count ? limit - value : 0;
+    const unsigned code = limit - value < kLmsCodeCount ? limit - value : 0;
     ++scan.codes[code];
     if (code == 0) scan.ranges.push_back(static_cast<float>(unit * value));
     else if (isOpenAir(code)) scan.ranges.push_back(std::numeric_limits<float>::infinity());

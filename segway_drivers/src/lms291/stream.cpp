@@ -12,7 +12,7 @@ namespace {
 /// The mirror is no crystal: its period is free within 0.5 %, and within 0.05 % at first.
 ClockOptions lmsClockOptions() {
   ClockOptions options;
-  options.period = lms_period;
+  options.period = kLmsPeriod;
   options.tolerance = 500e-6;
   options.hard_tolerance = 5000e-6;
   options.max_skew_change = 20e-6;
@@ -23,10 +23,10 @@ ClockOptions lmsClockOptions() {
 
 LmsStream::LmsStream(const Options& options)
     : options_(options),
-      frames_(lms_max_telegram, probeLmsTelegram),
+      frames_(kLmsMaxTelegram, probeLmsTelegram),
       sink_([this](const StreamFrame& frame) { take(frame); }),
       clock_(lmsClockOptions()),
-      counter_(256, lms_period) {
+      counter_(256, kLmsPeriod) {
   frames_.setBaud(500000);
 }
 
@@ -51,7 +51,7 @@ void LmsStream::take(const StreamFrame& frame) {
     if (position.restarted) clock_.restart();
     stamped.count = position.count;
     if (frame.arrival != 0) {
-      const ClockEstimate estimate = clock_.add(static_cast<double>(position.count) * lms_period, frame.arrival);
+      const ClockEstimate estimate = clock_.add(static_cast<double>(position.count) * kLmsPeriod, frame.arrival);
       stamped.sigma = estimate.sigma;
       stamped.epoch = estimate.epoch;
       if (estimate.time) stamped.stamp = *estimate.time - static_cast<TimeNs>(std::llround(1e9 * options_.latency));

@@ -5,8 +5,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::uint8_t lms_stx = 0x02, lms_device_address = 0x80;
-constexpr std::size_t lms_header = 4, lms_overhead = 6;
+constexpr std::uint8_t kLmsStx = 0x02, kLmsDeviceAddress = 0x80;
+constexpr std::size_t kLmsHeader = 4, kLmsOverhead = 6;
 
 /// Whether a scan of ranges alone (B0h) can have this length: with none, one or both of the index bytes.
 bool isLmsRangeLength(std::size_t length, std::size_t ranges) {
@@ -52,7 +52,7 @@ std::uint16_t computeLmsCrc(ByteView bytes) {
 }
 
 Bytes makeLmsTelegram(ByteView payload) {
-  Bytes telegram = {lms_stx, 0x00};
+  Bytes telegram = {kLmsStx, 0x00};
   appendLittle(telegram, static_cast<std::uint16_t>(payload.size));
   telegram.insert(telegram.end(), payload.begin(), payload.end());
   appendLittle(telegram, computeLmsCrc(telegram));
@@ -61,19 +61,19 @@ Bytes makeLmsTelegram(ByteView payload) {
 
 FrameProbe probeLmsTelegram(ByteView bytes) {
   using Kind = FrameProbe::Kind;
-  if (bytes[0] != lms_stx) return {Kind::NoFrame, 0};
+  if (bytes[0] != kLmsStx) return {Kind::NoFrame, 0};
   if (bytes.size < 2) return {Kind::Incomplete, 0};
-  if (bytes[1] != lms_device_address) return {Kind::NoFrame, 0};
+  if (bytes[1] != kLmsDeviceAddress) return {Kind::NoFrame, 0};
   if (bytes.size < 5) return {Kind::Incomplete, 0};
   const std::size_t length = littleWord(bytes.data + 2);
-  if (length < 2 || length > lms_max_telegram - lms_overhead) return {Kind::NoFrame, 0};
-  if (!isLmsLength(bytes.sub(lms_header, bytes.size - lms_header), length)) return {Kind::NoFrame, 0};
-  const std::size_t size = length + lms_overhead;
+  if (length < 2 || length > kLmsMaxTelegram - kLmsOverhead) return {Kind::NoFrame, 0};
+  if (!isLmsLength(bytes.sub(kLmsHeader, bytes.size - kLmsHeader), length)) return {Kind::NoFrame, 0};
+  const std::size_t size = length + kLmsOverhead;
   if (bytes.size < size) return {Kind::Incomplete, size};
   const bool good = computeLmsCrc(bytes.sub(0, size - 2)) == littleWord(bytes.data + size - 2);
   return {good ? Kind::Frame : Kind::BadChecksum, size};
 }
 
-ByteView lmsPayload(ByteView telegram) { return telegram.sub(lms_header, telegram.size - lms_overhead); }
+ByteView lmsPayload(ByteView telegram) { return telegram.sub(kLmsHeader, telegram.size - kLmsOverhead); }
 
 }  // namespace segway_drivers

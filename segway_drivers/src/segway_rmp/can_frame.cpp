@@ -42,9 +42,9 @@ FrameProbe probeRmpPacket(ByteView bytes) {
   if (bytes[0] != 0xF0) return {Kind::NoFrame, 0};
   if (bytes.size > 1 && bytes[1] != 0x55) return {Kind::NoFrame, 0};
   if (bytes.size > 2 && bytes[2] != 0xAA && bytes[2] != 0xBB) return {Kind::NoFrame, 0};
-  if (bytes.size < rmp_packet_size) return {Kind::Incomplete, rmp_packet_size};
-  const bool good = computeRmpChecksum(bytes.sub(0, rmp_packet_size - 1)) == bytes[rmp_packet_size - 1];
-  return {good ? Kind::Frame : Kind::BadChecksum, rmp_packet_size};
+  if (bytes.size < kRmpPacketSize) return {Kind::Incomplete, kRmpPacketSize};
+  const bool good = computeRmpChecksum(bytes.sub(0, kRmpPacketSize - 1)) == bytes[kRmpPacketSize - 1];
+  return {good ? Kind::Frame : Kind::BadChecksum, kRmpPacketSize};
 }
 
 std::optional<CanFrame> splitRmpPacket(ByteView packet) {

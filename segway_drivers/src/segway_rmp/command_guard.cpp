@@ -8,7 +8,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double absurd_factor = 10.0;
+constexpr double kAbsurdFactor = 10.0;
 
 TimeNs nanoseconds(double seconds) { return static_cast<TimeNs>(std::llround(1e9 * seconds)); }
 
@@ -22,8 +22,8 @@ double approach(double command, double wish, double step) {
 }  // namespace
 
 void RmpCommandGuard::setWish(const RmpCommand& wish, TimeNs now) {
-  const bool sane = std::abs(wish.velocity) <= absurd_factor * limits_.velocity &&
-                    std::abs(wish.turn_rate) <= absurd_factor * limits_.turn_rate;  // false for NaN
+  const bool sane = std::abs(wish.velocity) <= kAbsurdFactor * limits_.velocity &&
+                    std::abs(wish.turn_rate) <= kAbsurdFactor * limits_.turn_rate;  // false for NaN
   wish_ = sane ? wish : RmpCommand{};
   wish_time_ = now;
   has_wish_ = true;

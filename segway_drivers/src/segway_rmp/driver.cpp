@@ -10,9 +10,9 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs rmp_command_period = 20'000'000, rmp_stalled = 200'000'000, rmp_lost = 1'000'000'000;  // ns
-constexpr TimeNs rmp_unheeded = 500'000'000;
-constexpr int rmp_baud = 460800;
+constexpr TimeNs kRmpCommandPeriod = 20'000'000, kRmpStalled = 200'000'000, kRmpLost = 1'000'000'000;  // ns
+constexpr TimeNs kRmpUnheeded = 500'000'000;
+constexpr int kRmpBaud = 460800;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ RmpDriver::RmpDriver(const Options& options) : stream_(options.latency), guard_(
 }
 
 void RmpDriver::begin(TimeNs now) {
-  setBaud(rmp_baud);
+  setBaud(kRmpBaud);
   stream_.clear();
   odometry_.restart();
   now_ = last_frame_ = now;
@@ -43,7 +43,7 @@ void RmpDriver::takeFrame(const RmpStampedFrame& frame) {
   if (frame.frame.id == 0x407) {
     const double in_force = *(*decodeRmpValues(frame.frame))[0];
     if (std::abs(commanded_) < 0.05 || in_force != 0.0) unheeded_since_ = now_;
-    if (now_ - unheeded_since_ > rmp_unheeded) {
+    if (now_ - unheeded_since_ > kRmpUnheeded) {
       report(true, "commands are not taken: was the base switched on before the computer?");
       unheeded_since_ = now_;
     }
@@ -58,11 +58,11 @@ void RmpDriver::tick(TimeNs now) {
     const RmpCommand command = guard_.step(now);
     commanded_ = command.velocity;
     write(makeRmpPacket(makeRmpVelocity(command.velocity, command.turn_rate)));
-    next_command_ = std::max(next_command_ + rmp_command_period, now - rmp_command_period);
+    next_command_ = std::max(next_command_ + kRmpCommandPeriod, now - kRmpCommandPeriod);
   }
   const TimeNs silent = now - last_frame_;
-  if (silent > rmp_stalled && state() == DriverState::Streaming) setState(DriverState::Stalled, "no message for 0.2 s");
-  if (silent > rmp_lost && state() == DriverState::Stalled) odometry_.restart();
+  if (silent > kRmpStalled && state() == DriverState::Streaming) setState(DriverState::Stalled, "no message for 0.2 s");
+  if (silent > kRmpLost && state() == DriverState::Stalled) odometry_.restart();
 }
 
 }  // namespace segway_drivers

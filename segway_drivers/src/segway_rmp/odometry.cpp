@@ -8,8 +8,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double rmp_full_turn = 6.283185307179586;
-constexpr double rmp_least_step = 0.02;  // s, below which late messages would look like jumps
+constexpr double kRmpFullTurn = 6.283185307179586;
+constexpr double kRmpLeastStep = 0.02;  // s, below which late messages would look like jumps
 
 }  // namespace
 
@@ -19,13 +19,13 @@ bool RmpOdometry::add(const CanFrame& travel, TimeNs time) {
   if (last_forward_) {
     // Counters wrap: subtracted as unsigned, read as signed.
     const double step = static_cast<std::int32_t>(forward - *last_forward_) / units_.per_metre;
-    const double turn = rmp_full_turn * static_cast<std::int32_t>(yaw - last_yaw_) / units_.per_revolution;
-    const double elapsed = std::max(1e-9 * static_cast<double>(time - last_time_), rmp_least_step);
+    const double turn = kRmpFullTurn * static_cast<std::int32_t>(yaw - last_yaw_) / units_.per_revolution;
+    const double elapsed = std::max(1e-9 * static_cast<double>(time - last_time_), kRmpLeastStep);
     good = std::abs(step) <= limits_.velocity * elapsed && std::abs(turn) <= limits_.turn_rate * elapsed;
     if (good) {
       x_ += step * std::cos(yaw_ + 0.5 * turn);
       y_ += step * std::sin(yaw_ + 0.5 * turn);
-      yaw_ = std::remainder(yaw_ + turn, rmp_full_turn);
+      yaw_ = std::remainder(yaw_ + turn, kRmpFullTurn);
       distance_ += std::abs(step);
     } else {
       ++jumps_;

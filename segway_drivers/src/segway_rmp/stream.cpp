@@ -9,13 +9,13 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double rmp_period = 0.01;  // s
-constexpr double rmp_usb_baud = 460800.0;
-constexpr TimeNs rmp_silence = 50'000'000;  // ns, between messages of adjacent cycles at most
+constexpr double kRmpPeriod = 0.01;  // s
+constexpr double kRmpUsbBaud = 460800.0;
+constexpr TimeNs kRmpSilence = 50'000'000;  // ns, between messages of adjacent cycles at most
 
 ClockOptions rmpClockOptions() {
   ClockOptions options;
-  options.period = rmp_period;
+  options.period = kRmpPeriod;
   options.tolerance = 200e-6;
   options.hard_tolerance = 1000e-6;
   return options;
@@ -25,14 +25,14 @@ ClockOptions rmpClockOptions() {
 
 RmpStream::RmpStream(double latency)
     : latency_(latency),
-      packets_(rmp_packet_size, probeRmpPacket),
+      packets_(kRmpPacketSize, probeRmpPacket),
       sink_([this](const StreamFrame& packet) {
         const auto frame = splitRmpPacket(packet.bytes);
         if (frame) add(*frame, packet.offset, packet.arrival);
       }),
       clock_(rmpClockOptions()),
-      counter_(65536, rmp_period) {
-  packets_.setBaud(rmp_usb_baud);
+      counter_(65536, kRmpPeriod) {
+  packets_.setBaud(kRmpUsbBaud);
 }
 
 void RmpStream::add(const CanFrame& frame, std::uint64_t offset, TimeNs arrival) {
@@ -49,7 +49,7 @@ void RmpStream::placeCycle(const CanFrame& frame, TimeNs arrival) {
   if (arrival == 0) return;
   const auto latency = static_cast<TimeNs>(std::llround(1e9 * latency_));
   if (last_arrival_ &&
-      arrival - *last_arrival_ > rmp_silence) {  // the time of this cycle is not known before its count
+      arrival - *last_arrival_ > kRmpSilence) {  // the time of this cycle is not known before its count
     cycle_arrival_.reset();
     cycle_stamp_.reset();
     is_resumed_ = true;
@@ -57,7 +57,7 @@ void RmpStream::placeCycle(const CanFrame& frame, TimeNs arrival) {
   last_arrival_ = arrival;
   if (frame.id == 0x400) {
     cycle_arrival_ = arrival;
-    const ClockEstimate estimate = clock_.estimate(cycle_time_ + rmp_period);
+    const ClockEstimate estimate = clock_.estimate(cycle_time_ + kRmpPeriod);
     cycle_stamp_.reset();
     if (estimate.time && !is_resumed_) cycle_stamp_ = *estimate.time - latency;
   }
@@ -69,7 +69,7 @@ void RmpStream::placeCycle(const CanFrame& frame, TimeNs arrival) {
   gaps_ += position.missing;
   if (position.restarted) clock_.restart();
   if (position.repeated) return;
-  cycle_time_ = static_cast<double>(position.count) * rmp_period;
+  cycle_time_ = static_cast<double>(position.count) * kRmpPeriod;
   const ClockEstimate estimate = clock_.add(cycle_time_, begin);
   cycle_stamp_.reset();
   if (estimate.time) cycle_stamp_ = *estimate.time - latency;

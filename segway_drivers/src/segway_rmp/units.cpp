@@ -8,9 +8,9 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double rmp_degree = 3.14159265358979323846 / 180.0;
-constexpr double rmp_max_velocity_counts = 1176, rmp_max_turn_counts = 1024;
-constexpr std::uint16_t rmp_command_id = 0x413;
+constexpr double kRmpDegree = 3.14159265358979323846 / 180.0;
+constexpr double kRmpMaxVelocityCounts = 1176, kRmpMaxTurnCounts = 1024;
+constexpr std::uint16_t kRmpCommandId = 0x413;
 
 double signedWord(const CanFrame& frame, std::size_t i) { return static_cast<std::int16_t>(frame.word(i)); }
 double signedPair(const CanFrame& frame, std::size_t i) { return static_cast<std::int32_t>(frame.pair(i)); }
@@ -29,7 +29,7 @@ void setWord(CanFrame& frame, std::size_t i, std::uint16_t word) {
 
 std::optional<std::array<std::optional<double>, 4>> decodeRmpValues(const CanFrame& frame, const RmpUnits& units) {
   std::array<std::optional<double>, 4> values;
-  const double angle = rmp_degree / units.per_degree;
+  const double angle = kRmpDegree / units.per_degree;
   switch (frame.id) {
     case 0x400:
     case 0x680: break;
@@ -45,7 +45,7 @@ std::optional<std::array<std::optional<double>, 4>> decodeRmpValues(const CanFra
       break;
     case 0x404:
       values = {signedPair(frame, 0) / units.per_metre,
-                360.0 * rmp_degree * signedPair(frame, 2) / units.per_revolution,
+                360.0 * kRmpDegree * signedPair(frame, 2) / units.per_revolution,
                 {},
                 {}};
       break;
@@ -54,7 +54,7 @@ std::optional<std::array<std::optional<double>, 4>> decodeRmpValues(const CanFra
       break;
     case 0x406: values = {frame.word(0), frame.word(1), 1.4 + 0.0125 * frame.word(2), 0.25 * frame.word(3)}; break;
     case 0x407:
-      values = {signedWord(frame, 0) / units.per_mps, signedWord(frame, 1) / rmp_max_turn_counts, {}, {}};
+      values = {signedWord(frame, 0) / units.per_mps, signedWord(frame, 1) / kRmpMaxTurnCounts, {}, {}};
       break;
     default: return std::nullopt;
   }
@@ -63,9 +63,9 @@ std::optional<std::array<std::optional<double>, 4>> decodeRmpValues(const CanFra
 
 CanFrame makeRmpVelocity(double velocity, double turn_rate, const RmpUnits& units) {
   CanFrame frame;
-  frame.id = rmp_command_id;
-  setWord(frame, 0, saturatedCounts(velocity * units.per_mps, rmp_max_velocity_counts));
-  setWord(frame, 1, saturatedCounts(turn_rate / rmp_degree * units.per_degree, rmp_max_turn_counts));
+  frame.id = kRmpCommandId;
+  setWord(frame, 0, saturatedCounts(velocity * units.per_mps, kRmpMaxVelocityCounts));
+  setWord(frame, 1, saturatedCounts(turn_rate / kRmpDegree * units.per_degree, kRmpMaxTurnCounts));
   return frame;
 }
 

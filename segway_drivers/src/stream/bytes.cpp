@@ -7,7 +7,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr char hex_digits[] = "0123456789ABCDEF";
+constexpr char kHexDigits[] = "0123456789ABCDEF";
 
 int hexDigitValue(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -69,8 +69,8 @@ std::string printHex(ByteView bytes) {
   std::string text;
   for (const std::uint8_t byte : bytes) {
     if (!text.empty()) text += ' ';
-    text += hex_digits[byte >> 4];
-    text += hex_digits[byte & 15];
+    text += kHexDigits[byte >> 4];
+    text += kHexDigits[byte & 15];
   }
   return text;
 }

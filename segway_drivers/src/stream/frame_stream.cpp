@@ -10,7 +10,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs expiry_slack = 50'000'000;  // ns: scheduling of a busy host
+constexpr TimeNs kExpirySlack = 50'000'000;  // ns: scheduling of a busy host
 
 }  // namespace
 
@@ -119,7 +119,7 @@ void FrameStream::search(const Sink& sink, bool at_end) {
 void FrameStream::expire(TimeNs now, const Sink& sink) {
   if (head_ == tail_ || head_since_ == 0) return;
   const std::size_t size = expected_ > 0 ? expected_ : max_frame_;
-  if (now - head_since_ < static_cast<TimeNs>(2.0 * byte_ns_ * static_cast<double>(size)) + expiry_slack) return;
+  if (now - head_since_ < static_cast<TimeNs>(2.0 * byte_ns_ * static_cast<double>(size)) + kExpirySlack) return;
   ++counters_.timeouts;
   ++counters_.bytes_skipped;
   skip(1);

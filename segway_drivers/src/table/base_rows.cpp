@@ -37,7 +37,7 @@ class CandumpRows : public RowDecoder {
     for (const std::uint8_t byte : chunk) {
       ++bytes_;
       if (byte == '\n') takeLine();
-      else if (line_.size() < longest_line) line_ += static_cast<char>(byte);
+      else if (line_.size() < kLongestLine) line_ += static_cast<char>(byte);
     }
   }
   void finish() override {
@@ -51,7 +51,7 @@ class CandumpRows : public RowDecoder {
   }
 
  private:
-  static constexpr std::size_t longest_line = 200;
+  static constexpr std::size_t kLongestLine = 200;
 
   void takeLine() {
     const auto line = parseCandumpLine(line_);

@@ -43,7 +43,7 @@ std::string busTimeCell(std::optional<double> time) {
 class Bb2Rows : public RowDecoder {
  public:
   Bb2Rows(const Parameters& parameters, ImageFolder images, Sink sink)
-      : frames_(bb2_frame_size + 1, probeBb2Frame),
+      : frames_(kBb2FrameSize + 1, probeBb2Frame),
         images_(std::move(images)),
         sink_(std::move(sink)),
         swap_(parameters.bumblebee2_swap_images),
@@ -54,8 +54,8 @@ class Bb2Rows : public RowDecoder {
       throw urban_nav_core::UserError("segway_drivers.bumblebee2.calibration", "empty",
                                       "the file of the factory calibration");
     const FactoryCalibration calibration = parseFactoryCalibration(urban_nav_core::readTextFile(file), file);
-    left_ = makeRectifyingMap(calibration.left, {bb2_width, bb2_height});
-    right_ = makeRectifyingMap(calibration.right, {bb2_width, bb2_height});
+    left_ = makeRectifyingMap(calibration.left, {kBb2Width, kBb2Height});
+    right_ = makeRectifyingMap(calibration.right, {kBb2Width, kBb2Height});
   }
   void feed(ByteView chunk, const ChunkArrival& arrival) override {
     frames_.feed(chunk, arrival, [this](const StreamFrame& frame) { take(frame); });
@@ -95,7 +95,7 @@ class Bb2Rows : public RowDecoder {
 class LadybugRows : public RowDecoder {
  public:
   LadybugRows(const Parameters& parameters, ImageFolder images, Sink sink)
-      : frames_(ladybug_max_frame + 1, probeLadybugFrame),
+      : frames_(kLadybugMaxFrame + 1, probeLadybugFrame),
         images_(std::move(images)),
         sink_(std::move(sink)),
         backward_(parameters.ladybug2_camera_order == "backward"),
@@ -115,7 +115,7 @@ class LadybugRows : public RowDecoder {
     const MosaicPattern pattern = pattern_ ? *pattern_ : frame->pattern.value_or(MosaicPattern::Bggr);
     std::string cells = busTimeCell(frame->bus_time) + "," + std::to_string(frame->sequence) + "," +
                         std::to_string(frame->bad_channels);
-    for (std::size_t camera = 0; camera + 1 < ladybug_cameras; ++camera) {
+    for (std::size_t camera = 0; camera + 1 < kLadybugCameras; ++camera) {
       const cv::Mat image = decodeLadybugCamera(*frame, camera, pattern);
       cells += ",";
       if (!image.empty()) cells += images_.write(number_, "camera" + std::to_string(camera), image);

@@ -16,7 +16,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t longest_random_chunk = 2000;
+constexpr std::size_t kLongestRandomChunk = 2000;
 
 /// One read of the recorded transport: its bytes end where the next one begins.
 struct RecordedRead {
@@ -42,7 +42,7 @@ std::vector<RecordedRead> readArrivals(const std::string& path) {
 void feedRead(RowDecoder& decoder, ByteView bytes, TimeNs time, int chunk, std::mt19937_64& random) {
   std::size_t at = 0;
   while (at < bytes.size) {
-    const std::size_t wanted = chunk > 0 ? static_cast<std::size_t>(chunk) : 1 + random() % longest_random_chunk;
+    const std::size_t wanted = chunk > 0 ? static_cast<std::size_t>(chunk) : 1 + random() % kLongestRandomChunk;
     const std::size_t size = std::min(wanted, bytes.size - at);
     decoder.feed(bytes.sub(at, size), {time, bytes.size - at - size});
     at += size;

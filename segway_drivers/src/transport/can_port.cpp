@@ -43,7 +43,7 @@ class CanPort : public DescriptorPort {
     return result;
   }
   bool write(ByteView bytes) override {
-    for (std::size_t at = 0; at + rmp_packet_size <= bytes.size; at += rmp_packet_size) {
+    for (std::size_t at = 0; at + kRmpPacketSize <= bytes.size; at += kRmpPacketSize) {
       can_frame frame{};
       frame.can_id = bigWord(bytes.data + at + 6);
       frame.can_dlc = 8;

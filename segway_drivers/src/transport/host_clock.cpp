@@ -7,13 +7,13 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs least_clock_step = 1'000'000;  // ns
+constexpr TimeNs kLeastClockStep = 1'000'000;  // ns
 
 }  // namespace
 
 TimeNs HostClock::follow() {
   const TimeNs offset = read_(), step = offset - offset_;
-  if (std::llabs(step) < least_clock_step) {
+  if (std::llabs(step) < kLeastClockStep) {
     offset_ += step / 16;  // averages the readings
     return 0;
   }

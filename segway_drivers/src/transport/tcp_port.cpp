@@ -15,7 +15,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr int connect_timeout = 1000;  // ms
+constexpr int kConnectTimeout = 1000;  // ms
 
 /// Descriptor of a connection to the first address that answers; -1 and `error` otherwise.
 int connectTcp(const addrinfo* addresses, std::string& error) {
@@ -27,7 +27,7 @@ int connectTcp(const addrinfo* addresses, std::string& error) {
     if (failure == EINPROGRESS) {
       pollfd waiting{descriptor, POLLOUT, 0};
       socklen_t size = sizeof(failure);
-      if (::poll(&waiting, 1, connect_timeout) != 1) failure = ETIMEDOUT;
+      if (::poll(&waiting, 1, kConnectTimeout) != 1) failure = ETIMEDOUT;
       else ::getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &failure, &size);
     }
     if (failure == 0) return descriptor;

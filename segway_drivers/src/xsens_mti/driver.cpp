@@ -7,11 +7,11 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::array<int, 4> mti_rates = {115200, 460800, 230400, 57600};
-constexpr TimeNs mti_find_timeout = 100'000'000, mti_timeout = 500'000'000, mti_silence = 200'000'000;  // ns
-constexpr int mti_find_tries = 20, mti_other_tries = 4, mti_soft_restarts = 3, mti_samples_as_it_is = 100;
-constexpr std::uint8_t mti_answer_to = 1;  // added to the identifier of a request
-constexpr std::uint8_t mti_not_implemented = 0x04;
+constexpr std::array<int, 4> kMtiRates = {115200, 460800, 230400, 57600};
+constexpr TimeNs kMtiFindTimeout = 100'000'000, kMtiTimeout = 500'000'000, kMtiSilence = 200'000'000;  // ns
+constexpr int kMtiFindTries = 20, kMtiOtherTries = 4, kMtiSoftRestarts = 3, kMtiSamplesAsItIs = 100;
+constexpr std::uint8_t kMtiAnswerTo = 1;  // added to the identifier of a request
+constexpr std::uint8_t kMtiNotImplemented = 0x04;
 
 /// Counter, fine time, quaternion, acceleration, rate and field at the wished rate, Hz.
 Bytes mtiOutputConfiguration(int rate) {
@@ -50,12 +50,12 @@ void MtiDriver::find(std::size_t rate) {
   written_period_ = written_mode_ = {};
   written_settings_ = {};
   setState(DriverState::Identifying);
-  setBaud(mti_rates[rate_]);
-  stream_.setBaud(mti_rates[rate_]);
+  setBaud(kMtiRates[rate_]);
+  stream_.setBaud(kMtiRates[rate_]);
   stream_.clear();
   phase_ = Phase::Find;
-  request_.start(mtiGoToConfigCommand(), mti_find_timeout,
-                 known_rate_ && *known_rate_ != rate ? mti_other_tries : mti_find_tries);
+  request_.start(mtiGoToConfigCommand(), kMtiFindTimeout,
+                 known_rate_ && *known_rate_ != rate ? kMtiOtherTries : kMtiFindTries);
 }
 
 std::uint16_t MtiDriver::periodCounts() const { return static_cast<std::uint16_t>(115200 / options_.rate); }
@@ -65,22 +65,22 @@ void MtiDriver::enter(Phase phase) {
   request_.stop();
   switch (phase) {
     case Phase::Find: find(rate_); break;
-    case Phase::DeviceId: request_.start(mtiDeviceIdCommand(), mti_timeout); break;
-    case Phase::Product: request_.start(makeMtiMessage(MtiMid::ProductCode), mti_timeout); break;
-    case Phase::Firmware: request_.start(makeMtiMessage(MtiMid::FirmwareRevision), mti_timeout); break;
-    case Phase::Kind: request_.start(makeMtiMessage(MtiMid::OutputConfiguration), mti_timeout); break;
-    case Phase::ReadPeriod: request_.start(makeMtiMessage(MtiMid::Period), mti_timeout); break;
-    case Phase::WritePeriod: request_.start(mtiPeriodCommand(periodCounts()), mti_timeout); break;
-    case Phase::ReadMode: request_.start(makeMtiMessage(MtiMid::OutputMode), mti_timeout); break;
+    case Phase::DeviceId: request_.start(mtiDeviceIdCommand(), kMtiTimeout); break;
+    case Phase::Product: request_.start(makeMtiMessage(MtiMid::ProductCode), kMtiTimeout); break;
+    case Phase::Firmware: request_.start(makeMtiMessage(MtiMid::FirmwareRevision), kMtiTimeout); break;
+    case Phase::Kind: request_.start(makeMtiMessage(MtiMid::OutputConfiguration), kMtiTimeout); break;
+    case Phase::ReadPeriod: request_.start(makeMtiMessage(MtiMid::Period), kMtiTimeout); break;
+    case Phase::WritePeriod: request_.start(mtiPeriodCommand(periodCounts()), kMtiTimeout); break;
+    case Phase::ReadMode: request_.start(makeMtiMessage(MtiMid::OutputMode), kMtiTimeout); break;
     case Phase::WriteMode:
-      request_.start(mtiOutputModeCommand(static_cast<std::uint16_t>(options_.stream.mode)), mti_timeout);
+      request_.start(mtiOutputModeCommand(static_cast<std::uint16_t>(options_.stream.mode)), kMtiTimeout);
       break;
-    case Phase::ReadSettings: request_.start(makeMtiMessage(MtiMid::OutputSettings), mti_timeout); break;
-    case Phase::WriteSettings: request_.start(mtiOutputSettingsCommand(options_.stream.settings), mti_timeout); break;
+    case Phase::ReadSettings: request_.start(makeMtiMessage(MtiMid::OutputSettings), kMtiTimeout); break;
+    case Phase::WriteSettings: request_.start(mtiOutputSettingsCommand(options_.stream.settings), kMtiTimeout); break;
     case Phase::WriteOutput:
-      request_.start(makeMtiMessage(MtiMid::OutputConfiguration, mtiOutputConfiguration(options_.rate)), mti_timeout);
+      request_.start(makeMtiMessage(MtiMid::OutputConfiguration, mtiOutputConfiguration(options_.rate)), kMtiTimeout);
       break;
-    case Phase::Start: request_.start(mtiGoToMeasurementCommand(), mti_timeout); break;
+    case Phase::Start: request_.start(mtiGoToMeasurementCommand(), kMtiTimeout); break;
     case Phase::Stream:
       last_sample_ = now_;
       setState(DriverState::Streaming);
@@ -103,20 +103,20 @@ void MtiDriver::fail() {
   countTimeout();
   if (phase_ == Phase::Product || phase_ == Phase::Firmware) {  // not every unit knows them
     enter(phase_ == Phase::Product ? Phase::Firmware : Phase::Kind);
-  } else if (phase_ == Phase::Find && ignored_ >= mti_samples_as_it_is) {
+  } else if (phase_ == Phase::Find && ignored_ >= kMtiSamplesAsItIs) {
     report(true, "streams and ignores requests: used as it is; switch it off and on to configure it");
     enter(Phase::Stream);
-  } else if (phase_ == Phase::Find && (rate_ + 1) % mti_rates.size() == known_rate_.value_or(0)) {
+  } else if (phase_ == Phase::Find && (rate_ + 1) % kMtiRates.size() == known_rate_.value_or(0)) {
     write(mtiResetCommand());
     reopen();
   } else {
-    find(phase_ == Phase::Find ? (rate_ + 1) % mti_rates.size() : rate_);
+    find(phase_ == Phase::Find ? (rate_ + 1) % kMtiRates.size() : rate_);
   }
 }
 
 void MtiDriver::watch(TimeNs now) {
-  if (now - last_sample_ < mti_silence) return;
-  if (soft_restarts_++ < mti_soft_restarts) {
+  if (now - last_sample_ < kMtiSilence) return;
+  if (soft_restarts_++ < kMtiSoftRestarts) {
     setState(DriverState::Stalled, "no message for 0.2 s");
     last_sample_ = now;
     write(mtiGoToMeasurementCommand());
@@ -143,7 +143,7 @@ void MtiDriver::takeReply(const MtiMessage& message) {
     find(rate_);
   } else if (message.mid == static_cast<std::uint8_t>(MtiMid::Error)) {
     takeError(message);
-  } else if (request_.isActive() && message.mid == request_.bytes()[2] + mti_answer_to) {
+  } else if (request_.isActive() && message.mid == request_.bytes()[2] + kMtiAnswerTo) {
     takeAnswer(message);
   } else if (message.mid != 0x11 && message.mid != 0x0D) {  // answers to a soft restart; sent unasked after one
     countUnexpected();
@@ -198,7 +198,7 @@ void MtiDriver::takeAnswer(const MtiMessage& message) {
 
 void MtiDriver::takeError(const MtiMessage& message) {
   const std::uint8_t code = message.data[0];
-  if (phase_ == Phase::Kind && code == mti_not_implemented) {  // an older unit: MTData
+  if (phase_ == Phase::Kind && code == kMtiNotImplemented) {  // an older unit: MTData
     enter(Phase::ReadPeriod);
   } else if (phase_ == Phase::Product || phase_ == Phase::Firmware) {
     enter(phase_ == Phase::Product ? Phase::Firmware : Phase::Kind);

@@ -5,8 +5,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::uint8_t mti_preamble = 0xFA, mti_bus = 0xFF, mti_extended = 0xFF;
-constexpr std::size_t mti_max_data = 2048;
+constexpr std::uint8_t kMtiPreamble = 0xFA, kMtiBus = 0xFF, kMtiExtended = 0xFF;
+constexpr std::size_t kMtiMaxData = 2048;
 
 /// Whether the message can have so many bytes of data; identifiers that are not listed can have any.
 bool isMtiLength(std::uint8_t mid, std::size_t length) {
@@ -26,11 +26,11 @@ bool isMtiLength(std::uint8_t mid, std::size_t length) {
 }  // namespace
 
 Bytes makeMtiMessage(MtiMid mid, ByteView data) {
-  Bytes message = {mti_preamble, mti_bus, static_cast<std::uint8_t>(mid)};
-  if (data.size < mti_extended) {
+  Bytes message = {kMtiPreamble, kMtiBus, static_cast<std::uint8_t>(mid)};
+  if (data.size < kMtiExtended) {
     message.push_back(static_cast<std::uint8_t>(data.size));
   } else {
-    message.push_back(mti_extended);
+    message.push_back(kMtiExtended);
     appendBig(message, static_cast<std::uint16_t>(data.size));
   }
   message.insert(message.end(), data.begin(), data.end());
@@ -42,16 +42,16 @@ Bytes makeMtiMessage(MtiMid mid, ByteView data) {
 
 FrameProbe probeMtiMessage(ByteView bytes) {
   using Kind = FrameProbe::Kind;
-  if (bytes[0] != mti_preamble) return {Kind::NoFrame, 0};
+  if (bytes[0] != kMtiPreamble) return {Kind::NoFrame, 0};
   if (bytes.size < 2) return {Kind::Incomplete, 0};
-  if (bytes[1] != mti_bus) return {Kind::NoFrame, 0};
+  if (bytes[1] != kMtiBus) return {Kind::NoFrame, 0};
   if (bytes.size < 4) return {Kind::Incomplete, 0};
   std::size_t length = bytes[3], header = 4;
-  if (length == mti_extended) {
+  if (length == kMtiExtended) {
     if (bytes.size < 6) return {Kind::Incomplete, 0};
     length = bigWord(bytes.data + 4);
     header = 6;
-    if (length < mti_extended || length > mti_max_data) return {Kind::NoFrame, 0};
+    if (length < kMtiExtended || length > kMtiMaxData) return {Kind::NoFrame, 0};
   }
   if (!isMtiLength(bytes[2], length)) return {Kind::NoFrame, 0};
   const std::size_t size = header + length + 1;
@@ -62,7 +62,7 @@ FrameProbe probeMtiMessage(ByteView bytes) {
 }
 
 MtiMessage splitMtiMessage(ByteView message) {
-  const std::size_t header = message[3] == mti_extended ? 6 : 4;
+  const std::size_t header = message[3] == kMtiExtended ? 6 : 4;
   return {message[2], message.sub(header, message.size - header - 1)};
 }
 

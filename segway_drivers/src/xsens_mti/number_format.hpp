@@ -7,8 +7,8 @@ namespace segway_drivers {
 
 /// Formats of numbers: 0 float32, 1 fixed 12.20, 2 fixed 16.32 (fraction first), 3 float64.
 inline std::size_t mtiNumberSize(unsigned format) {
-  constexpr std::size_t sizes[] = {4, 4, 6, 8};
-  return sizes[format & 3U];
+  constexpr std::size_t kSizes[] = {4, 4, 6, 8};
+  return kSizes[format & 3U];
 }
 
 inline double readMtiNumber(const std::uint8_t* bytes, unsigned format) {

@@ -7,8 +7,8 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double mti_fine_unit = 1e-4;        // s
-constexpr std::int32_t mti_disorder = 10000;  // units by which slow outputs may lie before the message ahead of them
+constexpr double kMtiFineUnit = 1e-4;         // s
+constexpr std::int32_t kMtiDisorder = 10000;  // units by which slow outputs may lie before the message ahead of them
 
 ClockOptions mtiClockOptions(double period) {
   ClockOptions options;
@@ -21,7 +21,7 @@ ClockOptions mtiClockOptions(double period) {
 
 MtiStream::MtiStream(const Options& options)
     : options_(options),
-      frames_(mti_max_message, probeMtiMessage),
+      frames_(kMtiMaxMessage, probeMtiMessage),
       sink_([this](const StreamFrame& frame) { take(frame); }),
       clock_(mtiClockOptions(options.period)),
       counter_(65536, options.period) {
@@ -81,18 +81,18 @@ void MtiStream::placeByCounter(MtiStampedSample& sample) {
 void MtiStream::placeBySampleTime(MtiStampedSample& sample) {
   const std::uint32_t fine = *sample.sample.sample_time_fine;
   const auto step = last_fine_ ? static_cast<std::int32_t>(fine - *last_fine_) : 0;
-  if (step <= -mti_disorder) {
+  if (step <= -kMtiDisorder) {
     clock_.restart();
     last_fine_.reset();
   }
   const bool in_order = !last_fine_ || step > 0;
   if (in_order) {
-    fine_s_ += last_fine_ ? mti_fine_unit * step : 0.0;
+    fine_s_ += last_fine_ ? kMtiFineUnit * step : 0.0;
     last_fine_ = fine;
   }
   if (sample.arrival == 0) return;
   const ClockEstimate estimate =
-      in_order ? clock_.add(fine_s_, sample.arrival) : clock_.estimate(fine_s_ + mti_fine_unit * step);
+      in_order ? clock_.add(fine_s_, sample.arrival) : clock_.estimate(fine_s_ + kMtiFineUnit * step);
   sample.sigma = estimate.sigma;
   if (estimate.time) sample.stamp = *estimate.time - static_cast<TimeNs>(std::llround(1e9 * options_.latency));
 }

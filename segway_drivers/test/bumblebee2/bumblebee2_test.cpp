@@ -44,19 +44,19 @@ TEST(Mosaic, UniformColoursSurviveDemosaicing) {
 }
 
 cv::Mat makeScene(int shift) {
-  cv::Mat noise(bb2_height / 4, bb2_width / 4 + 32, CV_8U), scene;
+  cv::Mat noise(kBb2Height / 4, kBb2Width / 4 + 32, CV_8U), scene;
   cv::RNG random(7);
   random.fill(noise, cv::RNG::UNIFORM, 0, 256);
   cv::resize(noise, scene, {}, 4.0, 4.0, cv::INTER_CUBIC);
-  return scene(cv::Rect(shift, 0, bb2_width, bb2_height)).clone();
+  return scene(cv::Rect(shift, 0, kBb2Width, kBb2Height)).clone();
 }
 
 TEST(Bb2Frame, ImagersAreSeparatedAndOrderedByDisparity) {
   const cv::Mat left = makeScene(0), right = makeScene(12);
-  Bytes raw(bb2_frame_size);
-  for (int v = 0; v < bb2_height; ++v)
-    for (int u = 0; u < bb2_width; ++u) {
-      const auto at = 2 * static_cast<std::size_t>(v * bb2_width + u);
+  Bytes raw(kBb2FrameSize);
+  for (int v = 0; v < kBb2Height; ++v)
+    for (int u = 0; u < kBb2Width; ++u) {
+      const auto at = 2 * static_cast<std::size_t>(v * kBb2Width + u);
       raw[at] = right.at<std::uint8_t>(v, u);
       raw[at + 1] = left.at<std::uint8_t>(v, u);
     }
@@ -66,7 +66,7 @@ TEST(Bb2Frame, ImagersAreSeparatedAndOrderedByDisparity) {
   EXPECT_NEAR(*frame.bus_time, 93.5401875, 1e-9);
   EXPECT_EQ(frame.sequence, 77U);
   EXPECT_EQ(frame.gain, 0x123);
-  EXPECT_EQ(cv::countNonZero(frame.left.rowRange(1, bb2_height) != left.rowRange(1, bb2_height)), 0);
+  EXPECT_EQ(cv::countNonZero(frame.left.rowRange(1, kBb2Height) != left.rowRange(1, kBb2Height)), 0);
   EXPECT_EQ(medianDisparity(frame.left, frame.right), 12.0);
   const Bb2Frame swapped = splitBb2Frame(raw, true, Bb2Embedding::Raw);
   EXPECT_EQ(medianDisparity(swapped.left, swapped.right), -12.0);

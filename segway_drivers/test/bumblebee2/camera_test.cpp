@@ -14,12 +14,12 @@ namespace {
 class SimulatedBus : public FrameSource {
  public:
   explicit SimulatedBus(Bb2Embedding embedding) : embedding_(embedding) {
-    cv::Mat noise(bb2_height / 4, bb2_width / 4 + 8, CV_8U), scene;
+    cv::Mat noise(kBb2Height / 4, kBb2Width / 4 + 8, CV_8U), scene;
     cv::RNG random(3);
     random.fill(noise, cv::RNG::UNIFORM, 0, 256);
     cv::resize(noise, scene, {}, 4.0, 4.0, cv::INTER_CUBIC);
-    left_ = scene(cv::Rect(0, 0, bb2_width, bb2_height)).clone();
-    right_ = scene(cv::Rect(12, 0, bb2_width, bb2_height)).clone();
+    left_ = scene(cv::Rect(0, 0, kBb2Width, kBb2Height)).clone();
+    right_ = scene(cv::Rect(12, 0, kBb2Width, kBb2Height)).clone();
   }
   bool open(std::string&) override { return true; }
   std::optional<std::uint32_t> readRegister(std::uint64_t address) override { return registers_[address]; }
@@ -38,7 +38,7 @@ class SimulatedBus : public FrameSource {
     cv::Mat both;
     cv::merge(std::vector<cv::Mat>{swapped != reversed ? left : right, swapped != reversed ? right : left}, both);
     CameraFrame frame;
-    frame.bytes.assign(both.data, both.data + bb2_frame_size);
+    frame.bytes.assign(both.data, both.data + kBb2FrameSize);
     if (embedding_ == Bb2Embedding::Raw) std::copy(words.begin(), words.end(), frame.bytes.begin());
     frame.corrupt = sequence % 10 == 7;
     ++sequence;

@@ -14,15 +14,15 @@
 namespace segway_drivers {
 namespace {
 
-constexpr TimeNs recorded_begin = 1'257'000'000'000'000'000, recorded_period = 50'000'000;
+constexpr TimeNs kRecordedBegin = 1'257'000'000'000'000'000, kRecordedPeriod = 50'000'000;
 
 /// Ten seconds of a Bumblebee2 at 20 Hz with faults.
 std::vector<RecordedFrame> recordStereo(std::vector<SimCameraFault> faults, const std::function<bool()>& stop) {
   int sent = 0;
   const FrameReader read = [&sent]() -> std::optional<SimFrame> {
     if (sent == 200) return std::nullopt;
-    const TimeNs time = recorded_period * sent++;
-    return SimFrame{1e-9 * static_cast<double>(time), Bytes(bb2_frame_size, 9), recorded_begin + time};
+    const TimeNs time = kRecordedPeriod * sent++;
+    return SimFrame{1e-9 * static_cast<double>(time), Bytes(kBb2FrameSize, 9), kRecordedBegin + time};
   };
   SimCameraOptions options;
   options.bus_begin = 125.0;
@@ -44,12 +44,12 @@ TEST(RecordFrames, AFrameCarriesItsCounterAndTheTimeOfTheBus) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const RecordedFrame& frame = frames[i];
     EXPECT_EQ(frame.sequence, i);
-    EXPECT_EQ(frame.time, recorded_begin + recorded_period * static_cast<TimeNs>(i));
+    EXPECT_EQ(frame.time, kRecordedBegin + kRecordedPeriod * static_cast<TimeNs>(i));
     EXPECT_NEAR(static_cast<double>(frame.arrival - frame.time), 20e6, 1e3);
     EXPECT_FALSE(frame.corrupt);
     const auto bus = splitBb2Frame(frame.bytes, false, Bb2Embedding::Raw).bus_time;
     ASSERT_TRUE(bus);
-    EXPECT_NEAR(std::remainder(*bus - (125.0 + 0.05 * static_cast<double>(i)), bus_time_wrap), 0.0, 1e-6);
+    EXPECT_NEAR(std::remainder(*bus - (125.0 + 0.05 * static_cast<double>(i)), kBusTimeWrap), 0.0, 1e-6);
   }
 }
 
@@ -57,7 +57,7 @@ TEST(RecordFrames, FramesOfALossAreMissing) {
   const std::vector<RecordedFrame> frames = recordStereo({{SimCameraFault::Kind::Unplug, 4.0, 2.0}});
   EXPECT_NEAR(static_cast<double>(frames.size()), 160.0, 1.0);
   for (const RecordedFrame& frame : frames) {
-    const double t = 1e-9 * static_cast<double>(frame.time - recorded_begin);
+    const double t = 1e-9 * static_cast<double>(frame.time - kRecordedBegin);
     EXPECT_TRUE(t < 4.0 || t >= 6.0) << t;
     EXPECT_EQ(frame.sequence, static_cast<std::uint32_t>(std::lround(t / 0.05)));
   }
@@ -80,7 +80,7 @@ TEST(RecordFrames, ASessionMayBeginOrEndWithoutACamera) {
 
 TEST(RecordFrames, CorruptFramesAreMarked) {
   for (const RecordedFrame& frame : recordStereo({{SimCameraFault::Kind::Corrupt, 4.0, 2.0}})) {
-    const double t = 1e-9 * static_cast<double>(frame.time - recorded_begin);
+    const double t = 1e-9 * static_cast<double>(frame.time - kRecordedBegin);
     EXPECT_EQ(frame.corrupt, t > 3.999 && t < 5.999) << t;
   }
 }

@@ -13,7 +13,7 @@
 namespace segway_drivers {
 namespace {
 
-constexpr TimeNs sim_begin = 5'000'000'000;
+constexpr TimeNs kSimBegin = 5'000'000'000;
 
 cv::Mat makeSimScene(int seed, cv::Size size, int type) {
   cv::Mat noise(size.height / 16, size.width / 16, type), scene;
@@ -35,9 +35,9 @@ class SteppedCamera {
             options, {[this] { return now; }, [this](TimeNs until) { now = std::max(now, until); }}),
         frame_(std::move(frame)) {}
 
-  double seconds() const { return 1e-9 * static_cast<double>(now - sim_begin); }
+  double seconds() const { return 1e-9 * static_cast<double>(now - kSimBegin); }
 
-  TimeNs now = sim_begin;
+  TimeNs now = kSimBegin;
   int sent = 0;
   SimSource source;
 
@@ -64,7 +64,7 @@ struct StereoRun {
 
 /// Runs as a nodelet does: a camera that has vanished, or gives nothing for a second, is opened again.
 StereoRun runStereo(std::vector<SimCameraFault> faults, double duration) {
-  const cv::Mat left = makeSimScene(1, {bb2_width, bb2_height}, CV_8U), right = makeSimScene(2, left.size(), CV_8U);
+  const cv::Mat left = makeSimScene(1, {kBb2Width, kBb2Height}, CV_8U), right = makeSimScene(2, left.size(), CV_8U);
   SteppedCamera stepped(makeStereoOptions(std::move(faults)), packBb2Frame(left, right), 0.05, 20 * 200);
   Bb2Camera camera(stepped.source, {});
   StereoRun run;
@@ -82,17 +82,17 @@ StereoRun runStereo(std::vector<SimCameraFault> faults, double duration) {
     auto pair = camera.next(100'000'000);
     if (!pair) continue;
     last = stepped.now;
-    const double time = 1e-9 * static_cast<double>(pair->stamp - sim_begin);
+    const double time = 1e-9 * static_cast<double>(pair->stamp - kSimBegin);
     run.worst = std::max(run.worst, std::abs(time - 0.05 * std::round(time / 0.05)));
     run.at.push_back(stepped.seconds());
     run.pairs.push_back(std::move(*pair));
   }
   run.counters = camera.counters();
   if (!run.pairs.empty()) {
-    EXPECT_EQ(cv::norm(run.pairs.back().frame.left.rowRange(2, bb2_height), left.rowRange(2, bb2_height), cv::NORM_INF),
+    EXPECT_EQ(cv::norm(run.pairs.back().frame.left.rowRange(2, kBb2Height), left.rowRange(2, kBb2Height), cv::NORM_INF),
               0.0);
     EXPECT_EQ(
-        cv::norm(run.pairs.back().frame.right.rowRange(2, bb2_height), right.rowRange(2, bb2_height), cv::NORM_INF),
+        cv::norm(run.pairs.back().frame.right.rowRange(2, kBb2Height), right.rowRange(2, kBb2Height), cv::NORM_INF),
         0.0);
   }
   return run;
@@ -125,7 +125,7 @@ TEST(SimSource, ASilentCameraIsOpenedAgainAndNothingOldComes) {
   EXPECT_GE(run.reported, 1);
   EXPECT_LT(longestGap(run.at), 1.5 + 2.5);
   for (std::size_t i = 0; i < run.pairs.size(); ++i)
-    EXPECT_LT(run.at[i] - 1e-9 * static_cast<double>(run.pairs[i].stamp - sim_begin), 0.5);
+    EXPECT_LT(run.at[i] - 1e-9 * static_cast<double>(run.pairs[i].stamp - kSimBegin), 0.5);
 }
 
 TEST(SimSource, CorruptFramesAreCountedAndNotPublished) {
@@ -169,7 +169,7 @@ TEST(SimSource, FramesOfALadybugComeBackInColour) {
   EXPECT_GE(camera.counters().gaps, 9);
   EXPECT_EQ(camera.badChannels(), 4 * camera.counters().frames);
   for (const LadybugStampedFrame& frame : frames) {
-    const double time = 1e-9 * static_cast<double>(frame.stamp - sim_begin);
+    const double time = 1e-9 * static_cast<double>(frame.stamp - kSimBegin);
     EXPECT_NEAR(time, 0.1 * std::round(time / 0.1), 0.2e-3);
   }
   const auto last = splitLadybugFrame(frames.back().bytes, false);
@@ -183,7 +183,7 @@ TEST(SimSource, FramesOfALadybugComeBackInColour) {
 }
 
 TEST(SimSource, FramesThatNobodyFetchesAreLost) {
-  SteppedCamera stepped(makeStereoOptions({}), Bytes(bb2_frame_size), 0.05, 400);
+  SteppedCamera stepped(makeStereoOptions({}), Bytes(kBb2FrameSize), 0.05, 400);
   Bb2Camera camera(stepped.source, {});
   std::string error;
   ASSERT_TRUE(camera.start(error));

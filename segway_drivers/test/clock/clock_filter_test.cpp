@@ -12,8 +12,8 @@
 namespace segway_drivers {
 namespace {
 
-constexpr double clock_skew = 100e-6;
-constexpr TimeNs clock_begin = 1'000'000'000'000'000'000;
+constexpr double kClockSkew = 100e-6;
+constexpr TimeNs kClockBegin = 1'000'000'000'000'000'000;
 
 /// Outcome of one simulated recording with a least delay of 1 ms.
 struct ClockTrial {
@@ -34,15 +34,15 @@ ClockTrial runClock(double period, double duration, double settled,
   for (int i = 0; i * period < duration; ++i) {
     const double t = i * period;
     const TimeNs arrival =
-        std::max(last_arrival, clock_begin + static_cast<TimeNs>(std::llround(1e9 * (t + delay(t, random)))));
+        std::max(last_arrival, kClockBegin + static_cast<TimeNs>(std::llround(1e9 * (t + delay(t, random)))));
     last_arrival = arrival;
-    const ClockEstimate estimate = filter.add(t * (1.0 + clock_skew), arrival);
-    EXPECT_EQ(estimate.time.has_value(), t * (1.0 + clock_skew) >= 0.5) << t;
+    const ClockEstimate estimate = filter.add(t * (1.0 + kClockSkew), arrival);
+    EXPECT_EQ(estimate.time.has_value(), t * (1.0 + kClockSkew) >= 0.5) << t;
     if (!estimate.time) continue;
     trial.rises = trial.rises && (*estimate.time > last_stamp || estimate.epoch != last_epoch);
     last_stamp = *estimate.time;
     last_epoch = estimate.epoch;
-    const double error = std::abs(1e-9 * static_cast<double>(*estimate.time - clock_begin) - t - 1e-3);
+    const double error = std::abs(1e-9 * static_cast<double>(*estimate.time - kClockBegin) - t - 1e-3);
     if (t > 2.0) trial.worst_early = std::max(trial.worst_early, error);
     if (t > settled) trial.worst = std::max(trial.worst, error);
     if (t > 2.0) ++trial.judged;
@@ -129,10 +129,10 @@ TEST(ClockFilter, AWrongDeviceTimeCostsItselfAlone) {
     ClockFilter filter(ClockOptions{});
     for (int i = 0; i < 3000; ++i) {
       const double t = 0.01 * i, device = t + (i == 2000 ? wrong : 0.0);
-      const ClockEstimate estimate = filter.add(device, clock_begin + static_cast<TimeNs>(std::llround(1e9 * t)));
+      const ClockEstimate estimate = filter.add(device, kClockBegin + static_cast<TimeNs>(std::llround(1e9 * t)));
       if (i == 2000 || i < 100) continue;
       ASSERT_TRUE(estimate.time.has_value()) << wrong << " " << i;
-      EXPECT_NEAR(1e-9 * static_cast<double>(*estimate.time - clock_begin), t, 1e-5);
+      EXPECT_NEAR(1e-9 * static_cast<double>(*estimate.time - kClockBegin), t, 1e-5);
       EXPECT_EQ(estimate.epoch, i < 2000 ? 0 : 2);
     }
   }
@@ -155,9 +155,9 @@ TEST(ClockFilter, StepsOfEitherClockAreDeclared) {
       const double t = 0.01 * i;
       const bool after = i >= 1000;
       const double host = t + (after ? host_step : 0.0), device = after && host_step == 0.0 ? t - 9.0 : t;
-      const ClockEstimate estimate = filter.add(device, clock_begin + static_cast<TimeNs>(std::llround(1e9 * host)));
+      const ClockEstimate estimate = filter.add(device, kClockBegin + static_cast<TimeNs>(std::llround(1e9 * host)));
       if (!estimate.time || (after && estimate.epoch == 0)) continue;
-      if (std::abs(1e-9 * static_cast<double>(*estimate.time - clock_begin) - host) > 1e-4) ++wrong;
+      if (std::abs(1e-9 * static_cast<double>(*estimate.time - kClockBegin) - host) > 1e-4) ++wrong;
     }
     EXPECT_EQ(filter.epoch(), 1) << host_step;
     EXPECT_EQ(wrong, 0) << host_step;
@@ -168,9 +168,9 @@ TEST(ClockFilter, ABacklogIsNoStep) {
   ClockFilter filter(ClockOptions{});
   for (int i = 0; i < 3000; ++i) {
     const double t = 0.01 * i, host = t > 15.0 && t < 18.0 ? 18.0 : t;
-    const ClockEstimate estimate = filter.add(t, clock_begin + static_cast<TimeNs>(std::llround(1e9 * host)));
+    const ClockEstimate estimate = filter.add(t, kClockBegin + static_cast<TimeNs>(std::llround(1e9 * host)));
     if (estimate.time) {
-      EXPECT_NEAR(1e-9 * static_cast<double>(*estimate.time - clock_begin), t, 1e-5);
+      EXPECT_NEAR(1e-9 * static_cast<double>(*estimate.time - kClockBegin), t, 1e-5);
     }
   }
   EXPECT_EQ(filter.epoch(), 0);

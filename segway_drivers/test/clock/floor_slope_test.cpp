@@ -12,15 +12,15 @@
 namespace segway_drivers {
 namespace {
 
-constexpr double floor_slope = 100e-6, floor_duration = 60.0, widest_delay = 19e-3;
+constexpr double kFloorSlope = 100e-6, kFloorDuration = 60.0, kWidestDelay = 19e-3;
 
 std::vector<ClockPoint> drawFloor(int count, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> delay(0.0, widest_delay);
+  std::uniform_real_distribution<double> delay(0.0, kWidestDelay);
   std::vector<ClockPoint> points;
   for (int i = 0; i < count; ++i) {
-    const double x = floor_duration * i / count;
-    points.push_back({x, floor_slope * x + delay(random)});
+    const double x = kFloorDuration * i / count;
+    points.push_back({x, kFloorSlope * x + delay(random)});
   }
   return points;
 }
@@ -33,42 +33,42 @@ double meanOfX(const std::vector<ClockPoint>& points) {
 
 TEST(FloorSlope, MomentsAreThoseOfTheLikelihood) {
   const std::vector<ClockPoint> points = drawFloor(600, 1);
-  const double mean_x = meanOfX(points), spacing = widest_delay / 600.0;
+  const double mean_x = meanOfX(points), spacing = kWidestDelay / 600.0;
   const SlopeEstimate estimate = estimateFloorSlope(lowerHull(points.data(), points.size()), mean_x, spacing);
   double sum = 0.0, first = 0.0, second = 0.0;
   for (double b = -100e-6; b < 300e-6; b += 1e-8) {  // by the definition, over all points
     double height = 1e9;
     for (const ClockPoint& point : points) height = std::min(height, point.z - b * (point.x - mean_x));
-    const double likelihood = std::exp((height - floor_slope * mean_x) / spacing), off = b - floor_slope;
+    const double likelihood = std::exp((height - kFloorSlope * mean_x) / spacing), off = b - kFloorSlope;
     sum += likelihood;
     first += likelihood * off;
     second += likelihood * off * off;
   }
   const double mean = first / sum;
-  EXPECT_NEAR(estimate.slope, floor_slope + mean, 1e-8);
+  EXPECT_NEAR(estimate.slope, kFloorSlope + mean, 1e-8);
   EXPECT_NEAR(estimate.sigma, std::sqrt(second / sum - mean * mean), 1e-8);
 }
 
 /// Errors over many floors: as large as stated, and smaller than those of the edge over the mean.
 TEST(FloorSlope, IsAsExactAsItStatesAndBetterThanTheEdge) {
-  constexpr int trials = 300, count = 600;
+  constexpr int kTrials = 300, kCount = 600;
   double squares = 0.0, stated = 0.0, edge_squares = 0.0, errors = 0.0;
-  for (unsigned seed = 0; seed < trials; ++seed) {
-    const std::vector<ClockPoint> points = drawFloor(count, seed), hull = lowerHull(points.data(), points.size());
+  for (unsigned seed = 0; seed < kTrials; ++seed) {
+    const std::vector<ClockPoint> points = drawFloor(kCount, seed), hull = lowerHull(points.data(), points.size());
     const double mean_x = meanOfX(points);
-    const SlopeEstimate estimate = estimateFloorSlope(hull, mean_x, widest_delay / count);
+    const SlopeEstimate estimate = estimateFloorSlope(hull, mean_x, kWidestDelay / kCount);
     std::size_t i = 1;
     while (i + 1 < hull.size() && hull[i].x < mean_x) ++i;
     const double edge = (hull[i].z - hull[i - 1].z) / (hull[i].x - hull[i - 1].x);
-    errors += estimate.slope - floor_slope;
-    squares += std::pow(estimate.slope - floor_slope, 2);
+    errors += estimate.slope - kFloorSlope;
+    squares += std::pow(estimate.slope - kFloorSlope, 2);
     stated += estimate.sigma * estimate.sigma;
-    edge_squares += std::pow(edge - floor_slope, 2);
+    edge_squares += std::pow(edge - kFloorSlope, 2);
   }
   EXPECT_GT(squares, 0.7 * stated);
   EXPECT_LT(squares, 1.4 * stated);
   EXPECT_LT(squares, 0.7 * edge_squares);
-  EXPECT_LT(std::abs(errors / trials), 4.0 * std::sqrt(stated) / trials) << "unbiased";
+  EXPECT_LT(std::abs(errors / kTrials), 4.0 * std::sqrt(stated) / kTrials) << "unbiased";
 }
 
 TEST(FloorSlope, PointsOnALineGiveIt) {

@@ -11,8 +11,8 @@
 namespace segway_drivers {
 namespace {
 
-const std::string gps_gga = "$GPGGA,165007.000,4143.6058,N,08338.0778,W,1,06,1.5,204.3,M,-33.7,M,,0000*67\r\n";
-const std::string gps_rmc = "$GPRMC,165007.000,A,4143.6058,N,08338.0778,W,0.55,36.58,180710,,,A*4F\r\n";
+const std::string kGpsGga = "$GPGGA,165007.000,4143.6058,N,08338.0778,W,1,06,1.5,204.3,M,-33.7,M,,0000*67\r\n";
+const std::string kGpsRmc = "$GPRMC,165007.000,A,4143.6058,N,08338.0778,W,0.55,36.58,180710,,,A*4F\r\n";
 
 std::vector<GpsFix> parseFixes(const std::string& text, std::size_t chunk = 4096) {
   GpsStream stream(GpsStream::Options{});
@@ -32,7 +32,7 @@ std::string sentence(const std::string& body) {
 
 TEST(GpsNmea, SentencesOfOneTimeAreOneFix) {
   for (const std::size_t chunk : {1U, 7U, 4096U}) {
-    const auto fixes = parseFixes(gps_gga + gps_rmc, chunk);
+    const auto fixes = parseFixes(kGpsGga + kGpsRmc, chunk);
     ASSERT_EQ(fixes.size(), 1U);
     EXPECT_NEAR(*fixes[0].latitude, 41.726763, 1e-6);
     EXPECT_NEAR(*fixes[0].longitude, -83.634630, 1e-6);
@@ -45,8 +45,8 @@ TEST(GpsNmea, SentencesOfOneTimeAreOneFix) {
 }
 
 TEST(GpsNmea, EmptyFieldsAreUnknownAndATimeIsGivenOnce) {
-  const auto fixes = parseFixes(sentence("GPGGA,,,,,,0,00,,,M,,M,,") + gps_rmc + gps_rmc +
-                                sentence("GPGSA,A,1,,,,,,,,,,,,,,,") + gps_rmc);
+  const auto fixes = parseFixes(sentence("GPGGA,,,,,,0,00,,,M,,M,,") + kGpsRmc + kGpsRmc +
+                                sentence("GPGSA,A,1,,,,,,,,,,,,,,,") + kGpsRmc);
   ASSERT_EQ(fixes.size(), 2U);
   EXPECT_FALSE(fixes[0].latitude);
   EXPECT_EQ(fixes[0].mode, GpsFix::Mode::None);
@@ -55,7 +55,7 @@ TEST(GpsNmea, EmptyFieldsAreUnknownAndATimeIsGivenOnce) {
 }
 
 TEST(GpsNmea, StatedErrorsPrecedeDilution) {
-  const auto fixes = parseFixes(gps_gga + sentence("GPGST,165007.000,,,,,3.0,2.0,7.0") + gps_rmc);
+  const auto fixes = parseFixes(kGpsGga + sentence("GPGST,165007.000,,,,,3.0,2.0,7.0") + kGpsRmc);
   ASSERT_EQ(fixes.size(), 1U);
   EXPECT_EQ(fixes[0].sigma_n, 3.0);
   EXPECT_EQ(fixes[0].sigma_e, 2.0);
@@ -79,7 +79,7 @@ TEST(GpsNmea, SilenceEndsAGroup) {
   GpsStream stream(GpsStream::Options{4.5, 0.2});
   std::optional<TimeNs> stamp;
   stream.on_fix = [&](const GpsFix&, std::optional<TimeNs> time) { stamp = time; };
-  stream.feed({reinterpret_cast<const std::uint8_t*>(gps_gga.data()), gps_gga.size()}, {10'000'000'000, 0});
+  stream.feed({reinterpret_cast<const std::uint8_t*>(kGpsGga.data()), kGpsGga.size()}, {10'000'000'000, 0});
   stream.expire(10'300'000'000);
   EXPECT_FALSE(stamp);
   stream.expire(10'500'000'000);
@@ -112,7 +112,7 @@ TEST(GpsStream, SurvivesDamagedInput) {
   garmin.append(64, '\0');
   garmin += {static_cast<char>(0x100 - 0x73), 0x10, 0x03};
   const auto result =
-      urban_nav_core::testing::fuzzText({gps_gga + gps_rmc, tpv + tpv, garmin + garmin}, [](const std::string& text) {
+      urban_nav_core::testing::fuzzText({kGpsGga + kGpsRmc, tpv + tpv, garmin + garmin}, [](const std::string& text) {
         for (const GpsFix& fix : parseFixes(text)) {
           if (fix.latitude) {
             EXPECT_LE(std::abs(*fix.latitude), 90.0);

@@ -18,7 +18,7 @@
 namespace segway_drivers::test {
 namespace {
 
-constexpr double mirror_period = 0.0133381;  // s
+constexpr double kMirrorPeriod = 0.0133381;  // s
 
 Bytes makeTelegram(int number) {
   Bytes payload = {0xC4};
@@ -73,7 +73,7 @@ TEST(DriverNodelets, ALaserIsPublishedAndItsUnplugIsReported) {
   {
     Terminal terminal("/tmp/segway_drivers_rostest/laser");
     const auto stream = [&](double t) {
-      for (; due <= t; due += mirror_period) terminal.write(makeTelegram(number++));
+      for (; due <= t; due += kMirrorPeriod) terminal.write(makeTelegram(number++));
       return scans.size() > 200 && anyDiagnostics("laser", "streaming");
     };
     ASSERT_TRUE(runFor(30.0, stream)) << scans.size();
@@ -115,10 +115,10 @@ TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
     }
     const Bytes bytes = terminal.read();
     pending.insert(pending.end(), bytes.begin(), bytes.end());
-    while (pending.size() >= rmp_packet_size) {
+    while (pending.size() >= kRmpPacketSize) {
       if (pending[0] == 0xF0 && pending[1] == 0x55) {
         velocity = static_cast<std::int16_t>(bigWord(pending.data() + 9)) / 332.0;
-        pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(rmp_packet_size));
+        pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(kRmpPacketSize));
       } else {
         pending.erase(pending.begin());
       }

@@ -14,7 +14,7 @@
 namespace segway_drivers {
 namespace {
 
-constexpr TimeNs rmp_step = 20'000'000;  // ns, 50 Hz
+constexpr TimeNs kRmpStep = 20'000'000;  // ns, 50 Hz
 
 TEST(RmpUnits, CommandsEqualComputedBytes) {
   EXPECT_EQ(printHex(makeRmpPacket(makeRmpVelocity(0.5, 0.0))),
@@ -77,7 +77,7 @@ class GuardedDrive {
 
   RmpCommand run(double seconds, std::optional<double> wish) {
     RmpCommand command;
-    for (const TimeNs end = now + static_cast<TimeNs>(1e9 * seconds); now < end; now += rmp_step) {
+    for (const TimeNs end = now + static_cast<TimeNs>(1e9 * seconds); now < end; now += kRmpStep) {
       if (base_answers) guard.reportBase(now);
       if (wish) guard.setWish({*wish, 0.0}, now);
       const RmpCommand next = guard.step(now);

@@ -8,17 +8,17 @@
 namespace segway_drivers {
 namespace {
 
-constexpr TimeNs second = 1'000'000'000;
+constexpr TimeNs kSecond = 1'000'000'000;
 
 TEST(HostClock, AStepOfFiveSecondsIsReportedOnceAndFollowedAtOnce) {
-  for (const TimeNs step : {5 * second, -5 * second}) {
-    TimeNs offset = 1000 * second;
+  for (const TimeNs step : {5 * kSecond, -5 * kSecond}) {
+    TimeNs offset = 1000 * kSecond;
     HostClock clock([&] { return offset; });
     EXPECT_EQ(clock.follow(), 0);
-    EXPECT_EQ(clock.toReal(second), 1001 * second);
+    EXPECT_EQ(clock.toReal(kSecond), 1001 * kSecond);
     offset += step;
     EXPECT_EQ(clock.follow(), step);
-    EXPECT_EQ(clock.toReal(second), 1001 * second + step);
+    EXPECT_EQ(clock.toReal(kSecond), 1001 * kSecond + step);
     EXPECT_EQ(clock.follow(), 0);
   }
 }

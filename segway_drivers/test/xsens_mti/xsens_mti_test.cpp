@@ -11,7 +11,7 @@
 namespace segway_drivers {
 namespace {
 
-constexpr const char* mti_worked_example =
+constexpr const char* kMtiWorkedExample =
     "FA FF 32 36 3D CC CC CD BE 4C CC CD 41 1C F5 C3 3C 23 D7 0A BC A3 D7 0A 3C F5 C2 8F 3E 4C CC CD 00 00 00 00"
     "BE E6 66 66 3F 80 00 00 00 00 00 00 00 00 00 00 00 00 00 00 FF FF ED";
 
@@ -46,14 +46,14 @@ TEST(MtiMessage, LongMessagesHaveAnExtendedLength) {
 }
 
 TEST(MtiSample, TheWorkedExampleOfMtData) {
-  const auto sample = decodeMtiData(splitMtiMessage(*parseHex(mti_worked_example)).data, 6, 1);
+  const auto sample = decodeMtiData(splitMtiMessage(*parseHex(kMtiWorkedExample)).data, 6, 1);
   ASSERT_TRUE(sample && sample->acceleration && sample->rate && sample->field && sample->orientation);
   EXPECT_NEAR((*sample->acceleration)[2], 9.81, 1e-6);
   EXPECT_NEAR((*sample->rate)[1], -0.02, 1e-6);
   EXPECT_NEAR((*sample->field)[2], -0.45, 1e-6);
   EXPECT_EQ((*sample->orientation)[0], 1.0);
   EXPECT_EQ(sample->counter, 65535);
-  EXPECT_FALSE(decodeMtiData(splitMtiMessage(*parseHex(mti_worked_example)).data, 2, 1));
+  EXPECT_FALSE(decodeMtiData(splitMtiMessage(*parseHex(kMtiWorkedExample)).data, 2, 1));
 }
 
 TEST(MtiSample, NwuBecomesEnuByAQuarterTurn) {
@@ -96,7 +96,7 @@ TEST(MtiStream, SurvivesDamagedMessages) {
     const Bytes message = makeData2(static_cast<std::uint16_t>(i), 100 * i);
     seed.append(message.begin(), message.end());
   }
-  const Bytes example = *parseHex(mti_worked_example);
+  const Bytes example = *parseHex(kMtiWorkedExample);
   const auto result = urban_nav_core::testing::fuzzText(
       {seed, std::string(example.begin(), example.end())}, [](const std::string& text) {
         MtiStream stream(MtiStream::Options{});

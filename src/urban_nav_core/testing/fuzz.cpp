@@ -16,7 +16,7 @@
 namespace urban_nav_core::testing {
 namespace {
 
-constexpr std::array nasty_words = {
+constexpr std::array kNastyWords = {
     "nan",  "-inf", "1e999", "-1e308", "1e-320",     "0",        "-0", "-1",   "18446744073709551616",
     "0x10", "1,5",  "1.5.2", "+",      "2147483648", "1_000",    "",   "\"",   "[[[[[[[[[[[[[[[[",
     "{}",   ":",    "- -",   "%s%n",   "\xff\xfe",   "\xc3\x28", "\r", "\t\t", "#"};
@@ -30,9 +30,9 @@ std::pair<std::size_t, std::size_t> pieceAround(const std::string& text, std::si
 }
 
 std::string describe(const std::exception& error, const std::string& text) {
-  constexpr std::size_t shown = 2000;
+  constexpr std::size_t kShown = 2000;
   return std::string("neither taken nor refused with a UserError: ") + error.what() + "\nthe text:\n" +
-         text.substr(0, shown);
+         text.substr(0, kShown);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void Mutator::mutateOnce(std::string& text) {
       break;
     case 2: text.erase(position, 1 + below(8)); break;
     case 3: text.resize(position); break;
-    case 4: text.replace(word, word_end - word, nasty_words[below(nasty_words.size())]); break;
+    case 4: text.replace(word, word_end - word, kNastyWords[below(kNastyWords.size())]); break;
     case 5: text.erase(word, word_end - word); break;
     case 6: text.insert(line, whole_line); break;
     case 7: text.erase(line, line_end - line + below(2)); break;

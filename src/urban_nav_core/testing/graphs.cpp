@@ -122,7 +122,7 @@ SimulatedGraph planarGridGraph(std::size_t nx, std::size_t ny, double spacing_m,
 
 SimulatedGraph manhattanGraph(std::size_t poses, std::size_t side, double density, const GraphNoise& noise,
                               std::uint64_t seed) {
-  constexpr std::array<std::array<int, 2>, 4> steps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  constexpr std::array<std::array<int, 2>, 4> kSteps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   SimulatedGraph graph;
   graph.planar = true;
   Dice dice(seed);
@@ -138,11 +138,11 @@ SimulatedGraph manhattanGraph(std::size_t poses, std::size_t side, double densit
     // A pose looks along the step that led to it.
     if (dice.chance(0.25)) heading = (heading + (dice.chance(0.5) ? 1 : 3)) % 4;
     const auto leads = [&](std::size_t h) {
-      const int nx = x + steps[h][0], ny = y + steps[h][1];
+      const int nx = x + kSteps[h][0], ny = y + kSteps[h][1];
       return nx >= 0 && nx <= last && ny >= 0 && ny <= last;
     };
     while (!leads(heading)) heading = (heading + (dice.chance(0.5) ? 1 : 3)) % 4;
-    x += steps[heading][0], y += steps[heading][1];
+    x += kSteps[heading][0], y += kSteps[heading][1];
   }
   chainUp(graph, noise, dice);
   for (const std::vector<std::size_t>& visit : visits)

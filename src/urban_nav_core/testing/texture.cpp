@@ -221,9 +221,9 @@ void Texture::alongRun(const Run& x, const Run& y, double frequency, Function fu
     return;
   }
   const double a = function(x[0], y[0]), b = function(x[kMiddle], y[kMiddle]), c = function(x[kLast], y[kLast]);
-  constexpr double h1 = kMiddle, h2 = kLast;
-  const double curve = ((c - a) / h2 - (b - a) / h1) / (h2 - h1);
-  const double slope = (b - a) / h1 - curve * h1;
+  constexpr double kH1 = kMiddle, kH2 = kLast;
+  const double curve = ((c - a) / kH2 - (b - a) / kH1) / (kH2 - kH1);
+  const double slope = (b - a) / kH1 - curve * kH1;
   for (std::size_t i = 0; i < kRun; ++i) {
     const auto t = static_cast<double>(i);
     out[i] = a + t * (slope + t * curve);

@@ -10,7 +10,7 @@ namespace urban_nav_core::testing {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double kPi = 3.14159265358979323846;
 
 StereoCamera usualCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.12}; }
 
@@ -31,7 +31,7 @@ std::vector<Pose> drive(const TrackOptions& options) {
     if (options.motion == TrackMotion::Standing) speed = 0.0;
     if (options.motion == TrackMotion::Turning) turn = 0.06 * std::sin(0.07 * along);
     if (options.motion == TrackMotion::Mixed) {
-      if (phase >= 20 && phase < 65) turn = 2.0 * pi / 45.0;
+      if (phase >= 20 && phase < 65) turn = 2.0 * kPi / 45.0;
       if (phase >= 80) speed = 0.0;
     }
     heading += turn;

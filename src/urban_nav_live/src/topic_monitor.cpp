@@ -49,7 +49,7 @@ void TopicMonitor::received(const std::string& topic, urban_nav_core::StampNs st
 }
 
 double TopicMonitor::age(const Topic& topic) const {
-  return topic.any ? std::chrono::duration<double>(now_() - topic.when).count() : no_timeout;
+  return topic.any ? std::chrono::duration<double>(now_() - topic.when).count() : kNoTimeout;
 }
 
 std::string TopicMonitor::fault(const std::string& group) const {

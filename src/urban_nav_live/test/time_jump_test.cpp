@@ -6,31 +6,31 @@
 namespace urban_nav_live {
 namespace {
 
-constexpr urban_nav_core::StampNs clock_start = 1'600'000'000'000'000'000;
+constexpr urban_nav_core::StampNs kClockStart = 1'600'000'000'000'000'000;
 
 TEST(TimeJumpDetector, ToleratesLateStamps) {
   TimeJumpDetector detector;
-  EXPECT_FALSE(detector.add(clock_start));
-  EXPECT_FALSE(detector.add(clock_start + 5 * max_step_back));
-  EXPECT_FALSE(detector.add(clock_start + 4 * max_step_back));
-  EXPECT_EQ(detector.newest(), clock_start + 5 * max_step_back);
+  EXPECT_FALSE(detector.add(kClockStart));
+  EXPECT_FALSE(detector.add(kClockStart + 5 * kMaxStepBack));
+  EXPECT_FALSE(detector.add(kClockStart + 4 * kMaxStepBack));
+  EXPECT_EQ(detector.newest(), kClockStart + 5 * kMaxStepBack);
 }
 
 TEST(TimeJumpDetector, DetectsAJumpOnceAndStartsAnew) {
   TimeJumpDetector detector;
-  detector.add(clock_start);
-  EXPECT_TRUE(detector.jumpsBack(clock_start - max_step_back - 1));
-  EXPECT_TRUE(detector.add(clock_start - max_step_back - 1));
-  EXPECT_EQ(detector.newest(), clock_start - max_step_back - 1);
-  EXPECT_FALSE(detector.add(clock_start - max_step_back));
+  detector.add(kClockStart);
+  EXPECT_TRUE(detector.jumpsBack(kClockStart - kMaxStepBack - 1));
+  EXPECT_TRUE(detector.add(kClockStart - kMaxStepBack - 1));
+  EXPECT_EQ(detector.newest(), kClockStart - kMaxStepBack - 1);
+  EXPECT_FALSE(detector.add(kClockStart - kMaxStepBack));
 }
 
 TEST(TimeJumpDetector, WithoutAStampNothingJumps) {
   TimeJumpDetector detector;
   EXPECT_FALSE(detector.jumpsBack(0));
-  detector.advance(clock_start);
-  detector.advance(clock_start - 1);
-  EXPECT_EQ(detector.newest(), clock_start);
+  detector.advance(kClockStart);
+  detector.advance(kClockStart - 1);
+  EXPECT_EQ(detector.newest(), kClockStart);
   detector.reset();
   EXPECT_FALSE(detector.add(0));
 }

@@ -6,7 +6,7 @@
 namespace urban_nav_live {
 namespace {
 
-constexpr urban_nav_core::StampNs ms = 1'000'000;
+constexpr urban_nav_core::StampNs kMs = 1'000'000;
 
 /// A monitor whose clock the test sets.
 struct Monitored {
@@ -58,17 +58,17 @@ TEST(TopicMonitor, NamesTheLatePartnerOfAnIncompletePair) {
   m.monitor.expect("/left", 1.0);
   m.monitor.expect("/right", 1.0);
   m.monitor.expectPairs("/left", "/right");
-  m.monitor.received("/left", 140 * ms);
-  m.monitor.received("/right", 100 * ms);
+  m.monitor.received("/left", 140 * kMs);
+  m.monitor.received("/right", 100 * kMs);
   EXPECT_EQ(m.monitor.fault(), "");
   m.monitor.setIncomplete(true);
   EXPECT_EQ(m.monitor.fault(), "/right lags /left by 40 ms");
-  m.monitor.received("/right", 190 * ms);
+  m.monitor.received("/right", 190 * kMs);
   EXPECT_EQ(m.monitor.fault(), "/left lags /right by 50 ms");
   m.monitor.setIncomplete(false);
   m.wait(2.0);
   EXPECT_EQ(m.monitor.fault(), "/left has been silent for 2.0 s, /right has been silent for 2.0 s");
-  m.monitor.received("/left", 2190 * ms);
+  m.monitor.received("/left", 2190 * kMs);
   EXPECT_EQ(m.monitor.fault(), "/right lags /left by 2000 ms");
 }
 

@@ -11,7 +11,7 @@
 namespace urban_nav_live {
 namespace {
 
-constexpr std::chrono::milliseconds loop_wait{10000};
+constexpr std::chrono::milliseconds kLoopWait{10000};
 
 using Loop = WorkerLoop<int>;
 
@@ -30,7 +30,7 @@ TEST(WorkerLoop, BeginsHandlesInputsInOrderAndEnds) {
   steps.end = [&] { events.push_back("end"); };
   loop.start(steps);
   loop.push(2);
-  EXPECT_EQ(loop.ask([] { return 7; }, loop_wait), 7);
+  EXPECT_EQ(loop.ask([] { return 7; }, kLoopWait), 7);
   loop.stop();
   EXPECT_EQ(events, (std::vector<std::string>{"begin", "1", "2", "end"}));
 }
@@ -40,20 +40,20 @@ TEST(WorkerLoop, AQuestionIsAnsweredAfterTheInputsBeforeIt) {
   Loop loop(100);
   for (int i = 1; i <= 10; ++i) loop.push(i);
   loop.start(stepsWith([&](int& input) { sum += input; }));
-  EXPECT_EQ(loop.ask([&] { return sum; }, loop_wait), 55);
+  EXPECT_EQ(loop.ask([&] { return sum; }, kLoopWait), 55);
 }
 
 TEST(WorkerLoop, AQuestionThrowsInTheCaller) {
   Loop loop(10);
   loop.start(stepsWith([](int&) {}));
   const auto question = []() -> int { throw std::runtime_error("no"); };
-  EXPECT_THROW(loop.ask(question, loop_wait), std::runtime_error);
-  EXPECT_EQ(loop.ask([] { return 1; }, loop_wait), 1);
+  EXPECT_THROW(loop.ask(question, kLoopWait), std::runtime_error);
+  EXPECT_EQ(loop.ask([] { return 1; }, kLoopWait), 1);
 }
 
 TEST(WorkerLoop, AQuestionThatIsDroppedHasNoAnswer) {
   std::atomic<bool> busy{false}, done{false};
-  Loop loop(1, loop_wait);
+  Loop loop(1, kLoopWait);
   loop.start(stepsWith([&](int&) {
     busy = true;
     while (!done) std::this_thread::yield();
@@ -61,7 +61,7 @@ TEST(WorkerLoop, AQuestionThatIsDroppedHasNoAnswer) {
   loop.push(1);
   while (!busy) std::this_thread::yield();
   std::thread asker([&] {
-    EXPECT_FALSE(loop.ask([] { return 1; }, loop_wait).has_value());
+    EXPECT_FALSE(loop.ask([] { return 1; }, kLoopWait).has_value());
     done = true;
   });
   while (!done) {  // each displaces what waits, the question at some time
@@ -75,12 +75,12 @@ TEST(WorkerLoop, AQuestionAfterTheEndHasNoAnswer) {
   Loop loop(1);
   loop.start(stepsWith([](int&) {}));
   loop.stop();
-  EXPECT_FALSE(loop.ask([] { return 1; }, loop_wait).has_value());
+  EXPECT_FALSE(loop.ask([] { return 1; }, kLoopWait).has_value());
 }
 
 TEST(WorkerLoop, IdlesWithoutInputsAndAtOnceWhenWoken) {
   std::atomic<int> idles{0};
-  Loop loop(1, loop_wait);
+  Loop loop(1, kLoopWait);
   Loop::Steps steps = stepsWith([](int&) {});
   steps.idle = [&] { return ++idles < 3; };  // busy twice: these rounds do not wait
   loop.wake();

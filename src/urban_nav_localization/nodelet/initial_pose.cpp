@@ -16,10 +16,10 @@ using urban_nav_core::UserError;
 namespace {
 
 // Of a robot on wheels beside the path of the map: kerbs and slopes up to some ten degrees.
-constexpr double height_sigma = 1.0;  // m
-constexpr double tilt_sigma = 0.2;    // rad
+constexpr double kHeightSigma = 1.0;  // m
+constexpr double kTiltSigma = 0.2;    // rad
 // The accuracy of a click on a map; a smaller variance, or none, was not set deliberately.
-constexpr double least_sigma = 0.01;  // m, rad
+constexpr double kLeastSigma = 0.01;  // m, rad
 
 std::string withoutSlash(const std::string& frame) { return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame; }
 
@@ -49,11 +49,11 @@ urban_nav_core::PoseWithCovariance toInitialPose(const geometry_msgs::PoseWithCo
         height = each.pose.t().z();
       }
     initial_pose.pose = urban_nav_core::Pose(pose->q(), {pose->t().x(), pose->t().y(), height});
-    covariance(2, 2) = height_sigma * height_sigma;
+    covariance(2, 2) = kHeightSigma * kHeightSigma;
   }
   for (const int tilt : {3, 4})
-    if (covariance(tilt, tilt) <= 0.0) covariance(tilt, tilt) = tilt_sigma * tilt_sigma;
-  covariance.diagonal().array() += least_sigma * least_sigma;
+    if (covariance(tilt, tilt) <= 0.0) covariance(tilt, tilt) = kTiltSigma * kTiltSigma;
+  covariance.diagonal().array() += kLeastSigma * kLeastSigma;
   return initial_pose;
 }
 

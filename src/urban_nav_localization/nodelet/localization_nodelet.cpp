@@ -29,7 +29,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-constexpr const char* place_recognition = "fabmap_node/KeyframePlaces";  // plugin that finds keyframes of the map
+constexpr const char* kPlaceRecognition = "fabmap_node/KeyframePlaces";  // plugin that finds keyframes of the map
 
 }  // namespace
 
@@ -106,9 +106,9 @@ void LocalizationStage::openMap() {
 
 std::shared_ptr<KeyframeRetrieval> LocalizationStage::makeRetrieval() {
   try {
-    return plugins_.createUniqueInstance(place_recognition);
+    return plugins_.createUniqueInstance(kPlaceRecognition);
   } catch (const pluginlib::PluginlibException& error) {
-    throw UserError(place_recognition, error.what(), "the package fabmap_node of the same installation");
+    throw UserError(kPlaceRecognition, error.what(), "the package fabmap_node of the same installation");
   }
 }
 
@@ -117,11 +117,11 @@ void LocalizationStage::subscribe() {
   urban_nav_ros::TopicOptions options;
   options.is_monitored = options.is_paused = false;
   options.queue = nodelet_.queue_size;
-  node_.subscribe<nav_msgs::Odometry>(urban_nav_ros::topics::vo_odometry, options, [this](const auto& message) {
+  node_.subscribe<nav_msgs::Odometry>(urban_nav_ros::topics::kVoOdometry, options, [this](const auto& message) {
     publisher_->sendTransform(urban_nav_ros::toStampNs(message->header.stamp));
   });
   node_.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
-      urban_nav_ros::topics::initial_pose, options, [this](const auto& message) {
+      urban_nav_ros::topics::kInitialPose, options, [this](const auto& message) {
         try {
           node_.push(LiveLocaliser::InitialPose{urban_nav_ros::toStampNs(message->header.stamp),
                                                 toInitialPose(*message, nodelet_.map_frame, "initialpose", map_)});
@@ -157,8 +157,8 @@ urban_nav_live::StageReport LocalizationStage::report() const {
   state.paused = node_.gate().isPaused();
   state.localiser = localiser_->state();
   state.map = nodelet_.store;
-  state.odometry_fault = node_.monitor().fault(urban_nav_ros::topic_groups::odometry);
-  state.image_fault = node_.monitor().fault(urban_nav_ros::topic_groups::images);
+  state.odometry_fault = node_.monitor().fault(urban_nav_ros::topic_groups::kOdometry);
+  state.image_fault = node_.monitor().fault(urban_nav_ros::topic_groups::kImages);
   state.camera_fault = inputs_->sessions().fault();
   state.laser_pose_fault = inputs_->laserFault();
   state.camera = inputs_->mountingFault();

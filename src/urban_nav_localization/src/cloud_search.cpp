@@ -27,9 +27,9 @@ using urban_nav_core::StampNs;
 using urban_nav_registration::align;
 using urban_nav_registration::Alignment;
 using urban_nav_registration::AlignmentPrior;
-using urban_nav_registration::coarse_resolution;
 using urban_nav_registration::deformationSigma;
 using urban_nav_registration::extractVerticalStructure;
+using urban_nav_registration::kCoarseResolution;
 using urban_nav_registration::LaserAt;
 using urban_nav_registration::LaserScans;
 using urban_nav_registration::localCloud;
@@ -45,18 +45,18 @@ using urban_nav_registration::VerticalStructure;
 
 namespace {
 
-constexpr double place_distance = 5.0;        // m between places of the map; a cloud extends twice as far to both sides
-constexpr double min_half_length = 3.0;       // m of a stretch that is searched for
-constexpr double min_firm_half_length = 5.0;  // m of a stretch whose match may start a hypothesis
-constexpr double query_distance = 2.0;        // m between queries
-constexpr double localized_query_distance = 5.0;  // m between queries while Localized
-constexpr std::size_t max_aligned_places = 3;     // of one query
+constexpr double kPlaceDistance = 5.0;      // m between places of the map; a cloud extends twice as far to both sides
+constexpr double kMinHalfLength = 3.0;      // m of a stretch that is searched for
+constexpr double kMinFirmHalfLength = 5.0;  // m of a stretch whose match may start a hypothesis
+constexpr double kQueryDistance = 2.0;      // m between queries
+constexpr double kLocalizedQueryDistance = 5.0;  // m between queries while Localized
+constexpr std::size_t kMaxAlignedPlaces = 3;     // of one query
 // Smallest overlap of the vertical structure without a pose prior. Of firm stretches, 95 of 100 correct matches have
 // 0.77 and more; false ones in courtyards that pass all other tests have 0.62 to 0.66, those of shorter stretches up to
 // 0.88.
-constexpr double min_overlap_without_prior = 0.7;
-constexpr double same_pose_distance = 1.0;   // m; results further apart contradict each other
-constexpr double max_nearby_distance = 8.0;  // m from the prior to a place that is tried first
+constexpr double kMinOverlapWithoutPrior = 0.7;
+constexpr double kSamePoseDistance = 1.0;   // m; results further apart contradict each other
+constexpr double kMaxNearbyDistance = 8.0;  // m from the prior to a place that is tried first
 
 /// Gapless part of a session of the map, and its lasers.
 struct Drive {
@@ -74,9 +74,9 @@ struct Place {
 
 /// Returns T_a_b extended by odometry from b on; directions without information keep next to none.
 Constraint carried(const Constraint& measured, const PoseWithCovariance& T_b_end) {
-  constexpr double metres_per_radian = 10.0;
+  constexpr double kMetresPerRadian = 10.0;
   const PoseWithCovariance end = compose(
-      PoseWithCovariance{measured.T_a_b, urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian)},
+      PoseWithCovariance{measured.T_a_b, urban_nav_core::covarianceForDisplay(measured.information, kMetresPerRadian)},
       T_b_end);
   Constraint made;
   made.T_a_b = end.pose;
@@ -90,7 +90,7 @@ class CloudSearch::Implementation {
  public:
   Implementation(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store)
       : parameters_(parameters), demanding_(parameters.registration) {
-    demanding_.min_shared = std::max(demanding_.min_shared, min_overlap_without_prior);
+    demanding_.min_shared = std::max(demanding_.min_shared, kMinOverlapWithoutPrior);
     for (const urban_nav_store::StoredTrajectory& session : map.sessions()) {
       const std::vector<LaserAt> lasers = storedLasers(store, session.session.id);
       if (lasers.empty()) continue;
@@ -105,7 +105,7 @@ class CloudSearch::Implementation {
     if (read_ < places_.size()) {
       Place& place = places_[read_++];
       place.structure = extractVerticalStructure(
-          makeSurfels(cloudAt(place), static_cast<float>(parameters_.registration.voxel_size)), coarse_resolution);
+          makeSurfels(cloudAt(place), static_cast<float>(parameters_.registration.voxel_size)), kCoarseResolution);
     }
     return read_ < places_.size();
   }
@@ -116,9 +116,9 @@ class CloudSearch::Implementation {
     const StampNs newest = odometry.trajectory().back().stamp;
     const double driven = odometry.distance(newest);
     const double way = std::min(parameters_.registration.cloud_half_length, driven / 2.0);
-    if (way < min_half_length) return std::nullopt;
+    if (way < kMinHalfLength) return std::nullopt;
     const bool is_known = localiser.now().state == LocalizationState::Localized;
-    const double distance = is_known ? localized_query_distance : query_distance;
+    const double distance = is_known ? kLocalizedQueryDistance : kQueryDistance;
     if (last_query_ && odometry.nearestFrame(*last_query_) && driven - odometry.distance(*last_query_) < distance)
       return std::nullopt;
     if (is_known && localiser.distanceSinceMatch() < distance) return std::nullopt;
@@ -144,7 +144,7 @@ class CloudSearch::Implementation {
     if (!seen) return false;
     // The match counts at the end of the stretch: all of it has been matched.
     localiser.addMatch(end, seen->T_map_place, carried(seen->measured, *T_middle_end),
-                       stretch.way >= min_firm_half_length);
+                       stretch.way >= kMinFirmHalfLength);
     return true;
   }
 
@@ -175,7 +175,7 @@ class CloudSearch::Implementation {
     for (const SessionOdometry::Part& part : odometry.parts()) drives_.push_back({part, scans});
     const Pose* last = nullptr;
     for (const urban_nav_core::StampedPose& pose : session.T_map_base) {
-      if (last != nullptr && distanceBetween(*last, pose.pose) < place_distance) continue;
+      if (last != nullptr && distanceBetween(*last, pose.pose) < kPlaceDistance) continue;
       const std::size_t part = odometry.partAt(pose.stamp);
       if (!odometry.parts()[part]->nearestFrame(pose.stamp)) continue;
       last = &pose.pose;
@@ -207,7 +207,7 @@ class CloudSearch::Implementation {
   std::optional<std::size_t> near(const LocalizationEstimate& prior) const {
     if (read_ == 0 || !isNearKnownPlace(prior)) return std::nullopt;
     const std::size_t nearest = nearestTo(prior.T_map_base->pose);
-    if (distanceBetween(places_[nearest].T_map_base, prior.T_map_base->pose) > max_nearby_distance) return std::nullopt;
+    if (distanceBetween(places_[nearest].T_map_base, prior.T_map_base->pose) > kMaxNearbyDistance) return std::nullopt;
     return nearest;
   }
 
@@ -222,20 +222,20 @@ class CloudSearch::Implementation {
   /// Returns the places whose vertical structure fits that of the cloud best, at different positions.
   std::vector<std::size_t> alike(const PointCloud& cloud) const {
     const VerticalStructure structure = extractVerticalStructure(
-        makeSurfels(cloud, static_cast<float>(parameters_.registration.voxel_size)), coarse_resolution);
+        makeSurfels(cloud, static_cast<float>(parameters_.registration.voxel_size)), kCoarseResolution);
     std::vector<std::pair<double, std::size_t>> scores;
     for (std::size_t i = 0; i < read_; ++i) {
       const std::vector<PoseCandidate> found =
           searchGlobally(structure, places_[i].structure, urban_nav_core::Vector3d::Zero(),
-                         parameters_.registration.search_radius, coarse_resolution);
+                         parameters_.registration.search_radius, kCoarseResolution);
       if (!found.empty()) scores.emplace_back(-found.front().score, i);
     }
     std::sort(scores.begin(), scores.end());
     std::vector<std::size_t> best;
     for (const auto& [score, i] : scores) {
-      if (best.size() == max_aligned_places) break;
+      if (best.size() == kMaxAlignedPlaces) break;
       const auto isBeside = [&, i = i](std::size_t other) {
-        return distanceBetween(places_[i].T_map_base, places_[other].T_map_base) < 0.9 * place_distance;
+        return distanceBetween(places_[i].T_map_base, places_[other].T_map_base) < 0.9 * kPlaceDistance;
       };
       if (std::none_of(best.begin(), best.end(), isBeside)) best.push_back(i);
     }
@@ -265,13 +265,13 @@ class CloudSearch::Implementation {
       const std::optional<MapMatch> found = at(place, queried, {SearchMode::AtOnce, places_[place].T_map_base, false});
       if (!found) continue;
       if (!seen) seen = found;
-      else if (distanceBetween(seen->T_map_base(), found->T_map_base()) > same_pose_distance) return std::nullopt;
+      else if (distanceBetween(seen->T_map_base(), found->T_map_base()) > kSamePoseDistance) return std::nullopt;
     }
     if (!seen) return std::nullopt;
     const std::size_t nearest = nearestTo(seen->T_map_base());
     if (nearest == seen->place) return seen;
     const auto there = at(nearest, queried, {SearchMode::Never, seen->T_map_base(), false});
-    if (!there || distanceBetween(seen->T_map_base(), there->T_map_base()) > same_pose_distance) return std::nullopt;
+    if (!there || distanceBetween(seen->T_map_base(), there->T_map_base()) > kSamePoseDistance) return std::nullopt;
     return there;
   }
 

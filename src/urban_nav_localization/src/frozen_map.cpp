@@ -8,8 +8,8 @@ namespace urban_nav_localization {
 
 using urban_nav_core::DataError;
 using urban_nav_core::StampNs;
-using urban_nav_registration::calibration_property;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kCalibrationProperty;
+using urban_nav_registration::kKeyframeCamera;
 
 using urban_nav_store::Store;
 using urban_nav_store::StoredTrajectory;
@@ -25,7 +25,7 @@ std::string readProperty(Store& store, const urban_nav_store::SessionId& id, con
 /// Returns the keyframes of a session that have a pose.
 std::vector<MapKeyframe> findKeyframes(Store& store, const StoredTrajectory& session) {
   std::vector<MapKeyframe> views;
-  const std::vector<StampNs> stamps = store.keyframes().stamps(session.session.id, keyframe_camera);
+  const std::vector<StampNs> stamps = store.keyframes().stamps(session.session.id, kKeyframeCamera);
   auto stamp = stamps.begin();
   for (const urban_nav_core::StampedPose& pose : session.T_map_base) {
     while (stamp != stamps.end() && *stamp < pose.stamp) ++stamp;
@@ -41,7 +41,7 @@ FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
   if (maps.empty()) throw DataError(path_, "holds no session", "");
   sessions_ = std::move(maps.front());
   for (const StoredTrajectory& session : sessions_) {
-    Views made{readProperty(store, session.session.id, calibration_property),
+    Views made{readProperty(store, session.session.id, kCalibrationProperty),
                urban_nav_localization::findKeyframes(store, session)};
     if (!made.views.empty()) views_.push_back(std::move(made));
   }

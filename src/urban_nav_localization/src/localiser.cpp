@@ -20,17 +20,17 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr std::size_t max_matches = 40;       // compared pair by pair
-constexpr int min_matches = 2;                // one may be false
-constexpr double min_match_distance = 0.5;    // m; nearer, a second match repeats the first one
-constexpr double metres_per_radian = 10.0;    // for directions without information
-constexpr double max_localized_sigma = 0.33;  // m; three of them are the metre that Localized promises
+constexpr std::size_t kMaxMatches = 40;      // compared pair by pair
+constexpr int kMinMatches = 2;               // one may be false
+constexpr double kMinMatchDistance = 0.5;    // m; nearer, a second match repeats the first one
+constexpr double kMetresPerRadian = 10.0;    // for directions without information
+constexpr double kMaxLocalizedSigma = 0.33;  // m; three of them are the metre that Localized promises
 // Probability that a query matches a wrong place: three registrations each, of which 3 of 2100 may be accepted at 95 %
 // confidence, since none of 2100 pairs of different places was (docs/results/registration.md).
-constexpr double false_match_rate = 3.0 * 3.0 / 2100.0;
-constexpr int max_misses = 3;             // consecutive queries without a match
-constexpr int min_contradictions = 3;     // consecutive consistent matches against all before them
-constexpr std::size_t max_steps = 20000;  // of odometry: 10 to 30 minutes, 1.1 kB each
+constexpr double kFalseMatchRate = 3.0 * 3.0 / 2100.0;
+constexpr int kMaxMisses = 3;             // consecutive queries without a match
+constexpr int kMinContradictions = 3;     // consecutive consistent matches against all before them
+constexpr std::size_t kMaxSteps = 20000;  // of odometry: 10 to 30 minutes, 1.1 kB each
 
 double positionSigma(const PoseWithCovariance& pose) {
   const auto values = urban_nav_core::symmetricEigenvalues(pose.covariance.topLeftCorner<3, 3>());
@@ -40,8 +40,8 @@ double positionSigma(const PoseWithCovariance& pose) {
 /// Returns the probability of the best hypothesis among three: it is right and all others are false, the next best one
 /// is right, or all are false; equally likely a priori.
 double computeProbability(int supporting_matches, int against) {
-  const double odds_best = std::pow((1.0 - false_match_rate) / false_match_rate, supporting_matches);
-  const double odds_other = std::pow((1.0 - false_match_rate) / false_match_rate, against);
+  const double odds_best = std::pow((1.0 - kFalseMatchRate) / kFalseMatchRate, supporting_matches);
+  const double odds_other = std::pow((1.0 - kFalseMatchRate) / kFalseMatchRate, against);
   return odds_best / (odds_best + odds_other + 1.0);
 }
 
@@ -81,12 +81,12 @@ Localiser::Localiser(const Parameters& parameters) : parameters_(parameters) {}
 bool Localiser::addOdometry(const urban_nav_core::RelativePose& step) {
   if (!odometry_.append(step)) return false;
   steps_.push_back(step);
-  if (steps_.size() >= max_steps) forgetOldSteps();
+  if (steps_.size() >= kMaxSteps) forgetOldSteps();
   return true;
 }
 
 void Localiser::forgetOldSteps() {
-  steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(max_steps / 2));
+  steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(kMaxSteps / 2));
   odometry_ = urban_nav_core::OdometryChain();
   for (const urban_nav_core::RelativePose& step : steps_) odometry_.append(step);
   const StampNs begin = steps_.front().from;
@@ -100,11 +100,11 @@ void Localiser::forgetOldSteps() {
 void Localiser::addMatch(StampNs b, const Pose& T_map_a, const Constraint& measured, bool is_firm) {
   MapMatch match;
   match.stamp = b;
-  const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian);
+  const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, kMetresPerRadian);
   const double sigma = parameters_.map_sigma;
   Matrix6d of_map = Matrix6d::Zero();
   of_map.diagonal() << Eigen::Vector3d::Constant(sigma * sigma),
-      Eigen::Vector3d::Constant(sigma * sigma / (metres_per_radian * metres_per_radian));
+      Eigen::Vector3d::Constant(sigma * sigma / (kMetresPerRadian * kMetresPerRadian));
   match.T_map_base = compose(PoseWithCovariance{T_map_a, of_map}, PoseWithCovariance{measured.T_a_b, covariance});
   match.may_begin = is_firm && positionSigma(match.T_map_base) < 1.0;
   if (match.T_map_base.pose.isFinite() && match.T_map_base.covariance.allFinite()) add(match);
@@ -129,9 +129,9 @@ void Localiser::add(const MapMatch& match) {
   const auto place = std::upper_bound(matches_.begin(), matches_.end(), match,
                                       [](const MapMatch& a, const MapMatch& b) { return a.stamp < b.stamp; });
   matches_.insert(place, match);
-  if (matches_.size() > max_matches) matches_.erase(matches_.begin());
+  if (matches_.size() > kMaxMatches) matches_.erase(matches_.begin());
   choose();
-  if (against() >= min_contradictions) {
+  if (against() >= kMinContradictions) {
     matches_.erase(matches_.begin(), matches_.begin() + static_cast<std::ptrdiff_t>(best_.members.back()) + 1);
     choose();
   }
@@ -170,7 +170,7 @@ Localiser::Hypothesis Localiser::around(std::size_t match) const {
     if (i != match && (!matches_[i].is_match || !agree(matches_[match], matches_[i]))) continue;
     made.members.push_back(i);
     const double here = odometry_.distance(matches_[i].stamp);
-    if (here - last < min_match_distance) continue;
+    if (here - last < kMinMatchDistance) continue;
     ++made.supporting_matches;
     last = here;
   }
@@ -251,7 +251,7 @@ LocalizationEstimate Localiser::at(StampNs stamp) const {
     estimate.sentence = sentence;
     return estimate;
   };
-  const bool finds_nothing = misses_ >= max_misses;
+  const bool finds_nothing = misses_ >= kMaxMisses;
   if (best_.members.empty() || !odometry_.nearestFrame(stamp))
     return finds_nothing ? because(LocalizationState::Unmapped, LocalizationReason::NothingSimilar,
                                    "nothing here looks like the map")
@@ -264,16 +264,16 @@ LocalizationEstimate Localiser::at(StampNs stamp) const {
   if (best_.supporting_matches == 0)
     return because(LocalizationState::Uncertain, LocalizationReason::InitialPoseOnly,
                    "it was given by hand, and nothing was matched yet");
-  if (best_.supporting_matches < min_matches)
+  if (best_.supporting_matches < kMinMatches)
     return because(LocalizationState::Uncertain, LocalizationReason::SingleMatch,
                    "one sighting, and no second one that agrees");
-  if (second_.supporting_matches >= best_.supporting_matches || against() >= min_matches)
+  if (second_.supporting_matches >= best_.supporting_matches || against() >= kMinMatches)
     return because(LocalizationState::Uncertain, LocalizationReason::Contested,
                    "as many sightings say that it is elsewhere");
-  if (unconfirmed_ >= max_misses)
+  if (unconfirmed_ >= kMaxMisses)
     return because(LocalizationState::Uncertain, LocalizationReason::NotConfirmed,
                    "the map's views of this place show something else");
-  if (sigma > max_localized_sigma)
+  if (sigma > kMaxLocalizedSigma)
     return because(finds_nothing ? LocalizationState::Unmapped : LocalizationState::Uncertain,
                    LocalizationReason::TooLongAgo,
                    "the last sighting is too long ago: odometry is good to " + metres(sigma));

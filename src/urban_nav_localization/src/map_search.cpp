@@ -18,8 +18,8 @@ using urban_nav_core::Constraint;
 using urban_nav_core::Pose;
 using urban_nav_registration::betweenBases;
 using urban_nav_registration::Keyframe;
-using urban_nav_registration::keyframe_camera;
 using urban_nav_registration::KeyframeRetrieval;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::MountedCamera;
 using urban_nav_registration::SearchedKeyframe;
 using urban_nav_registration::StereoClosure;
@@ -28,23 +28,23 @@ using urban_nav_registration::toKeyframe;
 
 namespace {
 
-constexpr double search_spacing = 1.5;               // m between keyframes of the map that are found in the whole map
-constexpr std::size_t max_registered_keyframes = 3;  // of one query
-constexpr double max_near_distance = 6.0;            // m from the prior to keyframes that are tried first, and
-constexpr double max_near_angle = 0.9;               // rad
-constexpr double max_sure_distance = 2.0;            // m; nearer, and
-constexpr double max_sure_angle = 0.35;              // rad, 92 to 100 of 100 match (docs/results/registration.md)
+constexpr double kSearchSpacing = 1.5;              // m between keyframes of the map that are found in the whole map
+constexpr std::size_t kMaxRegisteredKeyframes = 3;  // of one query
+constexpr double kMaxNearDistance = 6.0;            // m from the prior to keyframes that are tried first, and
+constexpr double kMaxNearAngle = 0.9;               // rad
+constexpr double kMaxSureDistance = 2.0;            // m; nearer, and
+constexpr double kMaxSureAngle = 0.35;              // rad, 92 to 100 of 100 match (docs/results/registration.md)
 // Keyframes from further apart share a distant wall rather than the surroundings of the robot, and walls have repeated
 // patterns: such a match starts no hypothesis, unless it determines the position so well that much of it was near. Of
 // 134 correct matches along one drive in the opposite direction 98 % are firm, of 12 false ones none.
-constexpr double max_firm_distance = 2.5;          // m, or
-constexpr double max_firm_sigma = 0.03;            // m
-constexpr double metres_per_radian_of_view = 4.0;  // a rotation costs as many matches as this distance
+constexpr double kMaxFirmDistance = 2.5;        // m, or
+constexpr double kMaxFirmSigma = 0.03;          // m
+constexpr double kMetresPerRadianOfView = 4.0;  // a rotation costs as many matches as this distance
 
 bool isFirm(const Constraint& measured) {
-  if (measured.T_a_b.t().norm() <= max_firm_distance) return true;
+  if (measured.T_a_b.t().norm() <= kMaxFirmDistance) return true;
   const auto covariance = urban_nav_core::invertPositiveDefinite(measured.information);
-  return covariance && covariance->topLeftCorner<3, 3>().trace() <= max_firm_sigma * max_firm_sigma;
+  return covariance && covariance->topLeftCorner<3, 3>().trace() <= kMaxFirmSigma * kMaxFirmSigma;
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ class MapSearch::Implementation {
     std::map<urban_nav_store::SessionId, Pose> last;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const auto before = last.find(views_[i].session);
-      if (before != last.end() && distanceBetween(before->second, views_[i].T_map_base) < search_spacing &&
-          angleBetween(before->second, views_[i].T_map_base) < max_near_angle / 4.0)
+      if (before != last.end() && distanceBetween(before->second, views_[i].T_map_base) < kSearchSpacing &&
+          angleBetween(before->second, views_[i].T_map_base) < kMaxNearAngle / 4.0)
         continue;
       last[views_[i].session] = views_[i].T_map_base;
       searched_.push_back(i);
@@ -79,14 +79,14 @@ class MapSearch::Implementation {
   bool query(const Keyframe& view, Localiser& localiser) {
     const LocalizationEstimate prior = localiser.at(view.at.stamp);
     const std::vector<std::size_t> nearest = isNearKnownPlace(prior)
-                                                 ? near(prior.T_map_base->pose, max_near_distance, max_near_angle)
+                                                 ? near(prior.T_map_base->pose, kMaxNearDistance, kMaxNearAngle)
                                                  : std::vector<std::size_t>();
     std::optional<MapMatch> seen = findFirst(nearest, view);
     // The prior may be wrong, and the robot may have been carried elsewhere: without a match near it, search the whole
     // map.
     if (!seen) {
       std::vector<std::size_t> found;
-      for (const std::size_t each : retrieval_->find(view, max_registered_keyframes)) found.push_back(searched_[each]);
+      for (const std::size_t each : retrieval_->find(view, kMaxRegisteredKeyframes)) found.push_back(searched_[each]);
       seen = findFirst(found, view);
     }
     if (seen) localiser.addMatch(view.at.stamp, views_[seen->view].T_map_base, seen->measured, isFirm(seen->measured));
@@ -101,7 +101,7 @@ class MapSearch::Implementation {
   };
 
   Keyframe keyframe(const MapKeyframe& view) const {
-    const auto stored = store_.get(view.session, keyframe_camera, view.stamp);
+    const auto stored = store_.get(view.session, kKeyframeCamera, view.stamp);
     Keyframe made;
     made.at = {view.session, view.stamp};
     if (stored) made = toKeyframe(*stored, view.session);
@@ -111,8 +111,8 @@ class MapSearch::Implementation {
   /// Returns whether a robot at the prior should match the keyframe.
   static bool shows(const MapKeyframe& view, const LocalizationEstimate& prior) {
     return prior.state == LocalizationState::Localized &&
-           distanceBetween(view.T_map_base, prior.T_map_base->pose) <= max_sure_distance &&
-           angleBetween(view.T_map_base, prior.T_map_base->pose) <= max_sure_angle;
+           distanceBetween(view.T_map_base, prior.T_map_base->pose) <= kMaxSureDistance &&
+           angleBetween(view.T_map_base, prior.T_map_base->pose) <= kMaxSureAngle;
   }
 
   /// Returns the first keyframe that can be registered: a second one of the same place is no second match. If it places
@@ -121,7 +121,7 @@ class MapSearch::Implementation {
     const std::optional<MapMatch> seen = registered(views, view);
     if (!seen || isFirm(seen->measured)) return seen;
     const std::vector<std::size_t> nearest =
-        near(views_[seen->view].T_map_base * seen->measured.T_a_b, max_sure_distance, max_sure_angle);
+        near(views_[seen->view].T_map_base * seen->measured.T_a_b, kMaxSureDistance, kMaxSureAngle);
     return nearest.empty() ? seen : registered(nearest, view);
   }
   std::optional<MapMatch> registered(const std::vector<std::size_t>& views, const Keyframe& view) {
@@ -138,11 +138,11 @@ class MapSearch::Implementation {
     std::vector<std::pair<double, std::size_t>> costs;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const double way = distanceBetween(views_[i].T_map_base, here), turn = angleBetween(views_[i].T_map_base, here);
-      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + metres_per_radian_of_view * turn, i);
+      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + kMetresPerRadianOfView * turn, i);
     }
     std::sort(costs.begin(), costs.end());
     std::vector<std::size_t> nearest;
-    for (std::size_t i = 0; i < std::min(costs.size(), max_registered_keyframes); ++i)
+    for (std::size_t i = 0; i < std::min(costs.size(), kMaxRegisteredKeyframes); ++i)
       nearest.push_back(costs[i].second);
     return nearest;
   }

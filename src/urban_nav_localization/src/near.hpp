@@ -8,11 +8,11 @@ namespace urban_nav_localization {
 /// Returns whether an estimate tells which places of the map are near: if Localized, or if an initial pose is accurate
 /// enough. A single match does not, since it may be false.
 inline bool isNearKnownPlace(const LocalizationEstimate& estimate) {
-  constexpr double max_initial_sigma = 2.0;  // m
+  constexpr double kMaxInitialSigma = 2.0;  // m
   if (!estimate.T_map_base) return false;
   if (estimate.state == LocalizationState::Localized) return true;
   return estimate.supporting_matches == 0 &&
-         estimate.T_map_base->covariance.topLeftCorner<3, 3>().trace() <= max_initial_sigma * max_initial_sigma;
+         estimate.T_map_base->covariance.topLeftCorner<3, 3>().trace() <= kMaxInitialSigma * kMaxInitialSigma;
 }
 
 }  // namespace urban_nav_localization

@@ -26,23 +26,23 @@ using urban_nav_core::StampNs;
 using urban_nav_core::testing::Scanner;
 using urban_nav_core::testing::World;
 using urban_nav_registration::Keyframe;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::LaserScans;
 using urban_nav_registration::localCloud;
 using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-constexpr double per_step = 0.1;             // m
-constexpr StampNs period = 100'000'000;      // ns
-constexpr StampNs day = 86'400'000'000'000;  // ns
-constexpr int frames = 280;
+constexpr double kPerStep = 0.1;              // m
+constexpr StampNs kPeriod = 100'000'000;      // ns
+constexpr StampNs kDay = 86'400'000'000'000;  // ns
+constexpr int kFrames = 280;
 
 /// Through the courtyard and, the other day, back a metre and a half beside.
-Pose there(int i) { return Pose(Eigen::Quaterniond::Identity(), {per_step * i - 14.0, -0.75, 0.0}); }
+Pose there(int i) { return Pose(Eigen::Quaterniond::Identity(), {kPerStep * i - 14.0, -0.75, 0.0}); }
 Pose back(int i) {
   return Pose(Eigen::Quaterniond(Eigen::AngleAxisd(3.14159265358979, Eigen::Vector3d::UnitZ())),
-              {14.0 - per_step * i, 0.75, 0.0});
+              {14.0 - kPerStep * i, 0.75, 0.0});
 }
 
 /// Beams that are thrown up and down on both sides of the robot, a little forward, so that fronts across the way are
@@ -56,7 +56,7 @@ Scan scanAt(const World& world, const Pose& T_world_laser, StampNs stamp) {
   Scan scan;
   scan.stamp = stamp;
   for (const Eigen::Vector3f& p :
-       urban_nav_core::testing::scan(world, T_world_laser, scanner, static_cast<std::uint64_t>(stamp / period)).points)
+       urban_nav_core::testing::scan(world, T_world_laser, scanner, static_cast<std::uint64_t>(stamp / kPeriod)).points)
     scan.beams.push_back({stamp, p.normalized(), p.norm(), 1.0F});
   return scan;
 }
@@ -71,8 +71,8 @@ Pose laser(double heading) {
 
 RelativePose stepTo(int i, const Pose& before, const Pose& now, StampNs since) {
   RelativePose step;
-  step.from = since + (i - 1) * period;
-  step.to = since + i * period;
+  step.from = since + (i - 1) * kPeriod;
+  step.to = since + i * kPeriod;
   step.T_from_to = before.inverse() * now;
   step.covariance = 1e-7 * urban_nav_core::Matrix6d::Identity();
   step.source = "swf_vo";
@@ -95,15 +95,15 @@ class CloudSearchTest : public ::testing::Test {
     store_->sessions().put(urban_nav_store::Session{id_, "first", "", "", 0, true});
     Keyframe keyframe;  // a map without any view is none
     keyframe.width = keyframe.height = 1;
-    store_->keyframes().put(id_, keyframe_camera, toStoredKeyframe(keyframe));
+    store_->keyframes().put(id_, kKeyframeCamera, toStoredKeyframe(keyframe));
     for (std::size_t l = 0; l < 2; ++l)
       store_->sessions().put(id_, urban_nav_store::Extrinsic{"laser_" + std::to_string(l), lasers_[l]});
-    for (int i = 0; i < frames; ++i) {
-      urban_nav_store::Node node{i * period, there(0).inverse() * there(i)};
+    for (int i = 0; i < kFrames; ++i) {
+      urban_nav_store::Node node{i * kPeriod, there(0).inverse() * there(i)};
       if (i > 0) node.covariance = 1e-7 * urban_nav_core::Matrix6d::Identity();
       store_->graph().put(id_, node);
       for (std::size_t l = 0; scans && l < 2; ++l)
-        store_->scans().put(id_, "laser_" + std::to_string(l), scanAt(world, there(i) * lasers_[l], i * period));
+        store_->scans().put(id_, "laser_" + std::to_string(l), scanAt(world, there(i) * lasers_[l], i * kPeriod));
     }
     store_->commit();
     frozen_.emplace(*store_);
@@ -114,8 +114,8 @@ class CloudSearchTest : public ::testing::Test {
   /// The second one, up to a frame.
   void drive(const World& world, int last) {
     for (; driven_ <= last; ++driven_) {
-      const StampNs stamp = day + driven_ * period;
-      ASSERT_TRUE(driven_ == 0 || localiser_.addOdometry(stepTo(driven_, back(driven_ - 1), back(driven_), day)));
+      const StampNs stamp = kDay + driven_ * kPeriod;
+      ASSERT_TRUE(driven_ == 0 || localiser_.addOdometry(stepTo(driven_, back(driven_ - 1), back(driven_), kDay)));
       for (std::size_t l = 0; l < 2; ++l) scans_[l].push_back(scanAt(world, back(driven_) * lasers_[l], stamp));
       const auto stretch = search_->due(localiser_);
       if (!stretch) continue;
@@ -153,12 +153,12 @@ TEST_F(CloudSearchTest, FindsARobotThatDrivesTheOtherWay) {
   EXPECT_EQ(search_->places(), 6U) << "28 m";
   drive(world, 55);
   EXPECT_EQ(looks_, 0) << "less than six metres are too few";
-  drive(world, frames - 1);
+  drive(world, kFrames - 1);
   EXPECT_GE(looks_, 5);
   EXPECT_GE(matches_, 3);
   const LocalizationEstimate estimate = localiser_.now();
   ASSERT_EQ(estimate.state, LocalizationState::Localized) << estimate.sentence;
-  const Pose truth = there(0).inverse() * back(frames - 1);
+  const Pose truth = there(0).inverse() * back(kFrames - 1);
   EXPECT_LT(distanceBetween(estimate.T_map_base->pose, truth), 0.1);
   EXPECT_LT(angleBetween(estimate.T_map_base->pose, truth), 0.01);
 }
@@ -188,7 +188,7 @@ TEST_F(CloudSearchTest, AsksForNothingWithoutScansOfTheMapOrWhileTheRobotIsSeen)
 TEST_F(CloudSearchTest, AStretchWithoutBeamsIsNoSighting) {
   const World world = urban_nav_core::testing::courtyard(4);
   map(world);
-  for (int i = 1; i <= 80; ++i) ASSERT_TRUE(localiser_.addOdometry(stepTo(i, back(i - 1), back(i), day)));
+  for (int i = 1; i <= 80; ++i) ASSERT_TRUE(localiser_.addOdometry(stepTo(i, back(i - 1), back(i), kDay)));
   const auto stretch = search_->due(localiser_);
   ASSERT_TRUE(stretch);
   EXPECT_NEAR(stretch->way, 4.0, 0.2) << "all there is";

@@ -22,15 +22,15 @@ using urban_nav_core::DataError;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::testing::lookingAlong;
-using urban_nav_registration::calibration_property;
 using urban_nav_registration::calibrationFingerprint;
+using urban_nav_registration::kCalibrationProperty;
 using urban_nav_registration::Keyframe;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-constexpr StampNs second = 1'000'000'000;
+constexpr StampNs kSecond = 1'000'000'000;
 
 /// Finds what the test expects to be found.
 class GivenRetrieval final : public urban_nav_registration::KeyframeRetrieval {
@@ -42,7 +42,7 @@ class GivenRetrieval final : public urban_nav_registration::KeyframeRetrieval {
     ++queries;
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < keyframes.size() && found.size() < most; ++i)
-      if (std::abs(keyframes[i].at.stamp - wanted) <= second) found.push_back(i);
+      if (std::abs(keyframes[i].at.stamp - wanted) <= kSecond) found.push_back(i);
     return found;
   }
 
@@ -62,7 +62,7 @@ class MapSearchTest : public ::testing::Test {
     std::filesystem::create_directories(folder_);
     store_.emplace((folder_ / "store.db").string(), Access::Write);
     store_->sessions().put(urban_nav_store::Session{id_, "day", "", "", 0, true});
-    store_->sessions().put(id_, urban_nav_store::Property{calibration_property, words()});
+    store_->sessions().put(id_, urban_nav_store::Property{kCalibrationProperty, words()});
   }
   void TearDown() override {
     store_.reset();
@@ -72,10 +72,10 @@ class MapSearchTest : public ::testing::Test {
   static Pose place(double x, double y = 0.0) { return lookingAlong({4.0 + x, y, 1.2}, 0.0); }
   void drive(int metres) {
     for (int i = 0; i <= metres; ++i) {
-      store_->graph().put(id_, urban_nav_store::Node{i * second, place(i)});
+      store_->graph().put(id_, urban_nav_store::Node{i * kSecond, place(i)});
       Keyframe view = street_.keyframe(place(i));
-      view.at.stamp = i * second;
-      store_->keyframes().put(id_, keyframe_camera, toStoredKeyframe(view));
+      view.at.stamp = i * kSecond;
+      store_->keyframes().put(id_, kKeyframeCamera, toStoredKeyframe(view));
     }
     store_->commit();
   }
@@ -83,15 +83,15 @@ class MapSearchTest : public ::testing::Test {
   Keyframe visit(int i, double carried = 0.0) {
     if (i > 0) {
       urban_nav_core::RelativePose step;
-      step.from = (i - 1) * second;
-      step.to = i * second;
+      step.from = (i - 1) * kSecond;
+      step.to = i * kSecond;
       step.T_from_to = place(i - 1, 0.3).inverse() * place(i, 0.3);
       step.covariance *= 1e-6;
       EXPECT_TRUE(localiser_.addOdometry(step));
     }
-    retrieval_->wanted = static_cast<StampNs>((i + carried) * static_cast<double>(second));
+    retrieval_->wanted = static_cast<StampNs>((i + carried) * static_cast<double>(kSecond));
     Keyframe view = street_.keyframe(place(i + carried, 0.3), 0.8);
-    view.at.stamp = i * second;
+    view.at.stamp = i * kSecond;
     return view;
   }
 
@@ -117,7 +117,7 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverTheInitialPose) {
   EXPECT_LT(search.views(), 13U) << "those that are near to another one are found by it";
   visit(0);
   const Keyframe first = visit(1);
-  localiser_.addInitialPose(second, {place(11), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  localiser_.addInitialPose(kSecond, {place(11), 0.01 * urban_nav_core::Matrix6d::Identity()});
   EXPECT_TRUE(search.query(first, localiser_)) << "there is nothing of it where it was assumed to be";
   EXPECT_EQ(localiser_.now().reason, LocalizationReason::SingleMatch);
   EXPECT_TRUE(search.query(visit(2), localiser_));
@@ -152,7 +152,7 @@ TEST_F(MapSearchTest, WhatIsNoViewIsALookInVain) {
   visit(0);
   visit(1);
   Keyframe nothing;
-  nothing.at.stamp = second;
+  nothing.at.stamp = kSecond;
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(search.query(nothing, localiser_));
   EXPECT_EQ(localiser_.now().state, LocalizationState::Unmapped);
 }
@@ -160,7 +160,7 @@ TEST_F(MapSearchTest, WhatIsNoViewIsALookInVain) {
 TEST_F(MapSearchTest, AStoreWithoutSessionViewsOrCameraIsNamed) {
   EXPECT_THROW(FrozenMap{*store_}, DataError) << "no views";
   drive(1);
-  store_->sessions().put(id_, urban_nav_store::Property{calibration_property, "640x480 1 2 3"});
+  store_->sessions().put(id_, urban_nav_store::Property{kCalibrationProperty, "640x480 1 2 3"});
   const FrozenMap map(*store_);
   try {
     map.findKeyframes({street_.camera(), Pose()});

@@ -32,8 +32,8 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::Dice;
 using urban_nav_core::testing::processMs;
 
-constexpr double degrees = 57.29577951308232;
-constexpr double right_m = 0.3, right_deg = 2.0;  // of a random start
+constexpr double kDegrees = 57.29577951308232;
+constexpr double kRightM = 0.3, kRightDeg = 2.0;  // of a random start
 
 struct Options {
   std::string peers, output;
@@ -94,8 +94,8 @@ std::size_t startsRight(const Pair& pair, std::size_t starts) {
         pair.T_target_source;
     const Alignment found = align(pair.source, pair.target, {}, start);
     right += found.verdict == ClosureVerdict::Accepted &&
-             distanceBetween(found.T_target_source, pair.T_target_source) < right_m &&
-             degrees * angleBetween(found.T_target_source, pair.T_target_source) < right_deg;
+             distanceBetween(found.T_target_source, pair.T_target_source) < kRightM &&
+             kDegrees * angleBetween(found.T_target_source, pair.T_target_source) < kRightDeg;
   }
   return right;
 }
@@ -110,7 +110,7 @@ void addPair(const Pair& pair, const Options& options, BenchTable& table) {
   }
   std::nth_element(ms.begin(), ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2), ms.end());
   table.add({pair.name, "urban_nav", cell(distanceBetween(found.T_target_source, pair.T_target_source), 4),
-             cell(degrees * angleBetween(found.T_target_source, pair.T_target_source), 3), toString(found.verdict),
+             cell(kDegrees * angleBetween(found.T_target_source, pair.T_target_source), 3), toString(found.verdict),
              cell(ms[ms.size() / 2], 1),
              std::to_string(startsRight(pair, options.starts)) + " of " + std::to_string(options.starts)});
 }

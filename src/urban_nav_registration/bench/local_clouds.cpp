@@ -58,11 +58,11 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
-constexpr double place_radius_m = 9.0;  // loop_metric.place_radius
-constexpr double degrees = 57.29577951308232;
-constexpr double elsewhere_m = 10.0;              // from here on it is another place
-constexpr double wrong_m = 0.5, wrong_deg = 3.0;  // beyond, a transform is a mistake rather than inexact
-constexpr double least_way_m = 25.0;              // between places of one day: their clouds share no beam
+constexpr double kPlaceRadiusM = 9.0;  // loop_metric.place_radius
+constexpr double kDegrees = 57.29577951308232;
+constexpr double kElsewhereM = 10.0;              // from here on it is another place
+constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is a mistake rather than inexact
+constexpr double kLeastWayM = 25.0;               // between places of one day: their clouds share no beam
 
 struct Place {
   int day = 0;
@@ -90,7 +90,7 @@ struct Class {
   const char* name;
   double least_deg, most_deg;
 };
-constexpr std::array<Class, 3> classes = {
+constexpr std::array<Class, 3> kClasses = {
     {{"same direction", 0.0, 45.0}, {"across", 45.0, 135.0}, {"opposite direction", 135.0, 181.0}}};
 
 struct Tally {
@@ -110,28 +110,28 @@ class Program {
   void run(const std::string& folder, BenchTable& table) {
     const std::string name = folder.substr(folder.find_last_of('/') + 1);
     const std::vector<Place> places = readPlaces(folder);
-    std::array<std::vector<std::pair<std::size_t, std::size_t>>, classes.size() + 1> pairs;
+    std::array<std::vector<std::pair<std::size_t, std::size_t>>, kClasses.size() + 1> pairs;
     for (std::size_t i = 0; i < places.size(); ++i)
       for (std::size_t j = i + 1; j < places.size(); ++j) {
         const Place &a = places[i], &b = places[j];
-        if (a.day == b.day && std::abs(a.way - b.way) < least_way_m) continue;
+        if (a.day == b.day && std::abs(a.way - b.way) < kLeastWayM) continue;
         const double apart = urban_nav_core::distanceBetween(a.T_world_base, b.T_world_base);
-        const double turned = degrees * urban_nav_core::angleBetween(a.T_world_base, b.T_world_base);
-        if (apart > elsewhere_m) pairs.back().emplace_back(i, j);
-        if (apart > place_radius_m) continue;
-        for (std::size_t k = 0; k < classes.size(); ++k)
-          if (turned >= classes[k].least_deg && turned < classes[k].most_deg) pairs[k].emplace_back(i, j);
+        const double turned = kDegrees * urban_nav_core::angleBetween(a.T_world_base, b.T_world_base);
+        if (apart > kElsewhereM) pairs.back().emplace_back(i, j);
+        if (apart > kPlaceRadiusM) continue;
+        for (std::size_t k = 0; k < kClasses.size(); ++k)
+          if (turned >= kClasses[k].least_deg && turned < kClasses[k].most_deg) pairs[k].emplace_back(i, j);
       }
     urban_nav_core::testing::Dice dice(1);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const std::size_t most = k < classes.size() ? options_.true_pairs : options_.false_pairs;
+      const std::size_t most = k < kClasses.size() ? options_.true_pairs : options_.false_pairs;
       auto& chosen = pairs[k];
       for (std::size_t i = 0; i + 1 < chosen.size(); ++i)
         std::swap(chosen[i], chosen[i + dice.below(chosen.size() - i)]);
       chosen.resize(std::min(chosen.size(), most));
       Tally tally;
       for (const auto& [i, j] : chosen)
-        see(name, places, i, j, k < classes.size() ? classes[k].name : "another place", tally);
+        see(name, places, i, j, k < kClasses.size() ? kClasses[k].name : "another place", tally);
       addRow(table, name, k, tally);
     }
   }
@@ -148,7 +148,7 @@ class Program {
     tally.ms.push_back(processMs() - before);
     ++tally.pairs;
     const double metres = urban_nav_core::distanceBetween(alignment.T_target_source, truth),
-                 deg = degrees * urban_nav_core::angleBetween(alignment.T_target_source, truth);
+                 deg = kDegrees * urban_nav_core::angleBetween(alignment.T_target_source, truth);
     const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, alignment.T_target_source);
     const double nees = d.dot(alignment.information * d);
     if (options_.list) list(name, i, j, kind, alignment, truth, d);
@@ -157,17 +157,17 @@ class Program {
       ++tally.degenerate;
       return;
     }
-    if (alignment.T_target_source.t().norm() > place_radius_m) return;  // the caller's own test
+    if (alignment.T_target_source.t().norm() > kPlaceRadiusM) return;  // the caller's own test
     tally.metres.push_back(metres);
     tally.deg.push_back(deg);
     tally.nees.push_back(nees);
-    if (metres > wrong_m || deg > wrong_deg) ++tally.wrong;
+    if (metres > kWrongM || deg > kWrongDeg) ++tally.wrong;
   }
 
   static void list(const std::string& name, std::size_t i, std::size_t j, const char* kind, const Alignment& alignment,
                    const Pose& truth, const urban_nav_core::Vector6d& d) {
     std::printf("%s,%zu,%zu,%s,%s,%s,%.3f,%.4f,%.4f,%.3f,%zu", name.c_str(), i, j, kind, toString(alignment.verdict),
-                toString(alignment.reason), truth.t().norm(), d.head<3>().norm(), degrees * d.tail<3>().norm(),
+                toString(alignment.reason), truth.t().norm(), d.head<3>().norm(), kDegrees * d.tail<3>().norm(),
                 d.dot(alignment.information * d), alignment.free_directions.size());
     for (const AlignmentTest& test : alignment.tests) std::printf(",%s=%.4f", test.name.c_str(), test.value);
     for (int k = 0; k < 6; ++k)
@@ -178,7 +178,7 @@ class Program {
 
   static void addRow(BenchTable& table, const std::string& name, std::size_t k, const Tally& tally) {
     if (tally.pairs == 0) return;
-    const bool one_place = k < classes.size();
+    const bool one_place = k < kClasses.size();
     const auto spread = [&](const std::vector<double>& values, double unit, int decimals) {
       return values.empty() || !one_place ? "-"
                                           : cell(unit * quantile(values, 0.5), decimals) + " (" +
@@ -188,7 +188,7 @@ class Program {
     for (const double one : tally.nees) nees += one / static_cast<double>(tally.nees.size());
     const double share = 100.0 * static_cast<double>(tally.metres.size()) / static_cast<double>(tally.pairs);
     table.add(
-        {name, one_place ? classes[k].name : "another place", std::to_string(tally.pairs),
+        {name, one_place ? kClasses[k].name : "another place", std::to_string(tally.pairs),
          one_place ? cell(share, 0) + " % (" + std::to_string(tally.wrong) + ")" : std::to_string(tally.metres.size()),
          std::to_string(tally.degenerate), spread(tally.metres, 100.0, 1), spread(tally.deg, 1.0, 2),
          one_place && !tally.nees.empty() ? cell(nees, 1) + " (" + cell(quantile(tally.nees, 0.5), 1) + ")" : "-",

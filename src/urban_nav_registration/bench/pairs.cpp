@@ -61,11 +61,11 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
-constexpr double elsewhere_m = 40.0;  // from here on it is another place
-constexpr double degrees = 57.29577951308232;
+constexpr double kElsewhereM = 40.0;  // from here on it is another place
+constexpr double kDegrees = 57.29577951308232;
 
-constexpr double wrong_m = 0.5, wrong_deg = 3.0;  // beyond, a transform is a mistake rather than inexact
-constexpr std::size_t peers_every = 3;            // pairs: they take their time
+constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is a mistake rather than inexact
+constexpr std::size_t kPeersEvery = 3;            // pairs: they take their time
 
 struct Outcome {
   double metres = 0.0, deg = 0.0, nees = 0.0;
@@ -82,7 +82,7 @@ struct Tally {
     ms.push_back(taken);
     if (!T_a_b) return;
     Outcome outcome{urban_nav_core::distanceBetween(*T_a_b, truth),
-                    degrees * urban_nav_core::angleBetween(*T_a_b, truth), 0.0};
+                    kDegrees * urban_nav_core::angleBetween(*T_a_b, truth), 0.0};
     if (information != nullptr) {
       const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, *T_a_b);
       outcome.nees = d.dot(*information * d);
@@ -96,7 +96,7 @@ struct Tally {
   }
   std::string share() const {
     const auto wrong = std::count_if(upgraded.begin(), upgraded.end(),
-                                     [](const Outcome& one) { return one.metres > wrong_m || one.deg > wrong_deg; });
+                                     [](const Outcome& one) { return one.metres > kWrongM || one.deg > kWrongDeg; });
     return pairs == 0 ? "-"
                       : cell(100.0 * static_cast<double>(upgraded.size()) / static_cast<double>(pairs), 0) + " % (" +
                             std::to_string(wrong) + ")";
@@ -132,15 +132,15 @@ struct Class {
   const char* name;
   double least_m, most_m, least_deg, most_deg;
 };
-constexpr std::array<Class, 6> classes = {{{"up to 1 m, turned by less than 20 deg", 0.0, 1.0, 0.0, 20.0},
-                                           {"1 to 2 m", 1.0, 2.0, 0.0, 20.0},
-                                           {"2 to 4 m", 2.0, 4.0, 0.0, 20.0},
-                                           {"4 to 7.5 m", 4.0, 7.5, 0.0, 20.0},
-                                           {"up to 4 m, turned by 20 to 30 deg", 0.0, 4.0, 20.0, 30.0},
-                                           {"up to 4 m, turned by 30 to 40 deg", 0.0, 4.0, 30.0, 40.0}}};
+constexpr std::array<Class, 6> kClasses = {{{"up to 1 m, turned by less than 20 deg", 0.0, 1.0, 0.0, 20.0},
+                                            {"1 to 2 m", 1.0, 2.0, 0.0, 20.0},
+                                            {"2 to 4 m", 2.0, 4.0, 0.0, 20.0},
+                                            {"4 to 7.5 m", 4.0, 7.5, 0.0, 20.0},
+                                            {"up to 4 m, turned by 20 to 30 deg", 0.0, 4.0, 20.0, 30.0},
+                                            {"up to 4 m, turned by 30 to 40 deg", 0.0, 4.0, 30.0, 40.0}}};
 
 const Class* classify(double metres, double deg) {
-  for (const Class& one : classes)
+  for (const Class& one : kClasses)
     if (metres >= one.least_m && metres < one.most_m && deg >= one.least_deg && deg < one.most_deg) return &one;
   return nullptr;
 }
@@ -170,14 +170,14 @@ class Program {
     std::cout << name << ": keyframes " << cell(quantile(ms, 0.5), 1) << " ms, " << cell(quantile(sizes, 0.5), 0)
               << " kB (95 %: " << cell(quantile(sizes, 0.95), 0) << "), " << quantile(points, 0.5)
               << " points (5 %: " << quantile(points, 0.05) << ")\n";
-    std::array<Tally, classes.size()> ours, sift, orb;
+    std::array<Tally, kClasses.size()> ours, sift, orb;
     for (std::size_t i = 0; i < keyframes.size(); ++i)
       for (std::size_t j = i + 1; j < keyframes.size(); ++j) {
         const Pose truth = recording.truth[i].inverse() * recording.truth[j];
-        const double metres = truth.t().norm(), deg = degrees * urban_nav_core::angleBetween(truth, Pose());
+        const double metres = truth.t().norm(), deg = kDegrees * urban_nav_core::angleBetween(truth, Pose());
         const Class* kind = classify(metres, deg);
         if (kind == nullptr) continue;
-        const auto k = static_cast<std::size_t>(kind - classes.data());
+        const auto k = static_cast<std::size_t>(kind - kClasses.data());
         StereoMatcher matcher(recording.camera, parameters_);  // nothing kept from before: all in
         const double before = processMs();
         const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
@@ -188,7 +188,7 @@ class Program {
         ours[k].see(T_a_b, &closure.lefts.information, truth, taken);
         if (options_.list) list(name, i, j, truth, closure);
         draw(name, keyframes[i], keyframes[j], closure);
-        if (!options_.peers || ours[k].pairs % peers_every != 1) continue;
+        if (!options_.peers || ours[k].pairs % kPeersEvery != 1) continue;
         for (const bench::Feature feature : {bench::Feature::Sift, bench::Feature::Orb}) {
           const double start = processMs();
           const auto pose =
@@ -196,7 +196,7 @@ class Program {
           (feature == bench::Feature::Sift ? sift : orb)[k].see(pose, nullptr, truth, processMs() - start);
         }
       }
-    for (std::size_t k = 0; k < classes.size(); ++k) addRow(table, name, classes[k].name, ours[k], sift[k], orb[k]);
+    for (std::size_t k = 0; k < kClasses.size(); ++k) addRow(table, name, kClasses[k].name, ours[k], sift[k], orb[k]);
     falsePairs(name, recording, keyframes, table);
   }
 
@@ -231,9 +231,9 @@ class Program {
     const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, closure.lefts.T_a_b);
     std::printf(
         "%s %zu %zu: %.2f m %.1f deg | put %d con %d vis %d match %d like %.3f err %.3f px noise %.2f | %s | %.1f cm %.3f deg nees %.1f | %s\n",
-        name.c_str(), i, j, truth.t().norm(), degrees * urban_nav_core::angleBetween(truth, Pose()), closure.putative,
+        name.c_str(), i, j, truth.t().norm(), kDegrees * urban_nav_core::angleBetween(truth, Pose()), closure.putative,
         closure.consensus, closure.visible, closure.matches, closure.likeness, closure.reprojection_px,
-        closure.noise_factor, toString(closure.reason), 100.0 * d.head<3>().norm(), degrees * d.tail<3>().norm(),
+        closure.noise_factor, toString(closure.reason), 100.0 * d.head<3>().norm(), kDegrees * d.tail<3>().norm(),
         d.dot(closure.lefts.information * d), (whitened(closure, d) + "# " + raw(d)).c_str());
   }
 
@@ -243,7 +243,7 @@ class Program {
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t tried = 0; tried < 50 * options_.false_pairs && pairs.size() < options_.false_pairs; ++tried) {
       const std::size_t i = dice.below(keyframes.size()), j = dice.below(keyframes.size());
-      if (urban_nav_core::distanceBetween(recording.truth[i], recording.truth[j]) > elsewhere_m)
+      if (urban_nav_core::distanceBetween(recording.truth[i], recording.truth[j]) > kElsewhereM)
         pairs.emplace_back(i, j);
     }
     if (pairs.empty()) return;

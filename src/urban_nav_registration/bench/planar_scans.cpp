@@ -24,7 +24,7 @@ using namespace urban_nav_registration;
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::PointCloud;
 
-constexpr double half_turn = 3.14159265358979323846, farthest = 40.0, nearest = 0.2;  // m
+constexpr double kHalfTurn = 3.14159265358979323846, kFarthest = 40.0, kNearest = 0.2;  // m
 
 struct LoggedScan {
   PointCloud cloud;
@@ -40,12 +40,12 @@ std::vector<LoggedScan> readLog(const std::string& path) {
     std::size_t count = 0;
     if (!(words >> kind >> count) || kind != "FLASER" || count < 180) continue;
     LoggedScan scan;
-    const double step = half_turn / static_cast<double>(count % 2 == 0 ? count : count - 1);
+    const double step = kHalfTurn / static_cast<double>(count % 2 == 0 ? count : count - 1);
     for (std::size_t i = 0; i < count; ++i) {
       double range = 0.0;
       words >> range;
-      if (range < nearest || range > farthest) continue;
-      const double angle = -0.5 * half_turn + step * (static_cast<double>(i) + (count % 2 == 0 ? 0.5 : 0.0));
+      if (range < kNearest || range > kFarthest) continue;
+      const double angle = -0.5 * kHalfTurn + step * (static_cast<double>(i) + (count % 2 == 0 ? 0.5 : 0.0));
       scan.cloud.points.emplace_back(static_cast<float>(range * std::cos(angle)),
                                      static_cast<float>(range * std::sin(angle)), 0.0F);
     }
@@ -82,7 +82,7 @@ struct Tally {
     const auto R = alignment.T_target_source.R();
     const double turn = std::atan2(R(1, 0), R(0, 0)) - pair.source->heading + pair.target->heading;
     const Eigen::Vector3d off(alignment.T_target_source.t().x() - c * dx - s * dy,
-                              alignment.T_target_source.t().y() + s * dx - c * dy, std::remainder(turn, 2 * half_turn));
+                              alignment.T_target_source.t().y() + s * dx - c * dy, std::remainder(turn, 2 * kHalfTurn));
     covariance.diagonal() += Eigen::Vector3d(0.0025, 0.0025, 3e-4);  // of the log's poses: 5 cm, 1 deg
     wrong += off.dot(covariance.inverse() * off) > 25.0 ? 1 : 0;
   }
@@ -121,7 +121,7 @@ class PairDraw {
   }
   Pair ofOnePlace() {
     return until([](double distance, double turn) {
-      return distance < 1.0 && turn < 0.25 * half_turn && (distance > 0.1 || turn > 0.3);
+      return distance < 1.0 && turn < 0.25 * kHalfTurn && (distance > 0.1 || turn > 0.3);
     });
   }
 
@@ -133,7 +133,7 @@ class PairDraw {
       const std::vector<LoggedScan>& log = logs_[draw(logs_.size())];
       const Pair pair{&log[draw(log.size())], &log[draw(log.size())]};
       const double distance = std::hypot(pair.source->x - pair.target->x, pair.source->y - pair.target->y);
-      if (fits(distance, std::abs(std::remainder(pair.source->heading - pair.target->heading, 2.0 * half_turn))))
+      if (fits(distance, std::abs(std::remainder(pair.source->heading - pair.target->heading, 2.0 * kHalfTurn))))
         return pair;
     }
   }

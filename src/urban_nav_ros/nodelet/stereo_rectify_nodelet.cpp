@@ -37,16 +37,16 @@ class StereoRectifyStage {
 
 StereoRectifyStage::StereoRectifyStage(Node& node) {
   for (const auto& [input, output] :
-       {std::pair(topics::left_image, topics::left_rectified), std::pair(topics::right_image, topics::right_rectified)})
+       {std::pair(topics::kLeftImage, topics::kLeftRectified), std::pair(topics::kRightImage, topics::kRightRectified)})
     if (node.nh().resolveName(input) == node.nh().resolveName(output))
       throw urban_nav_core::UserError(input,
                                       "remapped to " + node.nh().resolveName(output) + ", which is published here",
                                       "the topic of the camera");
   const auto parameters = readParameters(node.privateHandle(), stereoRectifyTable());
   node.setQueueSize(parameters.queue_size);
-  left_ = node.nh().advertise<sensor_msgs::Image>(topics::left_rectified,
+  left_ = node.nh().advertise<sensor_msgs::Image>(topics::kLeftRectified,
                                                   static_cast<std::uint32_t>(parameters.queue_size));
-  right_ = node.nh().advertise<sensor_msgs::Image>(topics::right_rectified,
+  right_ = node.nh().advertise<sensor_msgs::Image>(topics::kRightRectified,
                                                    static_cast<std::uint32_t>(parameters.queue_size));
   StereoRectifier::Listener listener;
   listener.image = [this](Side side, const sensor_msgs::ImageConstPtr& image) {
@@ -54,7 +54,7 @@ StereoRectifyStage::StereoRectifyStage(Node& node) {
   };
   listener.fault = [&node](const std::string& fault) { node.logWarning("fault", fault); };
   StereoRectifier::Options options;
-  options.rectified = areRectified(parameters.image_type, node.nh().resolveName(topics::left_image));
+  options.rectified = areRectified(parameters.image_type, node.nh().resolveName(topics::kLeftImage));
   options.judges_images = parameters.image_type == "auto";
   options.queue = parameters.queue_size;
   options.where = node.nh().resolveName("stereo");

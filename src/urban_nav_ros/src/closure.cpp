@@ -16,7 +16,7 @@ using Message = urban_nav_msgs::MetricClosure;
 
 namespace {
 
-constexpr Eigen::Index tangent_size = 6;
+constexpr Eigen::Index kTangentSize = 6;
 
 bool isProbability(double value) { return value >= 0.0 && value <= 1.0; }
 
@@ -41,8 +41,8 @@ std::optional<ClosureMethod> toMethod(std::uint8_t value) {
 std::optional<std::vector<Vector6d>> toDirections(const std::vector<double>& values) {
   std::vector<Vector6d> directions;
   const auto count = static_cast<Eigen::Index>(values.size());
-  if (count % tangent_size != 0) return std::nullopt;
-  for (Eigen::Index at = 0; at < count; at += tangent_size) {
+  if (count % kTangentSize != 0) return std::nullopt;
+  for (Eigen::Index at = 0; at < count; at += kTangentSize) {
     directions.emplace_back(Eigen::Map<const Vector6d>(values.data() + at));
     if (!directions.back().allFinite()) return std::nullopt;
   }
@@ -63,12 +63,12 @@ urban_nav_core::PoseRef toPoseRef(const urban_nav_msgs::PoseRef& message) {
 }
 
 std::optional<Constraint> toConstraint(const geometry_msgs::Pose& T_a_b, const boost::array<double, 36>& information) {
-  constexpr double rounding = 1e-6;  // of numbers that a person typed or a file printed with six digits
+  constexpr double kRounding = 1e-6;  // of numbers that a person typed or a file printed with six digits
   const auto pose = toPose(T_a_b);
   const Matrix6d matrix = toMatrix6(information);
   if (!pose || !matrix.allFinite()) return std::nullopt;
   const double largest = matrix.cwiseAbs().maxCoeff();
-  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > rounding * largest) return std::nullopt;
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kRounding * largest) return std::nullopt;
   return Constraint{*pose, matrix};
 }
 

@@ -13,7 +13,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 // Odometry that waits for its map -> odom: what tf keeps, 10 s, at 20 Hz.
-constexpr std::size_t most_unsent = 200;
+constexpr std::size_t kMostUnsent = 200;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void MapFromOdom::set(const std::optional<urban_nav_core::Pose>& T_map_odom) {
 void MapFromOdom::send(StampNs stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (T_map_odom_) return sendAll({stamp});
-  if (unsent_.size() >= most_unsent) unsent_.erase(unsent_.begin());
+  if (unsent_.size() >= kMostUnsent) unsent_.erase(unsent_.begin());
   unsent_.push_back(stamp);
 }
 

@@ -14,7 +14,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 // Resolution of usual encoders over one message: 1 mm, 1 mrad.
-constexpr double resolution = 1e-3;
+constexpr double kResolution = 1e-3;
 
 double toInformation(double sigma) { return 1.0 / (sigma * sigma); }
 
@@ -34,8 +34,8 @@ std::optional<MotionInput> WheelMotion::add(const nav_msgs::Odometry& message) {
   input.T_from_to = last->T_odom_base.inverse() * *pose;
   const double distance = input.T_from_to.t().norm();
   const double angle = urban_nav_core::angleBetween(input.T_from_to, Pose());
-  const double along = toInformation(resolution + noise_ * distance);
-  input.information.diagonal() << along, along, 0.0, 0.0, 0.0, toInformation(resolution + noise_ * angle);
+  const double along = toInformation(kResolution + noise_ * distance);
+  input.information.diagonal() << along, along, 0.0, 0.0, 0.0, toInformation(kResolution + noise_ * angle);
   return input;
 }
 

@@ -14,15 +14,15 @@ namespace {
 struct ColourLayout {
   const char* encoding;
   int type;
-  int to_bgr;  // code of cv::cvtColor; same_order: none
+  int to_bgr;  // code of cv::cvtColor; kSameOrder: none
 };
 
-constexpr int same_order = -1;
+constexpr int kSameOrder = -1;
 
 /// Encodings with colour. ROS names a Bayer pattern by the first two pixels of the first row, OpenCV by the second and
 /// third pixel of the second row.
-constexpr std::array<ColourLayout, 10> colour_layouts = {{{"bgr8", CV_8UC3, same_order},
-                                                          {"8UC3", CV_8UC3, same_order},
+constexpr std::array<ColourLayout, 10> kColourLayouts = {{{"bgr8", CV_8UC3, kSameOrder},
+                                                          {"8UC3", CV_8UC3, kSameOrder},
                                                           {"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
                                                           {"bgra8", CV_8UC4, cv::COLOR_BGRA2BGR},
                                                           {"8UC4", CV_8UC4, cv::COLOR_BGRA2BGR},
@@ -42,13 +42,13 @@ ColourImage fromGrey(const GreyImage& grey) {
 ColourImage toColourImage(const sensor_msgs::Image& message) {
   const GreyImage grey = toGrey(message);  // checks encoding and size
   if (grey.pixels.empty()) return {{}, grey.fault};
-  for (const ColourLayout& layout : colour_layouts) {
+  for (const ColourLayout& layout : kColourLayouts) {
     if (message.encoding != layout.encoding) continue;
     auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; it is only read
     const cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), layout.type, bytes,
                          message.step);
     ColourImage colour;
-    if (layout.to_bgr == same_order) colour.pixels = shared.clone();
+    if (layout.to_bgr == kSameOrder) colour.pixels = shared.clone();
     else cv::cvtColor(shared, colour.pixels, layout.to_bgr);
     return colour;
   }

@@ -9,7 +9,7 @@ namespace urban_nav_ros {
 
 namespace {
 
-constexpr std::chrono::seconds warning_period{5};
+constexpr std::chrono::seconds kWarningPeriod{5};
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void StageNode::logWarning(const std::string& key, const std::string& text) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto [entry, is_new] = warned_.emplace(key, Clock::now());
-    if (!is_new && Clock::now() - entry->second < warning_period) return;
+    if (!is_new && Clock::now() - entry->second < kWarningPeriod) return;
     entry->second = Clock::now();
   }
   ROS_WARN("%s: %s", handles_.name.c_str(), text.c_str());

@@ -17,8 +17,8 @@ StampNs toStampNs(const ros::Time& time) {
 }
 
 ros::Time toRosTime(StampNs stamp) {
-  constexpr StampNs last = static_cast<StampNs>(std::numeric_limits<std::uint32_t>::max()) * kSecond + kSecond - 1;
-  const StampNs clamped = std::clamp<StampNs>(stamp, 0, last);
+  constexpr StampNs kLast = static_cast<StampNs>(std::numeric_limits<std::uint32_t>::max()) * kSecond + kSecond - 1;
+  const StampNs clamped = std::clamp<StampNs>(stamp, 0, kLast);
   return ros::Time(static_cast<std::uint32_t>(clamped / kSecond), static_cast<std::uint32_t>(clamped % kSecond));
 }
 

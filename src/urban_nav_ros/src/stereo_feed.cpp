@@ -25,8 +25,8 @@ struct Pixels {
   std::vector<std::uint8_t> rectified;
 };
 
-constexpr int motion_stream = 0;
-constexpr int most_bits = 16;
+constexpr int kMotionStream = 0;
+constexpr int kMostBits = 16;
 
 std::string toSize(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -34,7 +34,7 @@ std::string toSize(int width, int height) { return std::to_string(width) + "x" +
 
 StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration)
     : calibration_(std::move(calibration)),
-      first_image_stream_(options.motion ? motion_stream + 1 : 0),
+      first_image_stream_(options.motion ? kMotionStream + 1 : 0),
       queue_(first_image_stream_ + 2, options.max_lateness, options.delivery),
       assembler_(options.pairing_tolerance),
       pairing_tolerance_(options.pairing_tolerance) {}
@@ -50,7 +50,7 @@ void StereoFeed::add(Side side, const sensor_msgs::CompressedImageConstPtr& imag
 }
 
 void StereoFeed::add(const MotionInput& input) {
-  if (first_image_stream_ > motion_stream) queue_.put(motion_stream, input.to, input);
+  if (first_image_stream_ > kMotionStream) queue_.put(kMotionStream, input.to, input);
 }
 
 void StereoFeed::finish() {
@@ -67,7 +67,7 @@ void StereoFeed::widen(const Input& input) {
 
 /// The depth of 16-bit pixels is one for both cameras: before an image is decoded, its partner is looked at too.
 void StereoFeed::widenByPair(StampNs stamp, const Input& input) {
-  if (bits_ >= most_bits) return;
+  if (bits_ >= kMostBits) return;
   widen(input);
   queue_.forEachUntil(stamp + pairing_tolerance_, [this](const Input& waiting) { widen(waiting); });
 }

@@ -18,7 +18,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 urban_nav_core::MetricClosure closure() {
   urban_nav_core::MetricClosure closure;
@@ -90,10 +90,10 @@ TEST(MetricClosureMessage, RefusesWhatIsNone) {
   bad.T_a_b.orientation.w = 5.0;
   EXPECT_FALSE(toMetricClosure(bad));
   bad = good;
-  bad.T_a_b.position.x = not_a_number;
+  bad.T_a_b.position.x = kNotANumber;
   EXPECT_FALSE(toMetricClosure(bad));
   bad = good;
-  bad.information[3] = not_a_number;
+  bad.information[3] = kNotANumber;
   EXPECT_FALSE(toMetricClosure(bad));
   bad = good;
   bad.information[5] = 8.0;
@@ -102,7 +102,7 @@ TEST(MetricClosureMessage, RefusesWhatIsNone) {
   bad.free_directions.push_back(1.0);
   EXPECT_FALSE(toMetricClosure(bad)) << "seven numbers";
   bad = good;
-  bad.free_directions[2] = not_a_number;
+  bad.free_directions[2] = kNotANumber;
   EXPECT_FALSE(toMetricClosure(bad));
   bad = good;
   bad.method = 3;
@@ -110,7 +110,7 @@ TEST(MetricClosureMessage, RefusesWhatIsNone) {
   bad = good;
   bad.verdict = 2;
   EXPECT_FALSE(toMetricClosure(bad));
-  for (const double probability : {-0.1, 1.1, not_a_number}) {
+  for (const double probability : {-0.1, 1.1, kNotANumber}) {
     bad = good;
     bad.probability = probability;
     EXPECT_FALSE(toMetricClosure(bad)) << probability;

@@ -19,7 +19,7 @@ using urban_nav_core::Quaterniond;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector3d;
 
-constexpr StampNs second = 1'000'000'000;
+constexpr StampNs kSecond = 1'000'000'000;
 
 nav_msgs::Odometry odometry(StampNs stamp, const Pose& pose) {
   nav_msgs::Odometry message;
@@ -42,12 +42,12 @@ TEST(WheelMotion, IncrementsMultiplyUpToThePoses) {
   Pose sum;
   const Pose first(Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitZ())), Vector3d(5, -2, 0));
   Pose pose = first;
-  EXPECT_FALSE(wheels.add(odometry(10 * second, pose)));
+  EXPECT_FALSE(wheels.add(odometry(10 * kSecond, pose)));
   for (int i = 1; i <= 10; ++i) {
     pose = pose * Pose(Quaterniond(Eigen::AngleAxisd(0.1, Vector3d::UnitZ())), Vector3d(0.2, 0, 0));
-    const auto input = wheels.add(odometry(10 * second + i * second / 20, pose));
+    const auto input = wheels.add(odometry(10 * kSecond + i * kSecond / 20, pose));
     ASSERT_TRUE(input);
-    EXPECT_EQ(input->to - input->from, second / 20);
+    EXPECT_EQ(input->to - input->from, kSecond / 20);
     EXPECT_NEAR(input->information(0, 0), 1.0 / std::pow(0.001 + 0.05 * 0.2, 2), 1e-3);
     EXPECT_NEAR(input->information(5, 5), 1.0 / std::pow(0.001 + 0.05 * 0.1, 2), 1e-3);
     EXPECT_EQ(input->information(2, 2), 0.0);
@@ -60,15 +60,15 @@ TEST(WheelMotion, IncrementsMultiplyUpToThePoses) {
 
 TEST(WheelMotion, StampsThatDoNotAdvanceAndPosesThatAreNoneGiveNothing) {
   WheelMotion wheels(0.05);
-  wheels.add(odometry(second, Pose()));
-  EXPECT_FALSE(wheels.add(odometry(second, Pose())));
-  EXPECT_FALSE(wheels.add(odometry(second / 2, Pose())));
-  nav_msgs::Odometry bad = odometry(2 * second, Pose());
+  wheels.add(odometry(kSecond, Pose()));
+  EXPECT_FALSE(wheels.add(odometry(kSecond, Pose())));
+  EXPECT_FALSE(wheels.add(odometry(kSecond / 2, Pose())));
+  nav_msgs::Odometry bad = odometry(2 * kSecond, Pose());
   bad.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(wheels.add(bad));
-  const auto input = wheels.add(odometry(3 * second, Pose()));
+  const auto input = wheels.add(odometry(3 * kSecond, Pose()));
   ASSERT_TRUE(input);
-  EXPECT_EQ(input->from, second);
+  EXPECT_EQ(input->from, kSecond);
 }
 
 TEST(GyroMotion, IntegratesTheMeanRateInBaseLink) {
@@ -76,8 +76,8 @@ TEST(GyroMotion, IntegratesTheMeanRateInBaseLink) {
   Matrix3d R_base_imu;
   R_base_imu << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   GyroMotion gyro(0.1, R_base_imu);
-  EXPECT_FALSE(gyro.add(imu(second, Vector3d(1.0, 0, 0))));
-  const auto input = gyro.add(imu(second + second / 100, Vector3d(3.0, 0, 0)));
+  EXPECT_FALSE(gyro.add(imu(kSecond, Vector3d(1.0, 0, 0))));
+  const auto input = gyro.add(imu(kSecond + kSecond / 100, Vector3d(3.0, 0, 0)));
   ASSERT_TRUE(input);
   const Pose expected(Quaterniond(Eigen::AngleAxisd(0.02, Vector3d::UnitY())), Vector3d::Zero());
   EXPECT_TRUE(isApprox(input->T_from_to, expected, 1e-12));
@@ -87,8 +87,8 @@ TEST(GyroMotion, IntegratesTheMeanRateInBaseLink) {
 
 TEST(GyroMotion, ADeviceWithoutGyroscopeGivesNothing) {
   GyroMotion gyro(0.1, Matrix3d::Identity());
-  gyro.add(imu(second, Vector3d::Zero()));
-  sensor_msgs::Imu absent = imu(2 * second, Vector3d::Zero());
+  gyro.add(imu(kSecond, Vector3d::Zero()));
+  sensor_msgs::Imu absent = imu(2 * kSecond, Vector3d::Zero());
   absent.angular_velocity_covariance[0] = -1.0;
   EXPECT_FALSE(gyro.add(absent));
 }

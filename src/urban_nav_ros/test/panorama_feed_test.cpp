@@ -16,7 +16,7 @@ namespace {
 
 using urban_nav_core::StampNs;
 
-constexpr StampNs feed_ms = 1'000'000;
+constexpr StampNs kFeedMs = 1'000'000;
 
 RecordedImage panoramaImage(StampNs stamp, int value) {
   auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(cv::Mat(4, 6, CV_8UC1, cv::Scalar(value))));
@@ -60,7 +60,7 @@ TEST(PanoramaFeed, GroupsShuffledImagesByStamp) {
   PanoramaFeed feed({});
   std::vector<Panorama> panoramas;
   for (const PanoramaArrival& image : shuffledArrivals(1)) {
-    feed.add(image.camera, panoramaImage(image.stamp * feed_ms, static_cast<int>(image.camera)));
+    feed.add(image.camera, panoramaImage(image.stamp * kFeedMs, static_cast<int>(image.camera)));
     for (Panorama& panorama : takeAll(feed)) panoramas.push_back(std::move(panorama));
   }
   feed.finish();
@@ -74,7 +74,7 @@ TEST(PanoramaFeed, GroupsShuffledImagesByStamp) {
       earliest = std::min(earliest, panoramas[i].images[camera].stamp());
     }
     EXPECT_EQ(panoramas[i].stamp, earliest);
-    EXPECT_EQ(panoramas[i].stamp / (500 * feed_ms), static_cast<StampNs>(i) + 2);
+    EXPECT_EQ(panoramas[i].stamp / (500 * kFeedMs), static_cast<StampNs>(i) + 2);
   }
 }
 
@@ -82,7 +82,7 @@ TEST(PanoramaFeed, LeavesOutACameraThatIsDead) {
   PanoramaFeed feed({});
   std::size_t panoramas = 0;
   for (const PanoramaArrival& image : shuffledArrivals(2, 3)) {
-    feed.add(image.camera, panoramaImage(image.stamp * feed_ms, 7));
+    feed.add(image.camera, panoramaImage(image.stamp * kFeedMs, 7));
     panoramas += takeAll(feed).size();
   }
   EXPECT_GE(panoramas, 8U) << "known to be incomplete when the next one arrives";
@@ -108,7 +108,7 @@ TEST(PanoramaFeed, ContinuesFromItsArchivedState) {
         feed->archive(reader);
         reader.finish();
       }
-      feed->add(arrivals[i].camera, panoramaImage(arrivals[i].stamp * feed_ms, 1));
+      feed->add(arrivals[i].camera, panoramaImage(arrivals[i].stamp * kFeedMs, 1));
       for (const Panorama& panorama : takeAll(*feed)) stamps.push_back(panorama.stamp);
     }
     feed->finish();
@@ -120,8 +120,8 @@ TEST(PanoramaFeed, ContinuesFromItsArchivedState) {
 }
 
 TEST(RecordedImage, DecodesColourAndGreyOnDemand) {
-  const RecordedImage jpeg = colourJpeg(5 * feed_ms);
-  EXPECT_EQ(jpeg.stamp(), 5 * feed_ms);
+  const RecordedImage jpeg = colourJpeg(5 * kFeedMs);
+  EXPECT_EQ(jpeg.stamp(), 5 * kFeedMs);
   const ColourImage colour = jpeg.colour();
   ASSERT_EQ(colour.pixels.type(), CV_8UC3);
   EXPECT_EQ(colour.pixels.at<cv::Vec3b>(2, 2), cv::Vec3b(10, 20, 200));

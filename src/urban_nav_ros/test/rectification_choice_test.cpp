@@ -22,7 +22,7 @@ namespace {
 using urban_nav_core::CameraInfo;
 using urban_nav_core::StampNs;
 
-constexpr StampNs frame_interval = 50'000'000, first_stamp = 1'600'000'000'000'000'000;
+constexpr StampNs kFrameInterval = 50'000'000, kFirstStamp = 1'600'000'000'000'000'000;
 
 /// Calibration of a rendered room's cameras (240x180 px, f 190 px), whose lenses differ.
 CameraInfo lensInfo(bool is_right) {
@@ -134,7 +134,7 @@ struct LiveCamera {
     }
   }
   void show(const ImagePair& pair, bool with_right = true) {
-    const StampNs stamp = first_stamp + frame_interval * shown++;
+    const StampNs stamp = kFirstStamp + kFrameInterval * shown++;
     sessions->handle(toInput(Side::Left, stamp, pair.first));
     if (with_right) sessions->handle(toInput(Side::Right, stamp, pair.second));
   }

@@ -20,12 +20,12 @@ using urban_nav_core::CameraInfo;
 using urban_nav_core::StampNs;
 using urban_nav_core::StereoCamera;
 
-constexpr int width = 96, height = 72;
-constexpr StampNs ms = 1'000'000;
+constexpr int kWidth = 96, kHeight = 72;
+constexpr StampNs kMs = 1'000'000;
 
 StereoCamera camera() {
   StereoCamera camera;
-  camera.left = {80.0, 80.0, 47.5, 35.5, width, height};
+  camera.left = {80.0, 80.0, 47.5, 35.5, kWidth, kHeight};
   camera.baseline = 0.12;
   return camera;
 }
@@ -34,7 +34,7 @@ std::shared_ptr<const StereoCalibration> calibration() {
   return std::make_shared<StereoCalibration>(leftInfo(camera()), rightInfo(camera()), false, "test");
 }
 
-sensor_msgs::ImageConstPtr image(StampNs stamp, int value, int w = width, int h = height) {
+sensor_msgs::ImageConstPtr image(StampNs stamp, int value, int w = kWidth, int h = kHeight) {
   auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(cv::Mat(h, w, CV_8UC1, cv::Scalar(value))));
   message->header.stamp = toRosTime(stamp);
   return message;
@@ -57,8 +57,8 @@ TEST(StereoFeed, ABagShuffledWithinTheLatenessGivesTheSamePairs) {
   for (const bool shuffled : {false, true}) {
     std::vector<Message> messages;
     for (StampNs t = 1000; t < 3000; t += 40) {
-      messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Left, t * ms});
-      messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Right, t * ms});
+      messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Left, t * kMs});
+      messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Right, t * kMs});
     }
     std::stable_sort(messages.begin(), messages.end(),
                      [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
@@ -72,7 +72,7 @@ TEST(StereoFeed, ABagShuffledWithinTheLatenessGivesTheSamePairs) {
     for (DecodedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
     ASSERT_EQ(pairs.size(), 50U) << (shuffled ? "shuffled" : "in order");
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      EXPECT_EQ(pairs[i].assembled.pair.stamp, (1000 + 40 * static_cast<StampNs>(i)) * ms);
+      EXPECT_EQ(pairs[i].assembled.pair.stamp, (1000 + 40 * static_cast<StampNs>(i)) * kMs);
       ASSERT_FALSE(pairs[i].assembled.pair.left.empty() || pairs[i].assembled.pair.right.empty());
       EXPECT_EQ(pairs[i].assembled.pair.left.at(3, 3), 10);
       EXPECT_EQ(pairs[i].assembled.pair.right.at(3, 3), 20);
@@ -84,20 +84,20 @@ TEST(StereoFeed, LiveAPairLeavesWithItsSecondImage) {
   StereoFeed::Options options;
   options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
   StereoFeed feed(options, calibration());
-  feed.add(Side::Left, image(1000 * ms, 1));
+  feed.add(Side::Left, image(1000 * kMs, 1));
   EXPECT_TRUE(drain(feed).empty());
-  feed.add(Side::Right, image(1000 * ms, 2));
+  feed.add(Side::Right, image(1000 * kMs, 2));
   EXPECT_EQ(drain(feed).size(), 1U);
 }
 
 TEST(StereoFeed, AnImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
   StereoFeed feed(StereoFeed::Options(), calibration());
-  feed.add(Side::Left, image(1000 * ms, 1));
-  feed.add(Side::Left, image(1100 * ms, 1));
-  feed.add(Side::Right, image(1100 * ms, 1, 50, 50));
-  auto damaged = boost::make_shared<sensor_msgs::Image>(*image(1200 * ms, 1));
+  feed.add(Side::Left, image(1000 * kMs, 1));
+  feed.add(Side::Left, image(1100 * kMs, 1));
+  feed.add(Side::Right, image(1100 * kMs, 1, 50, 50));
+  auto damaged = boost::make_shared<sensor_msgs::Image>(*image(1200 * kMs, 1));
   damaged->data.resize(100);
-  feed.add(Side::Left, image(1200 * ms, 1));
+  feed.add(Side::Left, image(1200 * kMs, 1));
   feed.add(Side::Right, sensor_msgs::ImageConstPtr(damaged));
   feed.finish();
   const std::vector<DecodedPair> pairs = drain(feed);
@@ -118,11 +118,11 @@ TEST(StereoFeed, RawImagesAreRectified) {
   CameraInfo left = leftInfo(camera()), right = rightInfo(camera());
   left.distortion_model = right.distortion_model = "plumb_bob";
   left.D = right.D = {-0.2, 0.0, 0.0, 0.0, 0.0};
-  cv::Mat picture(height, width, CV_8UC1);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) picture.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(2 * u);
+  cv::Mat picture(kHeight, kWidth, CV_8UC1);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) picture.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(2 * u);
   auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(picture));
-  message->header.stamp = toRosTime(1000 * ms);
+  message->header.stamp = toRosTime(1000 * kMs);
   for (const bool rectified_already : {false, true}) {
     StereoFeed feed(StereoFeed::Options(), std::make_shared<StereoCalibration>(left, right, rectified_already, "test"));
     feed.add(Side::Left, sensor_msgs::ImageConstPtr(message));
@@ -143,13 +143,13 @@ TEST(StereoFeed, MotionComesWithThePairThatItLeadsTo) {
   StereoFeed feed(options, calibration());
   for (StampNs t = 0; t < 10; ++t) {
     urban_nav_core::MotionInput input;
-    input.from = (1000 + 20 * t) * ms;
-    input.to = input.from + 20 * ms;
+    input.from = (1000 + 20 * t) * kMs;
+    input.to = input.from + 20 * kMs;
     feed.add(input);
   }
   for (StampNs t = 1000; t < 1200; t += 50) {
-    feed.add(Side::Right, image(t * ms, 1));
-    feed.add(Side::Left, image(t * ms, 1));
+    feed.add(Side::Right, image(t * kMs, 1));
+    feed.add(Side::Left, image(t * kMs, 1));
   }
   feed.finish();
   const std::vector<DecodedPair> pairs = drain(feed);
@@ -231,17 +231,17 @@ TEST(StereoFeed, GoesOnFromItsState) {
   options.motion = true;
   std::vector<std::function<void(StereoFeed&)>> messages;
   for (StampNs i = 0; i < 30; ++i) {
-    const StampNs stamp = (1000 + 20 * i) * ms;
+    const StampNs stamp = (1000 + 20 * i) * kMs;
     auto left = boost::make_shared<sensor_msgs::Image>(*image(stamp, static_cast<int>(5 + i)));
     if (i == 11) left->data.resize(100);  // damaged
     urban_nav_core::MotionInput motion;
-    motion.from = stamp - 20 * ms;
-    motion.to = stamp - 3 * ms;
+    motion.from = stamp - 20 * kMs;
+    motion.to = stamp - 3 * kMs;
     messages.push_back([left](StereoFeed& feed) { feed.add(Side::Left, sensor_msgs::ImageConstPtr(left)); });
     messages.push_back([motion](StereoFeed& feed) { feed.add(motion); });
     if (i != 7)
-      messages.push_back([i, stamp](StereoFeed& feed) { feed.add(Side::Right, image(stamp - (i % 3) * ms, 99)); });
-    if (i == 20) messages.push_back([](StereoFeed& feed) { feed.add(Side::Right, image(1000 * ms, 99)); });  // late
+      messages.push_back([i, stamp](StereoFeed& feed) { feed.add(Side::Right, image(stamp - (i % 3) * kMs, 99)); });
+    if (i == 20) messages.push_back([](StereoFeed& feed) { feed.add(Side::Right, image(1000 * kMs, 99)); });  // late
   }
   const auto play = [&](std::size_t cut) {
     std::vector<DecodedPair> pairs;

@@ -18,11 +18,11 @@ namespace {
 
 using urban_nav_core::StampNs;
 
-constexpr int raw_width = 96, raw_height = 72;
+constexpr int kRawWidth = 96, kRawHeight = 72;
 
 sensor_msgs::CameraInfo rawInfo(Side side, double distortion) {
   urban_nav_core::StereoCamera camera;
-  camera.left = {80.0, 80.0, 47.5, 35.5, raw_width, raw_height};
+  camera.left = {80.0, 80.0, 47.5, 35.5, kRawWidth, kRawHeight};
   camera.baseline = 0.12;
   sensor_msgs::CameraInfo info = toCameraInfoMessage(side == Side::Left ? leftInfo(camera) : rightInfo(camera));
   info.D.assign(5, 0.0);
@@ -32,9 +32,9 @@ sensor_msgs::CameraInfo rawInfo(Side side, double distortion) {
 }
 
 cv::Mat pattern(int type, int scale) {
-  cv::Mat image(raw_height, raw_width, type);
-  for (int v = 0; v < raw_height; ++v)
-    for (int u = 0; u < raw_width; ++u) {
+  cv::Mat image(kRawHeight, kRawWidth, type);
+  for (int v = 0; v < kRawHeight; ++v)
+    for (int u = 0; u < kRawWidth; ++u) {
       const int value = scale * ((7 * u + 13 * v) % 251);
       if (type == CV_8UC1) image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(value);
       else image.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(value);
@@ -54,9 +54,9 @@ ImageInput deepImage(Side side, StampNs stamp) {
   auto message = boost::make_shared<sensor_msgs::Image>();
   message->header.stamp = toRosTime(stamp);
   message->encoding = "mono16";
-  message->width = raw_width;
-  message->height = raw_height;
-  message->step = 2 * raw_width;
+  message->width = kRawWidth;
+  message->height = kRawHeight;
+  message->step = 2 * kRawWidth;
   message->data.assign(pixels.datastart, pixels.dataend);
   return {side, sensor_msgs::ImageConstPtr(message), stamp};
 }

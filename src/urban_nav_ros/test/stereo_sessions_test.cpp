@@ -15,7 +15,7 @@ namespace {
 
 using urban_nav_core::StampNs;
 
-constexpr StampNs session_ms = 1'000'000, session_start = 1'600'000'000'000'000'000;
+constexpr StampNs kSessionMs = 1'000'000, kSessionStart = 1'600'000'000'000'000'000;
 
 urban_nav_core::StereoCamera sessionCamera(double baseline = 0.12) {
   urban_nav_core::StereoCamera camera;
@@ -71,20 +71,20 @@ struct Kept {
 
 TEST(StereoSessions, KeepImagesUntilTheCalibrationIsKnown) {
   Kept kept;
-  kept.show(session_start);
-  kept.show(session_start + 50 * session_ms);
+  kept.show(kSessionStart);
+  kept.show(kSessionStart + 50 * kSessionMs);
   EXPECT_TRUE(kept.stamps.empty());
   EXPECT_FALSE(kept.sessions->isRunning());
   kept.calibrate();
   EXPECT_TRUE(kept.sessions->isRunning());
-  EXPECT_EQ(kept.stamps, (std::vector<StampNs>{session_start, session_start + 50 * session_ms}));
+  EXPECT_EQ(kept.stamps, (std::vector<StampNs>{kSessionStart, kSessionStart + 50 * kSessionMs}));
   EXPECT_EQ(kept.sessions->counts().pairs, 2);
 }
 
 TEST(StereoSessions, WaitForTheMounting) {
   Kept kept(3600.0);
   kept.calibrate();
-  kept.show(session_start);
+  kept.show(kSessionStart);
   kept.sessions->idle();
   EXPECT_TRUE(kept.cameras.empty());
   kept.sessions->handle(mountingAt(1.5));
@@ -97,7 +97,7 @@ TEST(StereoSessions, WaitForTheMounting) {
 TEST(StereoSessions, WithoutAMountingTheCameraIsAtTheBase) {
   Kept kept;
   kept.calibrate();
-  kept.show(session_start);
+  kept.show(kSessionStart);
   ASSERT_EQ(kept.cameras.size(), 1U);
   EXPECT_FALSE(kept.cameras[0].is_mounting_known);
   EXPECT_EQ(kept.cameras[0].T_base_left.t(), urban_nav_core::Vector3d::Zero());
@@ -107,13 +107,13 @@ TEST(StereoSessions, WithoutAMountingTheCameraIsAtTheBase) {
 TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
   Kept kept;
   kept.calibrate();
-  kept.show(session_start);
-  kept.sessions->handle(toImage(Side::Left, session_start + 50 * session_ms));
-  kept.show(session_start - 2000 * session_ms);
+  kept.show(kSessionStart);
+  kept.sessions->handle(toImage(Side::Left, kSessionStart + 50 * kSessionMs));
+  kept.show(kSessionStart - 2000 * kSessionMs);
   EXPECT_EQ(kept.ends, std::vector<std::string>{"time went back"});
   EXPECT_EQ(kept.cameras.size(), 2U);
-  const std::vector<StampNs> expected{session_start, session_start + 50 * session_ms,
-                                      session_start - 2000 * session_ms};
+  const std::vector<StampNs> expected{kSessionStart, kSessionStart + 50 * kSessionMs,
+                                      kSessionStart - 2000 * kSessionMs};
   EXPECT_EQ(kept.stamps, expected) << "what waited was delivered first";
   EXPECT_EQ(kept.sessions->counts().right_missing, 1);
 }
@@ -121,12 +121,12 @@ TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
 TEST(StereoSessions, AnotherCalibrationEndsTheSessionUntilBothSidesHaveIt) {
   Kept kept;
   kept.calibrate();
-  kept.show(session_start);
+  kept.show(kSessionStart);
   kept.calibrate();
   EXPECT_TRUE(kept.ends.empty()) << "the same calibration";
   kept.sessions->handle(makeInfo(Side::Left, leftInfo(sessionCamera(0.2))));
   EXPECT_EQ(kept.ends, std::vector<std::string>{"the calibration changed"});
-  kept.show(session_start + 50 * session_ms);
+  kept.show(kSessionStart + 50 * kSessionMs);
   EXPECT_EQ(kept.cameras.size(), 1U);
   kept.sessions->handle(makeInfo(Side::Right, rightInfo(sessionCamera(0.2))));
   ASSERT_EQ(kept.cameras.size(), 2U);
@@ -136,7 +136,7 @@ TEST(StereoSessions, AnotherCalibrationEndsTheSessionUntilBothSidesHaveIt) {
 
 TEST(StereoSessions, ACalibrationThatIsNoStereoPairIsRefusedOnce) {
   Kept kept;
-  kept.show(session_start);
+  kept.show(kSessionStart);
   kept.sessions->handle(makeInfo(Side::Left, leftInfo(sessionCamera())));
   kept.sessions->handle(makeInfo(Side::Right, leftInfo(sessionCamera())));
   kept.sessions->idle();
@@ -151,8 +151,8 @@ TEST(StereoSessions, ACalibrationThatIsNoStereoPairIsRefusedOnce) {
 TEST(StereoSessions, CountDamagedImages) {
   Kept kept;
   kept.calibrate();
-  kept.sessions->handle(toImage(Side::Left, session_start, 50));
-  kept.sessions->handle(toImage(Side::Right, session_start));
+  kept.sessions->handle(toImage(Side::Left, kSessionStart, 50));
+  kept.sessions->handle(toImage(Side::Right, kSessionStart));
   EXPECT_EQ(kept.stamps.size(), 1U);
   EXPECT_EQ(kept.sessions->counts().damaged, 1);
   urban_nav_live::StageReport report;
@@ -163,8 +163,8 @@ TEST(StereoSessions, CountDamagedImages) {
 TEST(StereoSessions, AnEndWithoutDeliveryForgetsWhatWaits) {
   Kept kept;
   kept.calibrate();
-  kept.show(session_start);
-  kept.sessions->handle(toImage(Side::Left, session_start + 50 * session_ms));
+  kept.show(kSessionStart);
+  kept.sessions->handle(toImage(Side::Left, kSessionStart + 50 * kSessionMs));
   kept.sessions->end("shutdown", false);
   EXPECT_EQ(kept.stamps.size(), 1U);
   EXPECT_EQ(kept.ends, std::vector<std::string>{"shutdown"});

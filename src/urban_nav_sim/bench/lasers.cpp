@@ -117,7 +117,7 @@ Simulated simulated(const Options& options, const std::string& name) {
   const int places = static_cast<int>(options.number("--places", 100));
   Simulated result;
   std::size_t device = 0;
-  for (const char* frame : {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right}) {
+  for (const char* frame : {urban_nav_core::frames::kLaserLeft, urban_nav_core::frames::kLaserRight}) {
     const Lms291 laser(tracer, sensorPose(frame), seed, frame, settings);
     result.bias[device++] = laser.bias();
     for (int place = 0; place < places; ++place) {

@@ -106,7 +106,7 @@ int main(int argc, char** argv) try {
     const auto motion = simulateDrive(on_day, makeRoute(world, seed, options.text("--route", "loops")), ride_options);
     const Tracer tracer(on_day);
     const Driven driven(*motion, Noise(seed, "local clouds").of(static_cast<std::uint64_t>(day)));
-    const std::vector<std::string> frames = {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right};
+    const std::vector<std::string> frames = {urban_nav_core::frames::kLaserLeft, urban_nav_core::frames::kLaserRight};
     std::vector<std::vector<Turn>> turns(frames.size());
     for (std::size_t laser = 0; laser < frames.size(); ++laser) {
       const Lms291::Settings settings;

@@ -46,14 +46,14 @@ MotionState lookAside(MotionState state, double angle) {
 
 /// A box on the ground before the robot.
 void placeBox(Site& site, const Pose& T_world_base, Draw& draw) {
-  constexpr MaterialKind kinds[] = {MaterialKind::Ashlar, MaterialKind::Rubble, MaterialKind::Brick,
-                                    MaterialKind::Render, MaterialKind::Slate,  MaterialKind::Bark};
+  constexpr MaterialKind kKinds[] = {MaterialKind::Ashlar, MaterialKind::Rubble, MaterialKind::Brick,
+                                     MaterialKind::Render, MaterialKind::Slate,  MaterialKind::Bark};
   const double ahead = draw.uniform(kNearest, kFarthest);
   Eigen::Vector3d p = T_world_base * Eigen::Vector3d(ahead, draw.uniform(-kSideways, kSideways) * ahead, 0.0);
   p.z() = site.ground(p.x(), p.y());
   const Eigen::Vector3d size(draw.uniform(kThinnest, kWidest), draw.uniform(kThinnest, kWidest),
                              draw.uniform(kLowest, kHighest));
-  const Finish finish{kinds[draw.index(6)], static_cast<std::uint64_t>(draw.index(4)),
+  const Finish finish{kKinds[draw.index(6)], static_cast<std::uint64_t>(draw.index(4)),
                       static_cast<std::uint32_t>(draw.bits() & 0xFFFFU)};
   site.box(finish, p, size, draw.uniform(0.0, M_PI));
 }
@@ -79,7 +79,7 @@ int main(int argc, char** argv) try {
   }
   const Tracer tracer(world);
   const Sky sky(world.day, seed);
-  const Pose T_base_left = sensorPose(urban_nav_core::frames::stereo_left);
+  const Pose T_base_left = sensorPose(urban_nav_core::frames::kStereoLeft);
   StereoFolder folder(path);
   for (const Look& look : looks) {
     // A head for each place: its first exposure fits.

@@ -79,7 +79,7 @@ cv::Mat above(const std::vector<cv::Mat>& rows) {
 std::vector<Return> scanCloud(const Scene& scene) {
   std::vector<Return> cloud;
   const Lms291::Settings settings;
-  for (const char* frame : {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right}) {
+  for (const char* frame : {urban_nav_core::frames::kLaserLeft, urban_nav_core::frames::kLaserRight}) {
     const urban_nav_core::Pose T_base_laser = sensorPose(frame);
     const Lms291 laser(scene.tracer, T_base_laser, kSeed, frame, settings);
     const auto turns = static_cast<std::uint64_t>(scene.motion->duration() / settings.period);
@@ -97,7 +97,7 @@ std::vector<Return> scanCloud(const Scene& scene) {
 }
 
 std::array<cv::Mat, 2> renderStereo(const Scene& scene, double t) {
-  return StereoHead(scene.tracer, scene.sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::stereo_left),
+  return StereoHead(scene.tracer, scene.sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::kStereoLeft),
                     kSeed)
       .take(*scene.motion, t);
 }

@@ -90,7 +90,7 @@ Textures simulatedTextures(const std::string& name, const Options& options) {
   Textures textures;
   for (int i = 0; i < frames; ++i) {
     // A head for each frame: its exposure has settled, as after many frames there.
-    StereoHead head(tracer, sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::stereo_left),
+    StereoHead head(tracer, sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::kStereoLeft),
                     seed + static_cast<std::uint64_t>(i));
     const cv::Mat image = head.take(*motion, (i + 0.5) * motion->duration() / frames)[0];
     textures.add(measureTexture(asTheRealOnes(image, head.cameras()[0].lens)));

@@ -58,7 +58,7 @@ int main(int argc, char** argv) try {
   const auto seed = static_cast<std::uint32_t>(options.number("--seed", 1.0));
   const int places = static_cast<int>(options.number("--places", 36.0));
   const double step = options.number("--step", 2.0);  // s of the motion
-  const Pose T_base_left = sensorPose(urban_nav_core::frames::stereo_left);
+  const Pose T_base_left = sensorPose(urban_nav_core::frames::kStereoLeft);
   const Noise noise(seed, "revisits");
   StereoFolder folder(options.text("--folder", world));
   DriveOptions ride_options;

@@ -96,8 +96,8 @@ int main(int argc, char** argv) try {
       table.add({world, name, std::to_string(threads), cell(cost.processor / session.duration, 3),
                  cell(cost.clock / session.duration, 3), cell(cost.build, 2), cell(cost.memory, 0)});
     };
-    for (const Sensor sensor : all_sensors) add(toString(sensor), {sensor}, 1);
-    for (const int threads : {1, 2}) add("all", {all_sensors.begin(), all_sensors.end()}, threads);
+    for (const Sensor sensor : kAllSensors) add(toString(sensor), {sensor}, 1);
+    for (const int threads : {1, 2}) add("all", {kAllSensors.begin(), kAllSensors.end()}, threads);
   }
   table.note(
       "Allowed with all sensors: 6.67 core-seconds a second (60 s in 200 s on two cores) and 2 000 MB. "

@@ -32,7 +32,7 @@ constexpr int kWords = 1000;
 constexpr double kApart = 25.0;  // m of driving between places of which one may be taken for the other
 constexpr double kStep = 0.5;    // m: a change of place that a day is compared with
 constexpr int kPlacesApart = 4;  // every so-manieth place is seen again
-constexpr std::array<int, 3> other_days = {2, 3, 4};  // as they come; wet; in winter
+constexpr std::array<int, 3> kOtherDays = {2, 3, 4};  // as they come; wet; in winter
 
 /// A place of the world on one day, seen from anywhere on a motion.
 class Scene {
@@ -44,7 +44,7 @@ class Scene {
   /// Descriptors of what the left camera sees. A head for each frame: its exposure has settled; `chance` is that of its
   /// noise.
   cv::Mat describe(const Motion& motion, double t, std::uint64_t chance) const {
-    StereoHead head(tracer_, sky_, StereoImages::Rectified, sensorPose(urban_nav_core::frames::stereo_left), chance);
+    StereoHead head(tracer_, sky_, StereoImages::Rectified, sensorPose(urban_nav_core::frames::kStereoLeft), chance);
     return Vocabulary::describe(head.take(motion, t)[0]);
   }
 
@@ -117,7 +117,7 @@ class Repetition {
       gone.push_back(words), taken.push_back(elsewhere);
     };
     again(first_, 0.0), again(first_, kStep);
-    for (const int day : other_days) again(Scene(name_, seed_, day), 0.0);
+    for (const int day : kOtherDays) again(Scene(name_, seed_, day), 0.0);
     Values chance;
     for (std::size_t i = 0; i < pictures_.size(); ++i)
       chance.push_back(shareLost(pictures_[i], pictures_[(i + pictures_.size() / 2) % pictures_.size()]));
@@ -167,7 +167,7 @@ std::vector<std::string> namesOfRows() {
   const auto add = [&](const std::string& what) {
     names.push_back(what + ", same pose, same day (%)");
     names.emplace_back("... 0.5 m on");
-    for (const int day : other_days) names.push_back("... same pose, day " + std::to_string(day));
+    for (const int day : kOtherDays) names.push_back("... same pose, day " + std::to_string(day));
   };
   add("words gone");
   names.emplace_back("... elsewhere");

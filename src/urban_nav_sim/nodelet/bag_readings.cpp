@@ -23,8 +23,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double earth_field = 50e-6;  // T, about 1 unit of an MTi
-constexpr double same_time = 1e-4;     // s
+constexpr double kEarthField = 50e-6;  // T, about 1 unit of an MTi
+constexpr double kSameTime = 1e-4;     // s
 
 enum class BagTopic { Required, Optional };
 
@@ -50,8 +50,8 @@ double forEachOfTopic(const std::string& path, const std::string& topic, BagTopi
 /// The reading of a time; null if there is none. `at` rises from call to call.
 template <typename Reading>
 Reading* findReading(std::vector<Reading>& readings, std::size_t& at, double time) {
-  while (at < readings.size() && readings[at].time < time - same_time) ++at;
-  return at < readings.size() && readings[at].time < time + same_time ? &readings[at] : nullptr;
+  while (at < readings.size() && readings[at].time < time - kSameTime) ++at;
+  return at < readings.size() && readings[at].time < time + kSameTime ? &readings[at] : nullptr;
 }
 
 std::vector<LaserReading> readLaserReadings(const std::string& bag, const std::string& side) {
@@ -79,8 +79,8 @@ std::vector<ImuReading> readImuReadings(const std::string& bag) {
   forEachOfTopic<sensor_msgs::MagneticField>(
       bag, "imu/mag", BagTopic::Optional, [&](const sensor_msgs::MagneticField& field, double time) {
         if (ImuReading* reading = findReading(readings, at, time))
-          reading->field = {field.magnetic_field.x / earth_field, field.magnetic_field.y / earth_field,
-                            field.magnetic_field.z / earth_field};
+          reading->field = {field.magnetic_field.x / kEarthField, field.magnetic_field.y / kEarthField,
+                            field.magnetic_field.z / kEarthField};
       });
   return readings;
 }

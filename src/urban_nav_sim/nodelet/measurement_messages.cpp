@@ -21,8 +21,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int jpeg_quality = 90;  // the Ladybug2's own compression is about as good
-constexpr double unknown = -1.0;  // first element of a covariance: what it belongs to is not measured (sensor_msgs/Imu)
+constexpr int kJpegQuality = 90;  // the Ladybug2's own compression is about as good
+constexpr double kUnknown =
+    -1.0;  // first element of a covariance: what it belongs to is not measured (sensor_msgs/Imu)
 
 std_msgs::Header header(StampNs stamp, const std::string& frame) {
   std_msgs::Header made;
@@ -49,7 +50,7 @@ void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, 
               std::vector<TopicMessage>& messages) {
   if (pixels.empty()) return;
   sensor_msgs::Image image = urban_nav_ros::toImageMessage(pixels);
-  image.header = camera.header = header(stamp, side == Side::Left ? frames::stereo_left : frames::stereo_right);
+  image.header = camera.header = header(stamp, side == Side::Left ? frames::kStereoLeft : frames::kStereoRight);
   messages.push_back(onTopic("stereo/" + surfaceClassName(side) + "/image_raw", std::move(image)));
   messages.push_back(onTopic("stereo/" + surfaceClassName(side) + "/camera_info", std::move(camera)));
 }
@@ -101,7 +102,7 @@ std::vector<TopicMessage> listTopics(const std::set<Sensor>& sensors) {
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Session& session) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const auto& [frame, T_base_sensor] : session.places()) {
-    transforms.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frame, T_base_sensor));
+    transforms.push_back(urban_nav_ros::toStaticTransform(frames::kBaseLink, frame, T_base_sensor));
     transforms.back().header.stamp = urban_nav_ros::toRosTime(session.begin());
   }
   return transforms;
@@ -131,7 +132,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const LadybugMeasurement& pa
   sensor_msgs::CompressedImage image;
   image.header = info.header = header(panorama.stamp, frames::ladybugCamera(panorama.camera));
   image.format = "jpeg";
-  cv::imencode(".jpg", panorama.image, image.data, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+  cv::imencode(".jpg", panorama.image, image.data, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return {onTopic("ladybug/" + name + "/image_raw/compressed", std::move(image)),
           onTopic("ladybug/" + name + "/camera_info", std::move(info))};
 }
@@ -145,9 +146,9 @@ std::vector<TopicMessage> MeasurementMessages::from(const LaserMeasurement& turn
 
 std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) const {
   sensor_msgs::Imu motion;
-  motion.header = header(imu.stamp, frames::imu);
+  motion.header = header(imu.stamp, frames::kImu);
   motion.orientation.w = 1.0;
-  motion.orientation_covariance[0] = unknown;
+  motion.orientation_covariance[0] = kUnknown;
   set(imu.rate, motion.angular_velocity);
   set(imu.specific_force, motion.linear_acceleration);
   sensor_msgs::MagneticField field;
@@ -158,8 +159,8 @@ std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) c
 
 std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& wheels) const {
   nav_msgs::Odometry odometry;
-  odometry.header = header(wheels.stamp, frames::odom);
-  odometry.child_frame_id = frames::base_link;
+  odometry.header = header(wheels.stamp, frames::kOdom);
+  odometry.child_frame_id = frames::kBaseLink;
   odometry.pose.pose = urban_nav_ros::toPoseMessage(wheels.T_odom_base);
   odometry.twist.twist.linear.x = wheels.speed;
   odometry.twist.twist.angular.z = wheels.yaw_rate;
@@ -168,7 +169,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& whee
 
 std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) const {
   sensor_msgs::NavSatFix fix;
-  fix.header = header(gps.stamp, frames::gps);
+  fix.header = header(gps.stamp, frames::kGps);
   fix.status.status = gps.has_fix ? sensor_msgs::NavSatStatus::STATUS_FIX : sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   fix.status.service = sensor_msgs::NavSatStatus::SERVICE_GPS;
   fix.latitude = gps.latitude;

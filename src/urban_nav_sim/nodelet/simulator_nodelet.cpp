@@ -28,8 +28,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::chrono::milliseconds tick{100};  // while time stands, /clock is said once more so often
-constexpr std::chrono::seconds last_words{1};   // what the publishers still have in their queues is sent in this time
+constexpr std::chrono::milliseconds kTick{100};  // while time stands, /clock is said once more so often
+constexpr std::chrono::seconds kLastWords{1};    // what the publishers still have in their queues is sent in this time
 
 }  // namespace
 
@@ -130,7 +130,7 @@ void SimulatorNodelet::work() try {
     if (!drive()) continue;
     NODELET_INFO("the session is over: %g s, %ld messages", options_.duration, static_cast<long>(published_));
     report("over", now_);
-    const Clock::time_point end = parameters_.exit ? Clock::now() + last_words : Clock::time_point::max();
+    const Clock::time_point end = parameters_.exit ? Clock::now() + kLastWords : Clock::time_point::max();
     if (!hold("over", [end] { return end; })) continue;
     return ros::requestShutdown();
   }
@@ -180,7 +180,7 @@ void SimulatorNodelet::publish(const std::vector<TopicMessage>& messages, StampN
 template <typename Due>
 bool SimulatorNodelet::hold(const char* state, const Due& due) {
   while (true) {
-    switch (orders_.wait(due(), tick)) {
+    switch (orders_.wait(due(), kTick)) {
       case PlaybackControl::Answer::Go: return true;
       case PlaybackControl::Answer::End: return false;
       case PlaybackControl::Answer::Wait: report(state, now_); break;

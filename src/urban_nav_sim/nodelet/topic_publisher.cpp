@@ -15,12 +15,12 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs clock_step = 5'000'000;  // ns, that of the truth
+constexpr StampNs kClockStep = 5'000'000;  // ns, that of the truth
 
 tf2_msgs::TFMessage asTransform(const geometry_msgs::PoseStamped& pose) {
   geometry_msgs::TransformStamped transform;
   transform.header = pose.header;
-  transform.child_frame_id = urban_nav_core::frames::base_link;
+  transform.child_frame_id = urban_nav_core::frames::kBaseLink;
   transform.transform.translation.x = pose.pose.position.x;
   transform.transform.translation.y = pose.pose.position.y;
   transform.transform.translation.z = pose.pose.position.z;
@@ -60,7 +60,7 @@ void TopicPublisher::publish(const TopicMessage& message) {
 }
 
 void TopicPublisher::advance(StampNs now) {
-  if (now_ && now >= *now_ && now - *now_ < clock_step) return;
+  if (now_ && now >= *now_ && now - *now_ < kClockStep) return;
   now_ = now;
   repeatClock();
 }

@@ -47,12 +47,12 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   Track& track = *match.track;
   const bool is_left = side == Side::Left;
   const Eigen::Vector2d& blur = track.blur;
-  if (track.sharper || blur.maxCoeff() > urban_nav_core::largest_blur) return false;
+  if (track.sharper || blur.maxCoeff() > urban_nav_core::kLargestBlur) return false;
   const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
   auto warp = warpInto(side, camera, track, T_camera_born, inverseDepthWhereBorn(match));
   if (!warp || !warp->A.allFinite() || !warp->bend.allFinite()) return false;
   warp->bend /= urban_nav_core::Pyramid::scale(track.level);
-  warp->bend *= std::min(1.0, urban_nav_core::largest_bend / std::max(warp->bend.norm(), 1e-9));
+  warp->bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp->bend.norm(), 1e-9));
   const double area = warp->A.determinant();
   if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
   PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;

@@ -17,7 +17,7 @@ const Table<NodeletParameters>& nodeletTable() {
       "",
       urban_nav_core::withMotionInput(urban_nav_live::withStereoInput<P>(
           {
-              {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::odom, false, false, {},
+              {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
                "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
               {"publish_tf", &P::publish_tf, "", true, false, true, {},
                "Whether to publish odom_frame to base_frame on /tf.", "REP-105"},

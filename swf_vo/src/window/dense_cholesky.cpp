@@ -9,7 +9,7 @@
 
 namespace swf_vo {
 
-using kernels::strip;
+using kernels::kStrip;
 
 namespace {
 
@@ -19,26 +19,26 @@ constexpr double least_pivot = 1e-12;
 constexpr int cholesky_panel = 48;
 constexpr int largest_size = 1 << 14;  // rows of a matrix that is read
 
-std::size_t rounded(int n) { return static_cast<std::size_t>((n + strip - 1) / strip * strip); }
+std::size_t rounded(int n) { return static_cast<std::size_t>((n + kStrip - 1) / kStrip * kStrip); }
 
 // Rows [first, last) of column-major columns as strips; rows past the last are zero.
 void pack(const double* columns, std::size_t stride, int first, int last, int depth, std::vector<double>& packed) {
-  const std::size_t strips = rounded(last - first) / strip;
-  const std::size_t size = static_cast<std::size_t>(strip) * static_cast<std::size_t>(depth);
+  const std::size_t strips = rounded(last - first) / kStrip;
+  const std::size_t size = static_cast<std::size_t>(kStrip) * static_cast<std::size_t>(depth);
   reserveWithHeadroom(packed, strips * size);
   if (packed.size() < strips * size) packed.resize(strips * size);
   for (std::size_t s = 0; s < strips; ++s) {
-    const int row = first + static_cast<int>(s) * strip;
-    const int rows = std::min(strip, last - row);
+    const int row = first + static_cast<int>(s) * kStrip;
+    const int rows = std::min(kStrip, last - row);
     for (int k = 0; k < depth; ++k) {
-      double* to = packed.data() + s * size + static_cast<std::size_t>(k * strip);
+      double* to = packed.data() + s * size + static_cast<std::size_t>(k * kStrip);
       const double* from = columns + static_cast<std::size_t>(k) * stride + row;
-      if (rows == strip) {
-        std::memcpy(to, from, strip * sizeof(double));
+      if (rows == kStrip) {
+        std::memcpy(to, from, kStrip * sizeof(double));
         continue;
       }
       for (int r = 0; r < rows; ++r) to[r] = from[r];
-      for (int r = rows; r < strip; ++r) to[r] = 0.0;
+      for (int r = rows; r < kStrip; ++r) to[r] = 0.0;
     }
   }
 }
@@ -49,7 +49,7 @@ void DenseMatrix::resize(int size) {
   size_ = size;
   stride_ = static_cast<int>(rounded(size));
   // A power of two would put every column into the same lines of the cache.
-  if (stride_ % 64 == 0) stride_ += strip;
+  if (stride_ % 64 == 0) stride_ += kStrip;
   const std::size_t needed = static_cast<std::size_t>(stride_) * rounded(size);
   reserveWithHeadroom(data_, needed);
   if (data_.size() < needed) data_.resize(needed);
@@ -62,7 +62,7 @@ void DenseMatrix::reset(int size) {
 
 void StripProduct::subtract(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride) {
   pack(B, static_cast<std::size_t>(stride), 0, rows, columns, packed_);
-  set_.subtractStrips(C.column(first) + first, C.stride(), packed_.data(), static_cast<int>(rounded(rows)) / strip,
+  set_.subtractStrips(C.column(first) + first, C.stride(), packed_.data(), static_cast<int>(rounded(rows)) / kStrip,
                       columns);
 }
 
@@ -124,13 +124,13 @@ void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
     const int width = std::min(cholesky_panel, n - start), end = start + width;
     factorDiagonal(A, start, width, floor);
     if (end == n) break;
-    const int strips = static_cast<int>(rounded(n - end)) / strip;
+    const int strips = static_cast<int>(rounded(n - end)) / kStrip;
     pack(A.column(start), static_cast<std::size_t>(A.stride()), end, n, width, packed_);
     set_.solveStrips(packed_.data(), strips, width, block_.data(), inverse_.data());
     for (int s = 0; s < strips; ++s)
       for (int k = 0; k < width; ++k) {
-        const double* from = packed_.data() + static_cast<std::size_t>(s * width + k) * strip;
-        std::memcpy(A.column(start + k) + end + s * strip, from, strip * sizeof(double));
+        const double* from = packed_.data() + static_cast<std::size_t>(s * width + k) * kStrip;
+        std::memcpy(A.column(start + k) + end + s * kStrip, from, kStrip * sizeof(double));
       }
     set_.subtractStrips(A.column(end) + end, A.stride(), packed_.data(), strips, width);
   }

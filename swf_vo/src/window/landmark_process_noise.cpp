@@ -22,7 +22,7 @@ void LandmarkProcessNoise::apply(const std::vector<Step>& steps, const std::vect
 
 void LandmarkProcessNoise::gather(const Step* steps, int count, const Prior& prior) {
   const int n = prior.size();
-  stride_ = static_cast<std::size_t>((n + kernels::strip - 1) / kernels::strip * kernels::strip);
+  stride_ = static_cast<std::size_t>((n + kernels::kStrip - 1) / kernels::kStrip * kernels::kStrip);
   reserveWithHeadroom(columns_, stride_ * most);
   columns_.resize(stride_ * most);
   for (int k = 0; k < 2 * count; ++k) {

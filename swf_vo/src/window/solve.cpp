@@ -126,8 +126,9 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
 // poses.
 void Solver::subtractStrip(Strip& strip) {
   if (strip.columns > 0) {
-    const int first = strip.first / kernels::strip * kernels::strip;
-    const int last = std::min(onto_poses_.size(), (strip.last + kernels::strip - 1) / kernels::strip * kernels::strip);
+    const int first = strip.first / kernels::kStrip * kernels::kStrip;
+    const int last =
+        std::min(onto_poses_.size(), (strip.last + kernels::kStrip - 1) / kernels::kStrip * kernels::kStrip);
     product_.subtract(onto_poses_, first, last - first, columns_.data() + first, strip.columns, onto_poses_.stride());
     for (int c = 0; c < strip.columns; ++c) {
       double* column = columns_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(onto_poses_.stride());

@@ -8,10 +8,10 @@
 
 namespace fabmap_node {
 
-inline constexpr std::size_t descriptor_bytes = 128;
+inline constexpr std::size_t kDescriptorBytes = 128;
 /// Descriptor with 8 bits per element: the unit vector times 512, limited to 255 (Lowe 2004, section 6.1, limits
 /// elements to 0.2 of the unit vector before the last normalisation). Sums of products are exact in single precision.
-using ByteDescriptor = std::array<std::uint8_t, descriptor_bytes>;
+using ByteDescriptor = std::array<std::uint8_t, kDescriptorBytes>;
 
 /// Point of an image that contributes a word.
 struct PlaceFeature {

@@ -16,8 +16,8 @@ struct PlaceEvidence {
   double look_margin = 0.0;  ///< `look` less that of the best place elsewhere
   double sequence = 0.0;     ///< LocationFilter::motionConsistency(); 0 without a sequence
 
-  static constexpr std::size_t size = 5;
-  std::array<double, size> values() const { return {word_ratio, word_margin, look, look_margin, sequence}; }
+  static constexpr std::size_t kSize = 5;
+  std::array<double, kSize> values() const { return {word_ratio, word_margin, look, look_margin, sequence}; }
 };
 
 /// Evidence with the truth, from drives that the model was not trained with.
@@ -32,8 +32,8 @@ struct CalibrationSample {
 /// number of samples supports: it lies between 1 / (n + 2) and 1 - 1 / (n + 2) of n samples of each kind.
 struct PlaceCalibration {
   double bias = -6.0;
-  std::array<double, PlaceEvidence::size> weights{};  ///< not negative
-  double floor = 0.01, ceiling = 0.99;                ///< limits of the probability
+  std::array<double, PlaceEvidence::kSize> weights{};  ///< not negative
+  double floor = 0.01, ceiling = 0.99;                 ///< limits of the probability
 
   double logit(const PlaceEvidence& evidence) const;
   double probability(const PlaceEvidence& evidence) const;
@@ -41,7 +41,7 @@ struct PlaceCalibration {
 
 /// Deviation of the prior on weights of standardised evidence where no other one can be chosen: wide enough for any
 /// plausible weight (Gelman et al. 2008, section 3).
-inline constexpr double default_prior_deviation = 5.0;
+inline constexpr double kDefaultPriorDeviation = 5.0;
 
 /// Fits a calibration by maximum a posteriori likelihood, with a Gaussian prior of that deviation on weights and bias
 /// of evidence that is scaled to a deviation of one. Both kinds of samples weigh the same in total: an observation is
@@ -49,6 +49,6 @@ inline constexpr double default_prior_deviation = 5.0;
 /// alike, and twenty of them count as one. Returns the default, which announces nothing, unless there are samples of
 /// both kinds. Requires prior_deviation > 0.
 PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples,
-                                double prior_deviation = default_prior_deviation);
+                                double prior_deviation = kDefaultPriorDeviation);
 
 }  // namespace fabmap_node

@@ -9,9 +9,9 @@
 
 namespace fabmap_node {
 
-inline constexpr int look_elements = 64;
+inline constexpr int kLookElements = 64;
 /// Descriptors of a second look: neighbouring directions of the gradient are added up, so that twice as many fit.
-using LookDescriptors = Eigen::Matrix<float, look_elements, Eigen::Dynamic>;
+using LookDescriptors = Eigen::Matrix<float, kLookElements, Eigen::Dynamic>;
 
 /// What a second look compares: descriptors of an observation with their directions.
 struct LookFeatures {

@@ -25,9 +25,9 @@ const std::vector<std::string>& replayModelNames();
 ReplayModel replayModelFromName(const std::string& name);
 
 struct ReplayRow {
-  static constexpr std::int64_t new_place = -1;
+  static constexpr std::int64_t kNewPlace = -1;
   std::size_t query = 0;
-  std::int64_t place = new_place;
+  std::int64_t place = kNewPlace;
   double log_likelihood = 0.0;  ///< nats
   double probability = 0.0;     ///< over all rows of this query: sums to 1
 };

@@ -16,7 +16,7 @@ struct HeldOutLoss {
 
 /// Deviation of the prior of a calibration.
 struct PriorChoice {
-  double prior_deviation = default_prior_deviation;
+  double prior_deviation = kDefaultPriorDeviation;
   std::vector<HeldOutLoss> losses;  ///< of all deviations, ascending; empty if there are too few sites to compare them
 };
 

@@ -32,7 +32,7 @@ class Vocabulary {
   WordSet words(const PlaceObservation& observation) const;
 
  private:
-  using Columns = Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>;
+  using Columns = Eigen::Matrix<float, static_cast<int>(kDescriptorBytes), Eigen::Dynamic>;
   struct CentreGroup {
     std::vector<Word> words;    // ascending
     Columns centres;            // a column for each of them

@@ -21,7 +21,7 @@ struct SideRig {
 };
 
 /// Longest gap between poses in which beams are rendered, ns.
-constexpr urban_nav_core::StampNs longest_pose_gap = 500'000'000;
+constexpr urban_nav_core::StampNs kLongestPoseGap = 500'000'000;
 
 /// Brings the scans of one side and an image every `spacing` of the path to a window. Not thread-safe.
 class SideDrive {

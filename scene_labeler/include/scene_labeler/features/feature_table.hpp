@@ -9,7 +9,7 @@
 namespace scene_labeler {
 
 /// Value of a feature that could not be measured.
-constexpr float missing_feature = std::numeric_limits<float>::quiet_NaN();
+constexpr float kMissingFeature = std::numeric_limits<float>::quiet_NaN();
 
 /// Numbers of features for the returns of a scene, one row per return. Missing values are NaN, and the only values that
 /// are not finite.

@@ -19,13 +19,13 @@ class MountingCheck {
   /// Adds a scene with an image and its features (measureSceneFeatures()), unless enough were seen.
   void add(const Scene& scene, const FeatureTable& table);
   /// Returns whether the frames so far speak for a camera that is upside down.
-  bool isUpsideDown() const { return frames_ >= least_frames && evidence_ > least_evidence; }
+  bool isUpsideDown() const { return frames_ >= kLeastFrames && evidence_ > kLeastEvidence; }
   /// Returns the mean over the returns by how much the turned image is more likely, as a difference of logarithms.
   double evidence() const { return frames_ > 0 ? evidence_ / static_cast<double>(frames_) : 0.0; }
 
  private:
-  static constexpr std::size_t least_frames = 2;  // one image alone tells nothing
-  static constexpr double least_evidence = 0.1;   // summed over frames; upright ones have -0.04 to -0.35 each
+  static constexpr std::size_t kLeastFrames = 2;  // one image alone tells nothing
+  static constexpr double kLeastEvidence = 0.1;   // summed over frames; upright ones have -0.04 to -0.35 each
 
   const LabelModel& model_;
   double evidence_ = 0.0;  // summed over frames

@@ -9,7 +9,7 @@
 namespace scene_labeler {
 
 /// Number of a patch for returns that belong to none.
-constexpr std::uint32_t no_patch = 0xffffffffU;
+constexpr std::uint32_t kNoPatch = 0xffffffffU;
 
 /// Partition of an image into superpixels.
 struct Superpixels {
@@ -21,7 +21,7 @@ struct Superpixels {
 Superpixels makeSuperpixels(const cv::Mat& image, int size);
 
 /// Groups the returns of a scene whose classes are decided together: those of one superpixel at similar depth, or
-/// without an image those in one cube of 0.4 m. One number per return, no_patch for returns in none.
+/// without an image those in one cube of 0.4 m. One number per return, kNoPatch for returns in none.
 std::vector<std::uint32_t> makePatches(const Scene& scene, const Superpixels& superpixels);
 
 }  // namespace scene_labeler

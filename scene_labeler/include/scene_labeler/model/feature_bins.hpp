@@ -11,8 +11,8 @@ namespace scene_labeler {
 /// Quantises the values of features, so that trees compare bytes.
 class FeatureBins {
  public:
-  /// Codes of a value: 0 is missing, 1 is below the first edge, `code_count` - 1 is above the last edge of 63.
-  static constexpr std::size_t code_count = 65;
+  /// Codes of a value: 0 is missing, 1 is below the first edge, `kCodeCount` - 1 is above the last edge of 63.
+  static constexpr std::size_t kCodeCount = 65;
 
   FeatureBins() = default;
   /// Chooses edges at quantiles of the samples (`rows` of `columns` values each).
@@ -27,7 +27,7 @@ class FeatureBins {
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  std::vector<std::vector<float>> edges_;  // of each column, ascending, at most code_count - 2
+  std::vector<std::vector<float>> edges_;  // of each column, ascending, at most kCodeCount - 2
 };
 
 }  // namespace scene_labeler

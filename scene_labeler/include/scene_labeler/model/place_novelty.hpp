@@ -30,8 +30,8 @@ class PlaceNovelty {
                      const std::vector<std::uint8_t>& is_asked) const;
 
  private:
-  static constexpr std::size_t most_columns = 16;
-  using Codes = std::array<std::uint8_t, most_columns>;
+  static constexpr std::size_t kMostColumns = 16;
+  using Codes = std::array<std::uint8_t, kMostColumns>;
 
   /// Some features, and what the samples have of them.
   struct Aspect {

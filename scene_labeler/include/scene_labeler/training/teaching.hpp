@@ -10,10 +10,10 @@
 namespace scene_labeler {
 
 /// Weight of a corrected return; that of others is 1.
-constexpr float correction_weight = 10.0F;
+constexpr float kCorrectionWeight = 10.0F;
 /// Weight of a return that stays what the model says it is, since nobody corrected it; it is learnt by trees that are
 /// added to those of the model, and not kept.
-constexpr float anchor_weight = 0.5F;
+constexpr float kAnchorWeight = 0.5F;
 
 /// Returns the samples that a model holds as training data, fold by fold: samples of weight 1 also serve calibration,
 /// in the frequencies of the data that the model was calibrated on. Empty if the model holds none.
@@ -25,7 +25,7 @@ struct CorrectionCount {
 };
 
 /// Adds the returns of a scene whose label differs from the answer of the model as a fold of its own, with
-/// correction_weight; labels that equal the answer are not learnt. `labels`: one per return, None is no label; kinds of
+/// kCorrectionWeight; labels that equal the answer are not learnt. `labels`: one per return, None is no label; kinds of
 /// wall are one class for a model that does not distinguish them. Requires a fold name that `folds` does not hold.
 CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
                                int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds);
@@ -38,9 +38,9 @@ struct PatchCorrection {
 
 /// Adds the returns of the superpixels of a scene at the given returns (without an image: of the cubes of
 /// makePatches()) to a fold, whatever the model's answer is, with weights by which all superpixels count about the
-/// same: one return of the smallest has correction_weight in a kind of place that the model was not trained in. In
+/// same: one return of the smallest has kCorrectionWeight in a kind of place that the model was not trained in. In
 /// others, where most answers are right, it has less, and 300 returns or fewer of the scene are added with
-/// anchor_weight, of classes that nobody took from the model here. Returns how many corrected returns were added.
+/// kAnchorWeight, of classes that nobody took from the model here. Returns how many corrected returns were added.
 std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
                                 const std::vector<PatchCorrection>& corrections, int superpixel_size,
                                 TrainingFold& fold);

@@ -9,8 +9,8 @@
 
 namespace segway_drivers {
 
-constexpr int bb2_width = 640, bb2_height = 480;
-constexpr std::size_t bb2_frame_size = 2UL * bb2_width * bb2_height;  // bytes
+constexpr int kBb2Width = 640, kBb2Height = 480;
+constexpr std::size_t kBb2FrameSize = 2UL * kBb2Width * kBb2Height;  // bytes
 
 /// Where the embedded image information lies.
 enum class Bb2Embedding {
@@ -27,7 +27,7 @@ struct Bb2Frame {
 };
 
 /// Separates the imagers and reads time, gain, shutter and frame counter (mask 0x47); their pixels are replaced by the
-/// row two below. `swap`: even bytes belong to the left imager. Requires bb2_frame_size bytes.
+/// row two below. `swap`: even bytes belong to the left imager. Requires kBb2FrameSize bytes.
 Bb2Frame splitBb2Frame(ByteView raw, bool swap, Bb2Embedding embedding);
 
 /// Framing rule of recorded raw frames, which have a fixed size.

@@ -8,7 +8,7 @@
 
 namespace segway_drivers {
 
-constexpr double bus_time_wrap = 128.0;  // s
+constexpr double kBusTimeWrap = 128.0;  // s
 
 /// Time of an IEEE 1394 bus, s modulo 128, from its register word: 7 bits of seconds, 13 of cycles (125 us), 12 of
 /// 1/24.576 MHz. The low 4 bits may be a frame count and are ignored (0.65 us). Returns nullopt for cycles or offsets

@@ -10,7 +10,7 @@
 
 namespace segway_drivers {
 
-constexpr std::size_t gpsd_longest_line = 16384;  // bytes
+constexpr std::size_t kGpsdLongestLine = 16384;  // bytes
 
 /// Request for reports as JSON lines.
 Bytes makeGpsdWatch();

@@ -11,15 +11,15 @@
 
 namespace segway_drivers {
 
-constexpr std::size_t ladybug_cameras = 6, ladybug_planes = 4;
-constexpr std::size_t ladybug_max_frame = 2'022'400;  // bytes, the largest container
+constexpr std::size_t kLadybugCameras = 6, kLadybugPlanes = 4;
+constexpr std::size_t kLadybugMaxFrame = 2'022'400;  // bytes, the largest container
 
 /// Header of a frame and its directory of grey JPEGs. Views into the bytes of the frame.
 struct LadybugFrame {
   std::optional<double> bus_time;  ///< s modulo 128
   std::uint32_t sequence = 0;      ///< frames since the head was switched on
   std::optional<MosaicPattern> pattern;
-  std::array<std::array<ByteView, ladybug_planes>, ladybug_cameras> planes;  ///< empty: bad or missing
+  std::array<std::array<ByteView, kLadybugPlanes>, kLadybugCameras> planes;  ///< empty: bad or missing
   int bad_channels = 0;
 };
 

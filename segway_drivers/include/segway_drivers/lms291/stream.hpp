@@ -11,7 +11,7 @@
 
 namespace segway_drivers {
 
-constexpr double lms_period =
+constexpr double kLmsPeriod =
     0.013338;  // s, of the mirror; measured on both lasers of the New College log (nominal 75 Hz)
 
 /// A scan with its place in the stream and in time.

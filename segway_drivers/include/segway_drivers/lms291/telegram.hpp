@@ -6,7 +6,7 @@
 
 namespace segway_drivers {
 
-constexpr std::size_t lms_max_telegram = 812;  // bytes
+constexpr std::size_t kLmsMaxTelegram = 812;  // bytes
 
 /// CRC of SICK LMS telegrams over all bytes from STX on: 16 bits, polynomial 0x8005, with the previous byte in the high
 /// half.

@@ -21,7 +21,7 @@ struct CanFrame {
   std::uint32_t pair(std::size_t i) const { return word(i) | static_cast<std::uint32_t>(word(i + 1)) << 16; }
 };
 
-constexpr std::size_t rmp_packet_size = 18;  // bytes, in both directions
+constexpr std::size_t kRmpPacketSize = 18;  // bytes, in both directions
 
 /// USB packet from the host to the base.
 Bytes makeRmpPacket(const CanFrame& frame);

@@ -6,7 +6,7 @@
 
 namespace segway_drivers {
 
-constexpr std::size_t mti_max_message = 2048 + 7;  // bytes, with an extended length
+constexpr std::size_t kMtiMaxMessage = 2048 + 7;  // bytes, with an extended length
 
 /// Message identifiers of an XSens MT device. The answer to a request has the identifier of the request plus 1.
 enum class MtiMid : std::uint8_t {

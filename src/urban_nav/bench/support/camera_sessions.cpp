@@ -70,7 +70,7 @@ CameraSession makeSession(const std::string& name, Bytes frame, SimCameraOptions
 }  // namespace
 
 void forEachCamera(const std::function<void(const CameraSession&)>& visit) {
-  const cv::Size size(segway_drivers::bb2_width, segway_drivers::bb2_height);
+  const cv::Size size(segway_drivers::kBb2Width, segway_drivers::kBb2Height);
   visit(makeSession<segway_drivers::Bb2Camera>(
       "bumblebee2", segway_drivers::packBb2Frame(makeScene(1, size, CV_8U), makeScene(2, size, CV_8U)),
       SimCameraOptions::Model::Bumblebee2, 0.05));

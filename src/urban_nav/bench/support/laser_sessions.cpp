@@ -24,7 +24,7 @@ void putLaserSession(const std::string& bag, const urban_nav_store::SessionId& i
       const std::string& frame = message->header.frame_id;
       if (!is_placed)
         store.sessions().put(
-            id, urban_nav_store::Extrinsic{frame, *transforms.lookup(urban_nav_core::frames::base_link, frame)});
+            id, urban_nav_store::Extrinsic{frame, *transforms.lookup(urban_nav_core::frames::kBaseLink, frame)});
       is_placed = true;
       if (const auto scan = urban_nav_ros::toPlanarScan(*message))
         store.scans().put(id, frame, urban_nav_core::toScan(*scan));

@@ -37,8 +37,8 @@ std::vector<geometry_msgs::TransformStamped> transforms() {
   std::vector<geometry_msgs::TransformStamped> all =
       stereoTransforms(urban_nav_input::newCollegeCamera(), urban_nav_input::newCollegeLeftCamera());
   all.push_back(
-      urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_left, urban_nav_input::newCollegeLeftLaser()));
-  all.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_right,
+      urban_nav_ros::toStaticTransform(frames::kBaseLink, frames::kLaserLeft, urban_nav_input::newCollegeLeftLaser()));
+  all.push_back(urban_nav_ros::toStaticTransform(frames::kBaseLink, frames::kLaserRight,
                                                  urban_nav_input::newCollegeRightLaser()));
   return all;
 }
@@ -53,8 +53,8 @@ void write(const urban_nav_input::NewCollegeScan& event, BagWriter& bag) {
 void write(const urban_nav_input::NewCollegeOdometry& event, BagWriter& bag) {
   nav_msgs::Odometry message;
   message.header.stamp = urban_nav_ros::toRosTime(event.stamp);
-  message.header.frame_id = frames::odom;
-  message.child_frame_id = frames::base_link;
+  message.header.frame_id = frames::kOdom;
+  message.child_frame_id = frames::kBaseLink;
   message.pose.pose = urban_nav_ros::toPoseMessage(event.T_odom_base);
   message.twist.twist.linear.x = event.speed;
   message.twist.twist.angular.y = event.pitch_rate;

@@ -86,7 +86,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
       imu.push_back(urban_nav_input::toImuMessage(row));
     if (!imu.empty())
       transforms.push_back(urban_nav_ros::toStaticTransform(
-          urban_nav_core::frames::base_link, urban_nav_core::frames::imu,
+          urban_nav_core::frames::kBaseLink, urban_nav_core::frames::kImu,
           urban_nav_input::readEurocRig(urban_nav_input::eurocFolder(folder)).T_base_body));
   }
   Companions companions(std::move(imu), urban_nav_input::findTruth({{folder}}, info, options), shift);

@@ -37,16 +37,16 @@ void writeSide(const std::string& side, const std::string& frame, const urban_na
 
 void writeStereo(const urban_nav_core::StereoPair& pair, StampNs stamp, const urban_nav_core::StereoCamera& camera,
                  BagWriter& bag) {
-  writeSide("left", frames::stereo_left, pair.left, stamp, urban_nav_core::leftInfo(camera), bag);
-  writeSide("right", frames::stereo_right, pair.right, stamp, urban_nav_core::rightInfo(camera), bag);
+  writeSide("left", frames::kStereoLeft, pair.left, stamp, urban_nav_core::leftInfo(camera), bag);
+  writeSide("right", frames::kStereoRight, pair.right, stamp, urban_nav_core::rightInfo(camera), bag);
 }
 
 std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera,
                                                               const urban_nav_core::Pose& T_base_left) {
   const urban_nav_core::Pose T_left_right(urban_nav_core::Quaterniond::Identity(),
                                           urban_nav_core::Vector3d(camera.baseline, 0.0, 0.0));
-  return {urban_nav_ros::toStaticTransform(frames::base_link, frames::stereo_left, T_base_left),
-          urban_nav_ros::toStaticTransform(frames::stereo_left, frames::stereo_right, T_left_right)};
+  return {urban_nav_ros::toStaticTransform(frames::kBaseLink, frames::kStereoLeft, T_base_left),
+          urban_nav_ros::toStaticTransform(frames::kStereoLeft, frames::kStereoRight, T_left_right)};
 }
 
 }  // namespace urban_nav

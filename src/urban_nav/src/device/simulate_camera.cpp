@@ -32,8 +32,8 @@ SimCameraFault::Kind toCameraFault(DeviceFaultKind kind) {
 SimCameraOptions toCameraOptions(const SimulateCameraJob& job) {
   SimCameraOptions options;
   options.model = job.kind == "ladybug2" ? SimCameraOptions::Model::Ladybug2 : SimCameraOptions::Model::Bumblebee2;
-  options.bus_begin = std::fmod(job.options.clock.offset, segway_drivers::bus_time_wrap);
-  if (options.bus_begin < 0.0) options.bus_begin += segway_drivers::bus_time_wrap;
+  options.bus_begin = std::fmod(job.options.clock.offset, segway_drivers::kBusTimeWrap);
+  if (options.bus_begin < 0.0) options.bus_begin += segway_drivers::kBusTimeWrap;
   options.bus_skew = job.options.clock.skew;
   for (const urban_nav_sim::DeviceFault& fault : job.options.faults)
     options.faults.push_back({toCameraFault(fault.kind), fault.start, fault.duration});

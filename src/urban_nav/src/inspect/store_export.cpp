@@ -30,10 +30,10 @@ constexpr const char* kStereo = "stereo";
 
 Pose makeCamera(Store& store, const urban_nav_store::Session& session) {
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
-    if (extrinsic.frame == urban_nav_core::frames::stereo_left) return extrinsic.T_base_frame;
+    if (extrinsic.frame == urban_nav_core::frames::kStereoLeft) return extrinsic.T_base_frame;
   throw UserError(
       store.path(),
-      "does not say where " + std::string(urban_nav_core::frames::stereo_left) + " stands in session " + session.id,
+      "does not say where " + std::string(urban_nav_core::frames::kStereoLeft) + " stands in session " + session.id,
       "--tum, which needs no camera");
 }
 

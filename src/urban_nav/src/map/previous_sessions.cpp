@@ -35,7 +35,7 @@ std::map<StampNs, Edge> collectSteps(Store& store, const SessionId& id) {
 SessionOdometry makeChain(Store& store, const SessionId& id) {
   SessionOdometry run;
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(id))
-    if (extrinsic.frame == urban_nav_core::frames::stereo_left) run.T_base_camera = extrinsic.T_base_frame;
+    if (extrinsic.frame == urban_nav_core::frames::kStereoLeft) run.T_base_camera = extrinsic.T_base_frame;
   const std::map<StampNs, Edge> steps = collectSteps(store, id);
   store.graph().forEachNode(id, [&](const urban_nav_store::Node& node) {
     SmoothedFrame settled;

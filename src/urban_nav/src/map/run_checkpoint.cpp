@@ -220,8 +220,8 @@ void RunCheckpoint::writeSession(std::size_t session) {
   for (const auto& [name, digest] : plan.fingerprint) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
-  store_->sessions().put(id, urban_nav_store::Extrinsic{urban_nav_core::frames::stereo_left, info.T_base_camera});
-  store_->sessions().put(id, Property{urban_nav_registration::calibration_property,
+  store_->sessions().put(id, urban_nav_store::Extrinsic{urban_nav_core::frames::kStereoLeft, info.T_base_camera});
+  store_->sessions().put(id, Property{urban_nav_registration::kCalibrationProperty,
                                       urban_nav_registration::calibrationFingerprint(info.camera, info.T_base_camera)});
   for (const urban_nav_input::LaserInfo& laser : info.lasers)
     store_->sessions().put(id, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});

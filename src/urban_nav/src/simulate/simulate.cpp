@@ -33,7 +33,7 @@ void makeFolder(const std::string& path) {
 Simulated simulate(const SimulateJob& job, Console& console) {
   const HeldSignals signals;
   urban_nav_sim::Session session(job.session);
-  const urban_nav_core::Pose T_base_left = session.places().at(urban_nav_core::frames::stereo_left);
+  const urban_nav_core::Pose T_base_left = session.places().at(urban_nav_core::frames::kStereoLeft);
   std::vector<std::string> frames;
   for (const auto& [frame, T_base_sensor] : session.places()) frames.push_back(frame);
   SessionBags bags(job.bag, job.part, session, parseCalibrationErrors(job.lags, job.misplaced, frames));

@@ -28,7 +28,7 @@ std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Argume
 }
 
 std::set<urban_nav_sim::Sensor> parseSensors(const Arguments& arguments) {
-  if (!arguments.has("sensors")) return {urban_nav_sim::all_sensors.begin(), urban_nav_sim::all_sensors.end()};
+  if (!arguments.has("sensors")) return {urban_nav_sim::kAllSensors.begin(), urban_nav_sim::kAllSensors.end()};
   std::set<urban_nav_sim::Sensor> sensors = makeList("sensors", arguments);
   if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
   return sensors;

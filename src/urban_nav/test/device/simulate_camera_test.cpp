@@ -62,7 +62,7 @@ class SimulateCamera : public ::testing::Test {
 TEST_F(SimulateCamera, FramesHoldTheImagesOfTheBagAndTheIndexTheirTimes) {
   ASSERT_EQ(simulate(), static_cast<std::int64_t>(camera_pairs));
   const std::string raw = urban_nav_core::readTextFile(job_.source);
-  ASSERT_EQ(raw.size(), camera_pairs * segway_drivers::bb2_frame_size);
+  ASSERT_EQ(raw.size(), camera_pairs * segway_drivers::kBb2FrameSize);
   const auto index = urban_nav_core::CsvTable::read(job_.source + ".csv");
   const auto truth = urban_nav_core::CsvTable::read(job_.truth);
   ASSERT_EQ(index.rows(), camera_pairs);
@@ -73,9 +73,9 @@ TEST_F(SimulateCamera, FramesHoldTheImagesOfTheBagAndTheIndexTheirTimes) {
     EXPECT_GT(index.integer(pair, index.column("arrival_ns")), stamp);
     EXPECT_EQ(index.integer(pair, index.column("sequence")), static_cast<std::int64_t>(pair));
     const auto offset = static_cast<std::size_t>(index.integer(pair, index.column("offset")));
-    ASSERT_EQ(offset, pair * segway_drivers::bb2_frame_size);
+    ASSERT_EQ(offset, pair * segway_drivers::kBb2FrameSize);
     const segway_drivers::ByteView bytes(reinterpret_cast<const std::uint8_t*>(raw.data()) + offset,
-                                         segway_drivers::bb2_frame_size);
+                                         segway_drivers::kBb2FrameSize);
     const auto frame = segway_drivers::splitBb2Frame(bytes, false, segway_drivers::Bb2Embedding::Raw);
     const std::size_t at = 77 * 640 + 5;
     EXPECT_EQ(frame.left.at<std::uint8_t>(77, 5), pixelOfCameraTest(pair, true, at));
@@ -87,7 +87,7 @@ TEST_F(SimulateCamera, ASessionIsSimulatedWhereThereIsNoBag) {
   job_.bag.clear();
   job_.session.duration = 0.2;
   EXPECT_EQ(simulate(), 4);
-  EXPECT_EQ(urban_nav_core::readTextFile(job_.source).size(), 4 * segway_drivers::bb2_frame_size);
+  EXPECT_EQ(urban_nav_core::readTextFile(job_.source).size(), 4 * segway_drivers::kBb2FrameSize);
   job_.kind = "ladybug2";
   EXPECT_EQ(simulate(), 1);
 }

@@ -57,7 +57,7 @@ TEST_F(PreviousSessionsTest, BringsChainsBackToTheLastBit) {
   put("m", "monday.bag", 100, 3);
   tie("m", 100, "m", 101, EdgeKind::Odometry, 1.0 / 3.0);  // what was measured, not the difference of rounded poses
   store.inputs().append("m", {kVoStream, 104, false});
-  store.sessions().put("m", urban_nav_store::Extrinsic{urban_nav_core::frames::stereo_left, at(0.3)});
+  store.sessions().put("m", urban_nav_store::Extrinsic{urban_nav_core::frames::kStereoLeft, at(0.3)});
   store.states().put("m", kForcesStage, packForces({{100, {0.0, 0.0, 9.8}}}));
   store.sessions().put(urban_nav_store::Anchor{"m", "m", 4, Pose()});
   const PreviousSessions earlier = readPreviousSessions(store, {});

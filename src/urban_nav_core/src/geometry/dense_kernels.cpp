@@ -15,53 +15,55 @@ namespace {
 // Vectors of the compiler's own, so that one text serves every width.
 struct Narrow {
   typedef double Vector __attribute__((vector_size(16), aligned(8)));
-  static constexpr int lanes = 2, vectors = 2, columns = 4;
+  static constexpr int kLanes = 2, kVectors = 2, kColumns = 4;
 };
 struct Middle {
   typedef double Vector __attribute__((vector_size(32), aligned(8)));
-  static constexpr int lanes = 4, vectors = 2, columns = 4;
+  static constexpr int kLanes = 4, kVectors = 2, kColumns = 4;
 };
 struct Wide {
   typedef double Vector __attribute__((vector_size(64), aligned(8)));
-  static constexpr int lanes = 8, vectors = 1, columns = 8;
+  static constexpr int kLanes = 8, kVectors = 1, kColumns = 8;
 };
 
 template <typename Width>
 __attribute__((always_inline)) inline void tile(double* C, std::ptrdiff_t stride, const double* a, const double* b,
                                                 int depth) {
   using Vector = typename Width::Vector;
-  Vector sum[Width::columns][Width::vectors];
+  Vector sum[Width::kColumns][Width::kVectors];
 #pragma GCC unroll 8
-  for (int c = 0; c < Width::columns; ++c)
+  for (int c = 0; c < Width::kColumns; ++c)
 #pragma GCC unroll 8
-    for (int v = 0; v < Width::vectors; ++v) sum[c][v] = Vector{};
+    for (int v = 0; v < Width::kVectors; ++v) sum[c][v] = Vector{};
   for (int k = 0; k < depth; ++k) {
-    Vector x[Width::vectors];
+    Vector x[Width::kVectors];
 #pragma GCC unroll 8
-    for (int v = 0; v < Width::vectors; ++v) x[v] = *reinterpret_cast<const Vector*>(a + k * strip + v * Width::lanes);
+    for (int v = 0; v < Width::kVectors; ++v)
+      x[v] = *reinterpret_cast<const Vector*>(a + k * kStrip + v * Width::kLanes);
 #pragma GCC unroll 8
-    for (int c = 0; c < Width::columns; ++c) {
-      const double y = b[k * strip + c];
+    for (int c = 0; c < Width::kColumns; ++c) {
+      const double y = b[k * kStrip + c];
 #pragma GCC unroll 8
-      for (int v = 0; v < Width::vectors; ++v) sum[c][v] += x[v] * y;
+      for (int v = 0; v < Width::kVectors; ++v) sum[c][v] += x[v] * y;
     }
   }
 #pragma GCC unroll 8
-  for (int c = 0; c < Width::columns; ++c)
+  for (int c = 0; c < Width::kColumns; ++c)
 #pragma GCC unroll 8
-    for (int v = 0; v < Width::vectors; ++v) *reinterpret_cast<Vector*>(C + c * stride + v * Width::lanes) -= sum[c][v];
+    for (int v = 0; v < Width::kVectors; ++v)
+      *reinterpret_cast<Vector*>(C + c * stride + v * Width::kLanes) -= sum[c][v];
 }
 
 template <typename Width>
 __attribute__((always_inline)) inline void subtractStripsAs(double* C, int stride, const double* packed, int count,
                                                             int depth) {
-  const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(strip) * depth;
-  constexpr int rows = Width::lanes * Width::vectors;
+  const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(kStrip) * depth;
+  constexpr int kRows = Width::kLanes * Width::kVectors;
   for (int j = 0; j < count; ++j)
     for (int i = j; i < count; ++i)
-      for (int r = 0; r < strip; r += rows)
-        for (int c = 0; c < strip; c += Width::columns)
-          tile<Width>(C + static_cast<std::ptrdiff_t>(j * strip + c) * stride + i * strip + r, stride,
+      for (int r = 0; r < kStrip; r += kRows)
+        for (int c = 0; c < kStrip; c += Width::kColumns)
+          tile<Width>(C + static_cast<std::ptrdiff_t>(j * kStrip + c) * stride + i * kStrip + r, stride,
                       packed + i * size + r, packed + j * size + c, depth);
 }
 
@@ -73,22 +75,22 @@ __attribute__((always_inline)) inline void solveAs(double* X, std::ptrdiff_t apa
   for (int j = 0; j < depth; ++j) {
     Vector sum[several];
 #pragma GCC unroll 8
-    for (int s = 0; s < several; ++s) sum[s] = *reinterpret_cast<const Vector*>(X + s * apart + j * strip);
+    for (int s = 0; s < several; ++s) sum[s] = *reinterpret_cast<const Vector*>(X + s * apart + j * kStrip);
     for (int k = 0; k < j; ++k) {
       const double factor = L[j * depth + k];
 #pragma GCC unroll 8
-      for (int s = 0; s < several; ++s) sum[s] -= *reinterpret_cast<const Vector*>(X + s * apart + k * strip) * factor;
+      for (int s = 0; s < several; ++s) sum[s] -= *reinterpret_cast<const Vector*>(X + s * apart + k * kStrip) * factor;
     }
 #pragma GCC unroll 8
-    for (int s = 0; s < several; ++s) *reinterpret_cast<Vector*>(X + s * apart + j * strip) = sum[s] * inverse[j];
+    for (int s = 0; s < several; ++s) *reinterpret_cast<Vector*>(X + s * apart + j * kStrip) = sum[s] * inverse[j];
   }
 }
 
 template <typename Width>
 __attribute__((always_inline)) inline void solveStripsAs(double* packed, int count, int depth, const double* L,
                                                          const double* inverse) {
-  const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(strip) * depth;
-  for (int r = 0; r < strip; r += Width::lanes) {
+  const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(kStrip) * depth;
+  for (int r = 0; r < kStrip; r += Width::kLanes) {
     int i = 0;
     for (; i + 4 <= count; i += 4) solveAs<Width, 4>(packed + i * size + r, size, depth, L, inverse);
     for (; i < count; ++i) solveAs<Width, 1>(packed + i * size + r, size, depth, L, inverse);
@@ -99,26 +101,26 @@ __attribute__((always_inline)) inline void solveStripsAs(double* packed, int cou
 template <typename Width>
 __attribute__((always_inline)) inline double dotAs(const double* a, const double* b, int n) {
   using Vector = typename Width::Vector;
-  constexpr int sums = 16, vectors = sums / Width::lanes;
-  Vector sum[vectors];
+  constexpr int kSums = 16, kVectors = kSums / Width::kLanes;
+  Vector sum[kVectors];
 #pragma GCC unroll 8
-  for (int v = 0; v < vectors; ++v) sum[v] = Vector{};
+  for (int v = 0; v < kVectors; ++v) sum[v] = Vector{};
   int i = 0;
-  for (; i + sums <= n; i += sums) {
+  for (; i + kSums <= n; i += kSums) {
 #pragma GCC unroll 8
-    for (int v = 0; v < vectors; ++v)
-      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) *
-                *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+    for (int v = 0; v < kVectors; ++v)
+      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::kLanes) *
+                *reinterpret_cast<const Vector*>(b + i + v * Width::kLanes);
   }
-  for (; i + sums / 2 <= n; i += sums / 2) {
+  for (; i + kSums / 2 <= n; i += kSums / 2) {
 #pragma GCC unroll 8
-    for (int v = 0; v < vectors / 2; ++v)
-      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) *
-                *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+    for (int v = 0; v < kVectors / 2; ++v)
+      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::kLanes) *
+                *reinterpret_cast<const Vector*>(b + i + v * Width::kLanes);
   }
 #pragma GCC unroll 8
-  for (int v = 0; v < vectors / 2; ++v) sum[v] += sum[v + vectors / 2];
-  double each[sums / 2];
+  for (int v = 0; v < kVectors / 2; ++v) sum[v] += sum[v + kVectors / 2];
+  double each[kSums / 2];
   std::memcpy(each, sum, sizeof each);
   double rest = 0.0;
   for (; i < n; ++i) rest += a[i] * b[i];
@@ -130,25 +132,25 @@ template <typename Width>
 __attribute__((always_inline)) inline void dotSixAs(const double* a, const double* b, std::ptrdiff_t stride, int n,
                                                     double* products) {
   using Vector = typename Width::Vector;
-  constexpr int sums = 8, vectors = sums / Width::lanes,
-                together = Width::lanes == 2 ? 3 : 6;  // as many as there are registers for
-  for (int first = 0; first < 6; first += together) {
-    Vector sum[together][vectors];
+  constexpr int kSums = 8, kVectors = kSums / Width::kLanes,
+                kTogether = Width::kLanes == 2 ? 3 : 6;  // as many as there are registers for
+  for (int first = 0; first < 6; first += kTogether) {
+    Vector sum[kTogether][kVectors];
 #pragma GCC unroll 6
-    for (int c = 0; c < together; ++c)
+    for (int c = 0; c < kTogether; ++c)
 #pragma GCC unroll 4
-      for (int v = 0; v < vectors; ++v) sum[c][v] = Vector{};
+      for (int v = 0; v < kVectors; ++v) sum[c][v] = Vector{};
     int i = 0;
-    for (; i + sums <= n; i += sums)
+    for (; i + kSums <= n; i += kSums)
 #pragma GCC unroll 4
-      for (int v = 0; v < vectors; ++v) {
-        const Vector x = *reinterpret_cast<const Vector*>(a + i + v * Width::lanes);
+      for (int v = 0; v < kVectors; ++v) {
+        const Vector x = *reinterpret_cast<const Vector*>(a + i + v * Width::kLanes);
 #pragma GCC unroll 6
-        for (int c = 0; c < together; ++c)
-          sum[c][v] += x * *reinterpret_cast<const Vector*>(b + (first + c) * stride + i + v * Width::lanes);
+        for (int c = 0; c < kTogether; ++c)
+          sum[c][v] += x * *reinterpret_cast<const Vector*>(b + (first + c) * stride + i + v * Width::kLanes);
       }
-    for (int c = 0; c < together; ++c) {
-      double each[sums], rest = 0.0;
+    for (int c = 0; c < kTogether; ++c) {
+      double each[kSums], rest = 0.0;
       std::memcpy(each, sum[c], sizeof each);
       for (int k = i; k < n; ++k) rest += a[k] * b[(first + c) * stride + k];
       products[first + c] =
@@ -163,7 +165,7 @@ __attribute__((always_inline)) inline void subtractAs(double* y, const double* x
   int i = 0;
   for (; i + 8 <= n; i += 8)
 #pragma GCC unroll 4
-    for (int v = 0; v < 8; v += Width::lanes)
+    for (int v = 0; v < 8; v += Width::kLanes)
       *reinterpret_cast<Vector*>(y + i + v) -= *reinterpret_cast<const Vector*>(x + i + v) * factor;
   for (; i < n; ++i) y[i] -= x[i] * factor;
 }
@@ -176,7 +178,7 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
   int i = 0;
   for (; i + 8 <= n; i += 8)
 #pragma GCC unroll 4
-    for (int v = i; v < i + 8; v += Width::lanes) {
+    for (int v = i; v < i + 8; v += Width::kLanes) {
       const Vector first = *reinterpret_cast<const Vector*>(y + v) - *reinterpret_cast<const Vector*>(x0 + v) * a;
       *reinterpret_cast<Vector*>(y + v) =
           first - *reinterpret_cast<const Vector*>(x1 + v) * b - *reinterpret_cast<const Vector*>(x2 + v) * c;
@@ -188,16 +190,16 @@ template <typename Width, int rows>
 __attribute__((always_inline)) inline void subtractEightRows(double* Y, const double* L, std::ptrdiff_t row_step,
                                                              std::ptrdiff_t column_step, const double* X, int columns) {
   using Vector = typename Width::Vector;
-  constexpr int vectors = 8 / Width::lanes;
-  Vector sum[rows][vectors];
+  constexpr int kVectors = 8 / Width::kLanes;
+  Vector sum[rows][kVectors];
 #pragma GCC unroll 8
   for (int r = 0; r < rows; ++r)
 #pragma GCC unroll 4
-    for (int v = 0; v < vectors; ++v) sum[r][v] = Vector{};
+    for (int v = 0; v < kVectors; ++v) sum[r][v] = Vector{};
   for (int k = 0; k < columns; ++k, X += 8, L += column_step) {
 #pragma GCC unroll 4
-    for (int v = 0; v < vectors; ++v) {
-      const Vector x = *reinterpret_cast<const Vector*>(X + v * Width::lanes);
+    for (int v = 0; v < kVectors; ++v) {
+      const Vector x = *reinterpret_cast<const Vector*>(X + v * Width::kLanes);
 #pragma GCC unroll 8
       for (int r = 0; r < rows; ++r) sum[r][v] += x * L[r * row_step];
     }
@@ -205,17 +207,17 @@ __attribute__((always_inline)) inline void subtractEightRows(double* Y, const do
 #pragma GCC unroll 8
   for (int r = 0; r < rows; ++r)
 #pragma GCC unroll 4
-    for (int v = 0; v < vectors; ++v) *reinterpret_cast<Vector*>(Y + r * 8 + v * Width::lanes) -= sum[r][v];
+    for (int v = 0; v < kVectors; ++v) *reinterpret_cast<Vector*>(Y + r * 8 + v * Width::kLanes) -= sum[r][v];
 }
 
 template <typename Width>
 __attribute__((always_inline)) inline void subtractEightAs(double* Y, int rows, const double* L,
                                                            std::ptrdiff_t row_step, std::ptrdiff_t column_step,
                                                            const double* X, int columns) {
-  constexpr int together = Width::lanes;  // as many as there are registers for
+  constexpr int kTogether = Width::kLanes;  // as many as there are registers for
   int r = 0;
-  for (; r + together <= rows; r += together)
-    subtractEightRows<Width, together>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
+  for (; r + kTogether <= rows; r += kTogether)
+    subtractEightRows<Width, kTogether>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
   for (; r < rows; ++r) subtractEightRows<Width, 1>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
 }
 
@@ -256,7 +258,7 @@ URBAN_NAV_KERNELS(Middle, __attribute__((target("avx2"))))
 URBAN_NAV_KERNELS(Wide, __attribute__((target("avx512f"))))
 #endif
 
-constexpr InstructionSet sets[] = {
+constexpr InstructionSet kSets[] = {
 #ifdef URBAN_NAV_X86
     URBAN_NAV_SET("avx512f", Wide),
     URBAN_NAV_SET("avx2", Middle),
@@ -281,7 +283,7 @@ const InstructionSet& fastest() {
 
 std::vector<InstructionSet> instructionSets() {
   std::vector<InstructionSet> result;
-  for (const InstructionSet& set : sets)
+  for (const InstructionSet& set : kSets)
     if (supports(set)) result.push_back(set);
   return result;
 }

@@ -8,31 +8,31 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr int shrink = 4;  // columns
-constexpr int block = 12;  // shrunk columns
-constexpr int block_rows = 4;
-constexpr int longest_reach = 200;  // shrunk columns
+constexpr int kShrink = 4;        // columns
+constexpr int kShrunkBlock = 12;  // shrunk columns
+constexpr int kBlockRows = 4;
+constexpr int kLongestReach = 200;  // shrunk columns
 
-// Sums over `shrink` neighbours of a row, from a shrunk column on: a cheap low-pass filter along the row.
+// Sums over `kShrink` neighbours of a row, from a shrunk column on: a cheap low-pass filter along the row.
 void shrinkRows(const ImageView& image, int v, int column, int count, int* out) {
-  for (int r = 0; r < block_rows; ++r) {
-    const std::uint8_t* p = image.row(v + 2 * r) + column * shrink;
-    for (int c = 0; c < count; ++c, p += shrink) *out++ = p[0] + p[1] + p[2] + p[3];
+  for (int r = 0; r < kBlockRows; ++r) {
+    const std::uint8_t* p = image.row(v + 2 * r) + column * kShrink;
+    for (int c = 0; c < count; ++c, p += kShrink) *out++ = p[0] + p[1] + p[2] + p[3];
   }
 }
 
 // Cost of a block beside another, whose rows are `stride` apart; the mean is removed, so exposure does not matter.
 int difference(const int* a, const int* b, int stride) {
-  constexpr int count = block * block_rows;
-  int values[count];
+  constexpr int kCount = kShrunkBlock * kBlockRows;
+  int values[kCount];
   int sum = 0;
-  for (int r = 0; r < block_rows; ++r)
-    for (int c = 0; c < block; ++c) {
-      const int d = a[r * block + c] - b[r * stride + c];
-      values[r * block + c] = d;
+  for (int r = 0; r < kBlockRows; ++r)
+    for (int c = 0; c < kShrunkBlock; ++c) {
+      const int d = a[r * kShrunkBlock + c] - b[r * stride + c];
+      values[r * kShrunkBlock + c] = d;
       sum += d;
     }
-  const int mean = sum / count;
+  const int mean = sum / kCount;
   int cost = 0;
   for (const int value : values) cost += std::abs(value - mean);
   return cost;
@@ -41,17 +41,18 @@ int difference(const int* a, const int* b, int stride) {
 }  // namespace
 
 bool looksExchanged(const ImageView& left, const ImageView& right) {
-  const int columns = left.width / shrink;
-  const int reach = std::min(columns / 6, longest_reach);
-  if (columns < 4 * block || left.height < 64) return false;
+  const int columns = left.width / kShrink;
+  const int reach = std::min(columns / 6, kLongestReach);
+  if (columns < 4 * kShrunkBlock || left.height < 64) return false;
   int usual = 0, exchanged = 0;
   for (int i = 0; i < 6; ++i) {
     const int v = left.height / 8 + i * (left.height * 3 / 4) / 6;
     for (int j = 0; j < 6; ++j) {
-      const int column = reach + j * (columns - 2 * reach - block) / 5;
-      const int stride = block + 2 * reach;
-      int here[block * block_rows], there[(block + 2 * longest_reach) * block_rows], costs[2 * longest_reach + 1] = {};
-      shrinkRows(left, v, column, block, here);
+      const int column = reach + j * (columns - 2 * reach - kShrunkBlock) / 5;
+      const int stride = kShrunkBlock + 2 * reach;
+      int here[kShrunkBlock * kBlockRows], there[(kShrunkBlock + 2 * kLongestReach) * kBlockRows],
+          costs[2 * kLongestReach + 1] = {};
+      shrinkRows(left, v, column, kShrunkBlock, here);
       shrinkRows(right, v, column - reach, stride, there);
       for (int shift = -reach; shift <= reach; ++shift)
         costs[shift + reach] = difference(here, there + reach - shift, stride);
@@ -62,7 +63,7 @@ bool looksExchanged(const ImageView& left, const ImageView& right) {
           found > 0 ? *std::min_element(costs, costs + reach + 1) : *std::min_element(costs + reach, end);
       const int worst = *std::max_element(costs, end);
       // Only blocks with texture, whose best shift is clear of zero and clearly better than any of the other sign.
-      if (worst < 40 * block * block_rows || found == 0 || 3 * *best > 2 * opposite) continue;
+      if (worst < 40 * kShrunkBlock * kBlockRows || found == 0 || 3 * *best > 2 * opposite) continue;
       (found > 0 ? usual : exchanged)++;
     }
   }

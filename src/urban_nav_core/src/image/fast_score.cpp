@@ -23,11 +23,11 @@ constexpr int kCircleV[kCircle] = {3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1, 0,
 // Vectors of the compiler's own, so that one text serves every width.
 struct Narrow {
   typedef std::uint8_t Vector __attribute__((vector_size(16)));
-  static constexpr int lanes = 16;
+  static constexpr int kLanes = 16;
 };
 struct Middle {
   typedef std::uint8_t Vector __attribute__((vector_size(32)));
-  static constexpr int lanes = 32;
+  static constexpr int kLanes = 32;
 };
 
 #define URBAN_NAV_INLINE __attribute__((always_inline)) inline
@@ -117,9 +117,9 @@ URBAN_NAV_INLINE bool any(const V& v) {
 template <typename Width>
 struct Gathered {
   using V = typename Width::Vector;
-  alignas(32) std::uint8_t circle[kCircle][Width::lanes];
-  alignas(32) std::uint8_t centre[Width::lanes];
-  int at[Width::lanes];
+  alignas(32) std::uint8_t circle[kCircle][Width::kLanes];
+  alignas(32) std::uint8_t centre[Width::kLanes];
+  int at[Width::kLanes];
   int count = 0;
 };
 
@@ -140,7 +140,7 @@ template <typename Width>
 URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold,
                                  std::uint8_t* scores) {
   using V = typename Width::Vector;
-  constexpr int lanes = Width::lanes;
+  constexpr int kLanes = Width::kLanes;
   std::ptrdiff_t offsets[kCircle];
 #pragma GCC unroll 16
   for (int i = 0; i < kCircle; ++i) offsets[i] = kCircleV[i] * stride + kCircleU[i];
@@ -155,15 +155,15 @@ URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride,
     for (int i = 0; i < kCircle; ++i) some.circle[i][some.count] = pixel[offsets[i]];
     some.centre[some.count] = *pixel;
     some.at[some.count] = u;
-    if (++some.count == lanes) found |= scoreGathered<Width>(some, limit, scores);
+    if (++some.count == kLanes) found |= scoreGathered<Width>(some, limit, scores);
   };
-  for (int u = begin; u < end; u += lanes) {
-    if (u + lanes > end) {
-      if (end - begin < lanes) {
+  for (int u = begin; u < end; u += kLanes) {
+    if (u + kLanes > end) {
+      if (end - begin < kLanes) {
         for (; u < end; ++u) gather(u);
         break;
       }
-      u = end - lanes;  // some pixels twice, rather than bytes after the row
+      u = end - kLanes;  // some pixels twice, rather than bytes after the row
     }
     const std::uint8_t* pixel = row + u;
     const V centre = load<V>(pixel);
@@ -176,9 +176,9 @@ URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride,
     for (int i = 1; i < 8; i += 2) even[i] = load<V>(pixel + offsets[2 * i]);
     const V rest = most(excess(fourInARow<false>(even), above), excess(below, fourInARow<true>(even)));
     const V candidates = reinterpret_cast<V>(rest > V{});
-    std::uint64_t words[lanes / 8];
+    std::uint64_t words[kLanes / 8];
     std::memcpy(words, &candidates, sizeof candidates);
-    for (int w = 0; w < lanes / 8; ++w)
+    for (int w = 0; w < kLanes / 8; ++w)
       for (std::uint64_t bits = words[w] & 0x8080808080808080ULL; bits != 0; bits &= bits - 1)
         gather(u + 8 * w + __builtin_ctzll(bits) / 8);
   }

@@ -17,14 +17,14 @@ namespace {
 
 using cv::v_float32x4;
 
-constexpr double window_sigma = 3.0;  // px
-constexpr int phases = 256;           // of the spline's table: 1/512 px at most beside the exact phase
-constexpr double own_blur =
+constexpr double kWindowSigma = 3.0;  // px
+constexpr int kPhases = 256;          // of the spline's table: 1/512 px at most beside the exact phase
+constexpr double kOwnBlur =
     1.0 / 3.0 + 0.25;  // px^2, variance of the spline and of a usual lens (0.5 px), along each axis
-constexpr double least_blur_tap = 0.01, largest_blur_tap = 0.33;  // the largest is a scale of 1.46
-constexpr double min_scale = 0.4, max_scale = 2.5;
-constexpr int max_iterations = 12;
-constexpr double settled_step = 0.003;  // px
+constexpr double kLeastBlurTap = 0.01, kLargestBlurTap = 0.33;  // the largest is a scale of 1.46
+constexpr double kMinScale = 0.4, kMaxScale = 2.5;
+constexpr int kMaxIterations = 12;
+constexpr double kSettledStep = 0.003;  // px
 
 std::array<float, 4> spline(double f) {
   const double g = 1.0 - f;
@@ -33,9 +33,9 @@ std::array<float, 4> spline(double f) {
 }
 
 struct SplineTable {
-  alignas(16) std::array<std::array<float, 4>, phases + 1> weights;
+  alignas(16) std::array<std::array<float, 4>, kPhases + 1> weights;
   SplineTable() {
-    for (int i = 0; i <= phases; ++i) weights[static_cast<std::size_t>(i)] = spline(static_cast<double>(i) / phases);
+    for (int i = 0; i <= kPhases; ++i) weights[static_cast<std::size_t>(i)] = spline(static_cast<double>(i) / kPhases);
   }
 };
 const SplineTable& splineTable() {
@@ -45,13 +45,13 @@ const SplineTable& splineTable() {
 
 double sum(const v_float32x4& a) { return static_cast<double>(cv::v_reduce_sum(a)); }
 
-constexpr std::size_t taps = patch_read::taps;
+constexpr std::size_t kTaps = patch_read::kTaps;
 
 /// The spline's weights at a phase, spread by (blur, 1 - 2 blur, blur).
-std::array<float, taps> blurredSpline(double f, double blur) {
+std::array<float, kTaps> blurredSpline(double f, double blur) {
   const std::array<float, 4> w = spline(f);
   const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
-  std::array<float, taps> made{};
+  std::array<float, kTaps> made{};
   for (std::size_t i = 0; i < 4; ++i) {
     made[i] += side * w[i];
     made[i + 1] += middle * w[i];
@@ -60,26 +60,26 @@ std::array<float, taps> blurredSpline(double f, double blur) {
   return made;
 }
 
-constexpr int wide_size = patch_size + 4, wide_stride = 16;  // one for the gradient, one for the blur
-using WideGrid = std::array<float, wide_size * wide_stride>;
+constexpr int kWideSize = kPatchSize + 4, kWideStride = 16;  // one for the gradient, one for the blur
+using WideGrid = std::array<float, kWideSize * kWideStride>;
 
 /// Sixteen taps at once: pixels about (u, v), weighed by the table's lines of two phases.
 v_float32x4 weighed(const float* p, const float* wx, const float* wy) {
-  constexpr int stride = PatchSource::stride;
+  constexpr int kStride = PatchSource::kStride;
   const v_float32x4 y = cv::v_load_aligned(wy);
   const v_float32x4 column = cv::v_broadcast_element<0>(y) * cv::v_load(p) +
-                             cv::v_broadcast_element<1>(y) * cv::v_load(p + stride) +
-                             (cv::v_broadcast_element<2>(y) * cv::v_load(p + 2 * stride) +
-                              cv::v_broadcast_element<3>(y) * cv::v_load(p + 3 * stride));
+                             cv::v_broadcast_element<1>(y) * cv::v_load(p + kStride) +
+                             (cv::v_broadcast_element<2>(y) * cv::v_load(p + 2 * kStride) +
+                              cv::v_broadcast_element<3>(y) * cv::v_load(p + 3 * kStride));
   return column * cv::v_load_aligned(wx);
 }
 
 /// The source as the view has it, at least `margin` (1 or 2) pixels wider than the window on each side.
 void warpWide(const PatchSource& source, const PatchWarp& warp, int margin, WideGrid& out) {
   using cv::v_int32x4;
-  constexpr int stride = PatchSource::stride;
-  static_assert(stride == 24, "24 = 16 + 8, below");
-  alignas(16) std::array<float, PatchSource::size * stride> pixels;
+  constexpr int kStride = PatchSource::kStride;
+  static_assert(kStride == 24, "24 = 16 + 8, below");
+  alignas(16) std::array<float, PatchSource::kSize * kStride> pixels;
   for (std::size_t i = 0; i < pixels.size(); i += 4)
     cv::v_store_aligned(&pixels[i], cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(&source.pixels[i]))));
   const auto& table = splineTable().weights;
@@ -88,16 +88,16 @@ void warpWide(const PatchSource& source, const PatchWarp& warp, int margin, Wide
   const v_float32x4 ax = cv::v_setall_f32(static_cast<float>(source_from_view(0, 0))),
                     ay = cv::v_setall_f32(static_cast<float>(source_from_view(1, 0)));
   const float bx = static_cast<float>(source_from_view(0, 1)), by = static_cast<float>(source_from_view(1, 1));
-  const v_float32x4 low = cv::v_setall_f32(1.0F), high = cv::v_setall_f32(PatchSource::size - 2.01F),
-                    lines = cv::v_setall_f32(phases), half = cv::v_setall_f32(0.5F);
-  const v_float32x4 middle = cv::v_setall_f32(PatchSource::radius), step(0.0F, 1.0F, 2.0F, 3.0F);
+  const v_float32x4 low = cv::v_setall_f32(1.0F), high = cv::v_setall_f32(PatchSource::kSize - 2.01F),
+                    lines = cv::v_setall_f32(kPhases), half = cv::v_setall_f32(0.5F);
+  const v_float32x4 middle = cv::v_setall_f32(PatchSource::kRadius), step(0.0F, 1.0F, 2.0F, 3.0F);
   const v_float32x4 one = cv::v_setall_f32(1.0F), bend_x = cv::v_setall_f32(static_cast<float>(warp.bend.x())),
                     bend_y = cv::v_setall_f32(static_cast<float>(warp.bend.y()));
-  for (int j = 2 - margin; j < wide_size - 2 + margin; ++j) {
-    const float dv = static_cast<float>(j - patch_radius - 2);
+  for (int j = 2 - margin; j < kWideSize - 2 + margin; ++j) {
+    const float dv = static_cast<float>(j - kPatchRadius - 2);
     const v_float32x4 x0 = cv::v_setall_f32(bx * dv), y0 = cv::v_setall_f32(by * dv);
-    for (int i = 0; i < wide_size; i += 4) {
-      const v_float32x4 du = step + cv::v_setall_f32(static_cast<float>(i - patch_radius - 2));
+    for (int i = 0; i < kWideSize; i += 4) {
+      const v_float32x4 du = step + cv::v_setall_f32(static_cast<float>(i - kPatchRadius - 2));
       const v_float32x4 qx = x0 + ax * du, qy = y0 + ay * du, depth = one / (one - bend_x * qx - bend_y * qy);
       const v_float32x4 x = cv::v_min(cv::v_max(middle + qx * depth, low), high),
                         y = cv::v_min(cv::v_max(middle + qy * depth, low), high);
@@ -109,17 +109,17 @@ void warpWide(const PatchSource& source, const PatchWarp& warp, int margin, Wide
       v_float32x4 part[4], across[4];
 #pragma GCC unroll 4
       for (int k = 0; k < 4; ++k)
-        part[k] = weighed(&pixels[static_cast<std::size_t>(place[k] - stride - 1)],
+        part[k] = weighed(&pixels[static_cast<std::size_t>(place[k] - kStride - 1)],
                           table[static_cast<std::size_t>(phase_x[k])].data(),
                           table[static_cast<std::size_t>(phase_y[k])].data());
       cv::v_transpose4x4(part[0], part[1], part[2], part[3], across[0], across[1], across[2], across[3]);
-      cv::v_store(&out[static_cast<std::size_t>(j * wide_stride + i)],
+      cv::v_store(&out[static_cast<std::size_t>(j * kWideStride + i)],
                   (across[0] + across[1]) + (across[2] + across[3]));
     }
   }
 }
 
-/// Spreads by (blur, 1 - 2 blur, blur) along rows (step 1) or columns (step wide_stride); the outermost pixels stay.
+/// Spreads by (blur, 1 - 2 blur, blur) along rows (step 1) or columns (step kWideStride); the outermost pixels stay.
 void blurWide(double blur, std::size_t step, WideGrid& grid) {
   const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
   const WideGrid before = grid;
@@ -131,27 +131,27 @@ void blurWide(double blur, std::size_t step, WideGrid& grid) {
   for (; at + step < grid.size(); ++at) grid[at] = side * (before[at - step] + before[at + step]) + middle * before[at];
 }
 
-constexpr int spread_rows = patch_size + 2, spread_stride = 24, spread_margin = 4;
-using SpreadGrid = std::array<float, spread_rows * spread_stride>;
+constexpr int kSpreadRows = kPatchSize + 2, kSpreadStride = 24, kSpreadMargin = 4;
+using SpreadGrid = std::array<float, kSpreadRows * kSpreadStride>;
 
 /// A filter spread by (1 4 1)/6 along columns, with zeros left and right of it. All of it is written before any is read
 /// across: a load that meets two stores under way has to wait for both.
 void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
-  static constexpr float zeros[patch_stride] = {};
+  static constexpr float kZeros[kPatchStride] = {};
   const auto row = [&](int j) {
-    return j < 0 || j >= patch_size ? zeros : &filter[static_cast<std::size_t>(j * patch_stride)];
+    return j < 0 || j >= kPatchSize ? kZeros : &filter[static_cast<std::size_t>(j * kPatchStride)];
   };
   const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
-  for (int j = 0; j < spread_rows; ++j) {
+  for (int j = 0; j < kSpreadRows; ++j) {
     const float *above = row(j - 2), *here = row(j - 1), *below = row(j);
-    float* to = &out[static_cast<std::size_t>(j * spread_stride)];
+    float* to = &out[static_cast<std::size_t>(j * kSpreadStride)];
     cv::v_store(to, cv::v_setzero_f32());
 #pragma GCC unroll 3
-    for (int i = 0; i < patch_stride; i += 4)
-      cv::v_store(to + spread_margin + i,
+    for (int i = 0; i < kPatchStride; i += 4)
+      cv::v_store(to + kSpreadMargin + i,
                   side * (cv::v_load(above + i) + cv::v_load(below + i)) + middle * cv::v_load(here + i));
-    cv::v_store(to + spread_margin + patch_stride, cv::v_setzero_f32());
-    cv::v_store(to + spread_margin + patch_stride + 4, cv::v_setzero_f32());
+    cv::v_store(to + kSpreadMargin + kPatchStride, cv::v_setzero_f32());
+    cv::v_store(to + kSpreadMargin + kPatchStride + 4, cv::v_setzero_f32());
   }
 }
 
@@ -162,7 +162,7 @@ Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
   spreadAlongColumns(fy, y);
   const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
   v_float32x4 xx = cv::v_setzero_f32(), xy = xx, yy = xx;
-  for (std::size_t j = 0; j < x.size(); j += spread_stride)
+  for (std::size_t j = 0; j < x.size(); j += kSpreadStride)
 #pragma GCC unroll 4
     for (std::size_t i = j; i < j + 16; i += 4) {  // from two left of the filter to two right of it
       const v_float32x4 a = side * (cv::v_load(&x[i + 1]) + cv::v_load(&x[i + 3])) + middle * cv::v_load(&x[i + 2]);
@@ -179,13 +179,13 @@ Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
 /// Value and central differences out of the wide grid.
 void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
   const v_float32x4 half = cv::v_setall_f32(0.5F);
-  for (int j = 0; j < patch_size; ++j)
+  for (int j = 0; j < kPatchSize; ++j)
     for (int i = 0; i < 12; i += 4) {
-      const float* p = &wide[static_cast<std::size_t>((j + 2) * wide_stride + i + 2)];
-      const std::size_t at = static_cast<std::size_t>(j * patch_stride + i);
+      const float* p = &wide[static_cast<std::size_t>((j + 2) * kWideStride + i + 2)];
+      const std::size_t at = static_cast<std::size_t>(j * kPatchStride + i);
       cv::v_store(&made.value[at], cv::v_load(p));
       cv::v_store(&gradients.x[at], half * (cv::v_load(p + 1) - cv::v_load(p - 1)));
-      cv::v_store(&gradients.y[at], half * (cv::v_load(p + wide_stride) - cv::v_load(p - wide_stride)));
+      cv::v_store(&gradients.y[at], half * (cv::v_load(p + kWideStride) - cv::v_load(p - kWideStride)));
     }
 }
 
@@ -194,11 +194,11 @@ void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
 namespace patch_kernel {
 
 Window::Window() {
-  for (int v = 0; v < patch_size; ++v)
-    for (int u = 0; u < patch_size; ++u) {
-      const double r2 = std::pow(u - patch_radius, 2) + std::pow(v - patch_radius, 2);
-      const float w = static_cast<float>(std::exp(-r2 / (2.0 * window_sigma * window_sigma)));
-      weight[static_cast<std::size_t>(v * patch_stride + u)] = w;
+  for (int v = 0; v < kPatchSize; ++v)
+    for (int u = 0; u < kPatchSize; ++u) {
+      const double r2 = std::pow(u - kPatchRadius, 2) + std::pow(v - kPatchRadius, 2);
+      const float w = static_cast<float>(std::exp(-r2 / (2.0 * kWindowSigma * kWindowSigma)));
+      weight[static_cast<std::size_t>(v * kPatchStride + u)] = w;
       total += static_cast<double>(w);
     }
 }
@@ -210,22 +210,22 @@ const Window& window() {
 
 double dot(const PatchGrid& a, const PatchGrid& b) {
   v_float32x4 total[3] = {cv::v_setzero_f32(), cv::v_setzero_f32(), cv::v_setzero_f32()};
-  for (std::size_t i = 0; i < a.size(); i += patch_stride)
+  for (std::size_t i = 0; i < a.size(); i += kPatchStride)
 #pragma GCC unroll 3
     for (std::size_t k = 0; k < 3; ++k) total[k] += cv::v_load(&a[i + 4 * k]) * cv::v_load(&b[i + 4 * k]);
   return sum(total[0] + total[1] + total[2]);
 }
 
 bool fits(const ImageView& image, double x, double y) {
-  return x >= patch_radius + 2 && y >= patch_radius + 2 && x < image.width - patch_radius - 3 &&
-         y < image.height - patch_radius - 3;
+  return x >= kPatchRadius + 2 && y >= kPatchRadius + 2 && x < image.width - kPatchRadius - 3 &&
+         y < image.height - kPatchRadius - 3;
 }
 
 void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2d& blur, PatchGrid& out) {
   const int u = static_cast<int>(x), v = static_cast<int>(y);
-  const std::array<float, taps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
+  const std::array<float, kTaps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
   const bool blurs = blur.maxCoeff() > 0.0;  // else the outer weights are zero
-  patch_read::fastest().read(image.row(v - patch_radius - 2) + u - patch_radius - 2, image.stride, wx.data(), wy.data(),
+  patch_read::fastest().read(image.row(v - kPatchRadius - 2) + u - kPatchRadius - 2, image.stride, wx.data(), wy.data(),
                              blurs, out.data());
 }
 
@@ -244,17 +244,17 @@ void makeBlind(const PatchGrid& gradient, const PatchTemplate& patch, PatchGrid&
 bool makeTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplate& made, Gradients& gradients) {
   const Eigen::Matrix2d& A = warp.A;
   const double scale2 = std::abs(A.determinant());
-  if (!(scale2 > min_scale * min_scale && scale2 < max_scale * max_scale) || !(warp.bend.norm() <= largest_bend))
+  if (!(scale2 > kMinScale * kMinScale && scale2 < kMaxScale * kMaxScale) || !(warp.bend.norm() <= kLargestBend))
     return false;
   WideGrid wide{};
   // A template seen larger is more blurred than the view, one seen smaller less: at a corner, blur moves the place.
-  const Eigen::Vector2d excess = 0.5 * own_blur * ((A * A.transpose()).diagonal().array() - 1.0).matrix();
-  const Eigen::Vector2d own = (-excess).cwiseMax(0.0).cwiseMin(largest_blur_tap);
-  made.view_blur = (excess.array() > least_blur_tap).select(excess.array().min(largest_blur_tap), 0.0).matrix();
-  const bool blurs = own.maxCoeff() > least_blur_tap;
+  const Eigen::Vector2d excess = 0.5 * kOwnBlur * ((A * A.transpose()).diagonal().array() - 1.0).matrix();
+  const Eigen::Vector2d own = (-excess).cwiseMax(0.0).cwiseMin(kLargestBlurTap);
+  made.view_blur = (excess.array() > kLeastBlurTap).select(excess.array().min(kLargestBlurTap), 0.0).matrix();
+  const bool blurs = own.maxCoeff() > kLeastBlurTap;
   warpWide(source, warp, blurs ? 2 : 1, wide);
-  if (own.x() > least_blur_tap) blurWide(own.x(), 1, wide);
-  if (own.y() > least_blur_tap) blurWide(own.y(), wide_stride, wide);
+  if (own.x() > kLeastBlurTap) blurWide(own.x(), 1, wide);
+  if (own.y() > kLeastBlurTap) blurWide(own.y(), kWideStride, wide);
   split(wide, made, gradients);
   made.warp = warp;
   const Window& w = window();
@@ -306,8 +306,8 @@ void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignm
   const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
   // (b, 1 - 2 b, b) leaves 1 - 4 b + 6 b^2 of white noise; of noise that is smooth already, about the root of that
   const auto left = [](double tap) { return std::sqrt(1.0 - 4.0 * tap + 6.0 * tap * tap); };
-  const double view_noise = smoothed_noise * std::sqrt(left(patch.view_blur.x()) * left(patch.view_blur.y()));
-  const double noise2 = residual / (view_noise + g * g * smoothed_noise);
+  const double view_noise = kSmoothedNoise * std::sqrt(left(patch.view_blur.x()) * left(patch.view_blur.y()));
+  const double noise2 = residual / (view_noise + g * g * kSmoothedNoise);
   alignment.noise = std::sqrt(noise2);
   alignment.covariance =
       patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
@@ -316,21 +316,21 @@ void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignm
 }  // namespace
 
 std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
-  constexpr int margin = patch_radius + 3;
-  if (image.empty() || u < margin || v < margin || u >= image.width - margin || v >= image.height - margin)
+  constexpr int kMargin = kPatchRadius + 3;
+  if (image.empty() || u < kMargin || v < kMargin || u >= image.width - kMargin || v >= image.height - kMargin)
     return std::nullopt;
   PatchSource source;
-  const int first = u - PatchSource::radius;
-  const bool inside = first >= 0 && first + PatchSource::size <= image.width;
-  for (int j = 0; j < PatchSource::size; ++j) {
-    const std::uint8_t* row = image.row(std::clamp(v - PatchSource::radius + j, 0, image.height - 1));
+  const int first = u - PatchSource::kRadius;
+  const bool inside = first >= 0 && first + PatchSource::kSize <= image.width;
+  for (int j = 0; j < PatchSource::kSize; ++j) {
+    const std::uint8_t* row = image.row(std::clamp(v - PatchSource::kRadius + j, 0, image.height - 1));
     if (inside) {
-      std::memcpy(&source.pixels[static_cast<std::size_t>(j * PatchSource::stride)], row + first, PatchSource::size);
+      std::memcpy(&source.pixels[static_cast<std::size_t>(j * PatchSource::kStride)], row + first, PatchSource::kSize);
       continue;
     }
-    for (int i = 0; i < PatchSource::size; ++i)
-      source.pixels[static_cast<std::size_t>(j * PatchSource::stride + i)] =
-          row[std::clamp(u - PatchSource::radius + i, 0, image.width - 1)];
+    for (int i = 0; i < PatchSource::kSize; ++i)
+      source.pixels[static_cast<std::size_t>(j * PatchSource::kStride + i)] =
+          row[std::clamp(u - PatchSource::kRadius + i, 0, image.width - 1)];
   }
   return source;
 }
@@ -344,7 +344,7 @@ Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const E
   Alignment alignment;
   alignment.position = start;
   PatchGrid pixels;
-  for (int i = 0; i < max_iterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     if (!start.allFinite() || !fits(image, alignment.position.x(), alignment.position.y())) return alignment;
     readWindow(image, alignment.position.x(), alignment.position.y(), patch.view_blur, pixels);
     const Reading reading = measure(pixels, patch);
@@ -352,7 +352,7 @@ Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const E
     Eigen::Vector2d step = patch.inverse_hessian * reading.along / reading.gain;
     const double length = step.norm();
     if (length > 1.0) step /= length;
-    if (length < settled_step) {
+    if (length < kSettledStep) {
       judge(reading, patch, alignment);
       alignment.position -= step;
       alignment.converged = true;

@@ -7,7 +7,7 @@
 namespace urban_nav_core::patch_kernel {
 
 /// Variance left of white noise by the spline, mean over the phases (0.25 at 0, 0.21 at 1/2).
-inline constexpr double smoothed_noise = 0.24;
+inline constexpr double kSmoothedNoise = 0.24;
 
 /// The Gaussian weights of the window; zero in the padding.
 struct Window {

@@ -15,14 +15,14 @@ using vectors::store;
 // One text serves every width.
 struct Narrow {
   typedef float Floats __attribute__((vector_size(16)));
-  static constexpr int lanes = 4;
+  static constexpr int kLanes = 4;
 };
 struct Middle {
   typedef float Floats __attribute__((vector_size(32)));
-  static constexpr int lanes = 8;
+  static constexpr int kLanes = 8;
 };
 
-constexpr int line = 12, wide = 16, padded = 24;
+constexpr int kLine = 12, kWide = 16, kPadded = 24;
 
 /// Six taps, `apart` numbers from one to the next; four where nothing is blurred.
 template <typename V>
@@ -37,41 +37,41 @@ template <typename Width>
 URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy,
                              bool blurs, float* window) {
   using V = typename Width::Floats;
-  constexpr int lanes = Width::lanes, lines = rows + taps - 1;
-  alignas(32) float pixels[lines * wide];
-  for (int i = 0; i < lines; ++i) {
+  constexpr int kLanes = Width::kLanes, kLines = kRows + kTaps - 1;
+  alignas(32) float pixels[kLines * kWide];
+  for (int i = 0; i < kLines; ++i) {
     cv::v_uint16x8 half[2];
     cv::v_expand(cv::v_load(first + i * stride), half[0], half[1]);
 #pragma GCC unroll 2
     for (int k = 0; k < 2; ++k) {
       cv::v_uint32x4 low, high;
       cv::v_expand(half[k], low, high);
-      cv::v_store_aligned(pixels + i * wide + 8 * k, cv::v_cvt_f32(cv::v_reinterpret_as_s32(low)));
-      cv::v_store_aligned(pixels + i * wide + 8 * k + 4, cv::v_cvt_f32(cv::v_reinterpret_as_s32(high)));
+      cv::v_store_aligned(pixels + i * kWide + 8 * k, cv::v_cvt_f32(cv::v_reinterpret_as_s32(low)));
+      cv::v_store_aligned(pixels + i * kWide + 8 * k + 4, cv::v_cvt_f32(cv::v_reinterpret_as_s32(high)));
     }
   }
-  alignas(32) float column[rows * padded];  // what is beyond 16 meets the padding alone
-  for (int i = 0; i < rows; ++i) {
+  alignas(32) float column[kRows * kPadded];  // what is beyond 16 meets the padding alone
+  for (int i = 0; i < kRows; ++i) {
 #pragma GCC unroll 4
-    for (int k = 0; k < wide; k += lanes)
-      store(column + i * padded + k, filtered<V>(pixels + i * wide + k, wide, wy, blurs));
+    for (int k = 0; k < kWide; k += kLanes)
+      store(column + i * kPadded + k, filtered<V>(pixels + i * kWide + k, kWide, wy, blurs));
 #pragma GCC unroll 2
-    for (int k = wide; k < padded; k += lanes) store(column + i * padded + k, V{});
+    for (int k = kWide; k < kPadded; k += kLanes) store(column + i * kPadded + k, V{});
   }
-  for (int i = 0; i < rows; ++i) {
-    const float* from = column + i * padded;
-    float* to = window + i * line;
+  for (int i = 0; i < kRows; ++i) {
+    const float* from = column + i * kPadded;
+    float* to = window + i * kLine;
     int k = 0;
 #pragma GCC unroll 3
-    for (; k + lanes <= line; k += lanes) store(to + k, filtered<V>(from + k, 1, wx, blurs));
-    if (lanes > 4) store(to + k, filtered<Narrow::Floats>(from + k, 1, wx, blurs));
+    for (; k + kLanes <= kLine; k += kLanes) store(to + k, filtered<V>(from + k, 1, wx, blurs));
+    if (kLanes > 4) store(to + k, filtered<Narrow::Floats>(from + k, 1, wx, blurs));
   }
 }
 
 /// Eight sums side by side, whatever the width.
 template <typename Width>
 struct Eight {
-  typename Width::Floats part[8 / Width::lanes];
+  typename Width::Floats part[8 / Width::kLanes];
 };
 
 template <typename Width>
@@ -85,12 +85,12 @@ template <typename Width>
 URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const float* fx, const float* fy,
                                 const float* fg) {
   using V = typename Width::Floats;
-  constexpr int lanes = Width::lanes, count = rows * line;
+  constexpr int kLanes = Width::kLanes, kCount = kRows * kLine;
   Eight<Width> x{}, y{}, g{}, m{}, q{};
-  for (int i = 0; i + 8 <= count; i += 8)
+  for (int i = 0; i + 8 <= kCount; i += 8)
 #pragma GCC unroll 2
-    for (int k = 0; k < 8 / lanes; ++k) {
-      const int at = i + k * lanes;
+    for (int k = 0; k < 8 / kLanes; ++k) {
+      const int at = i + k * kLanes;
       const V p = load<V>(window + at), weighted = p * load<V>(weight + at);
       x.part[k] += p * load<V>(fx + at);
       y.part[k] += p * load<V>(fy + at);
@@ -99,7 +99,7 @@ URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const 
       q.part[k] += weighted * p;
     }
   Sums sums{total<Width>(x), total<Width>(y), total<Width>(g), total<Width>(m), total<Width>(q)};
-  for (int i = count / 8 * 8; i < count - 1; ++i) {  // the last is padding
+  for (int i = kCount / 8 * 8; i < kCount - 1; ++i) {  // the last is padding
     const float p = window[i], weighted = p * weight[i];
     sums.along_x += p * fx[i];
     sums.along_y += p * fy[i];

@@ -10,8 +10,8 @@ namespace urban_nav_core::patch_read {
 /// What an alignment does at each step, own code beside OpenCV's universal intrinsics because those are compiled for
 /// the portable baseline: chosen at run time by what the processor can do. Each sum runs in the same order and nothing
 /// is fused, so the bits do not depend on that choice.
-constexpr int taps = 6;   ///< of a filter along one axis; the outermost are zero where nothing is blurred
-constexpr int rows = 11;  ///< of the window (patch.hpp), in lines of 12
+constexpr int kTaps = 6;   ///< of a filter along one axis; the outermost are zero where nothing is blurred
+constexpr int kRows = 11;  ///< of the window (patch.hpp), in lines of 12
 
 /// Sums over the window of pixels times filters.
 struct Sums {

@@ -9,23 +9,23 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr int sad_count = SadPatch::columns * SadPatch::rows;
+constexpr int kSadCount = SadPatch::kColumns * SadPatch::kRows;
 
-std::int16_t roundedMean(int sum) { return static_cast<std::int16_t>((2 * sum + sad_count) / (2 * sad_count)); }
+std::int16_t roundedMean(int sum) { return static_cast<std::int16_t>((2 * sum + kSadCount) / (2 * kSadCount)); }
 
 }  // namespace
 
 SadPatch sadPatch(const PatchTemplate& patch) {
   double sum = 0.0;
-  for (int v = 0; v < SadPatch::rows; ++v)
-    for (int u = 0; u < SadPatch::columns; ++u)
-      sum += static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * patch_stride + u + 1)]);
-  const double mean = sum / sad_count;
+  for (int v = 0; v < SadPatch::kRows; ++v)
+    for (int u = 0; u < SadPatch::kColumns; ++u)
+      sum += static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * kPatchStride + u + 1)]);
+  const double mean = sum / kSadCount;
   SadPatch made;
-  for (int v = 0; v < SadPatch::rows; ++v)
-    for (int u = 0; u < SadPatch::columns; ++u) {
-      const double value = static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * patch_stride + u + 1)]);
-      made.value[static_cast<std::size_t>(v * SadPatch::columns + u)] =
+  for (int v = 0; v < SadPatch::kRows; ++v)
+    for (int u = 0; u < SadPatch::kColumns; ++u) {
+      const double value = static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * kPatchStride + u + 1)]);
+      made.value[static_cast<std::size_t>(v * SadPatch::kColumns + u)] =
           static_cast<std::int16_t>(std::lround(value - mean));
     }
   return made;
@@ -34,10 +34,10 @@ SadPatch sadPatch(const PatchTemplate& patch) {
 SadPatch sadPatch(const ImageView& image, int u, int v) {
   SadPatch made;
   int sum = 0;
-  for (int j = 0; j < SadPatch::rows; ++j)
-    for (int i = 0; i < SadPatch::columns; ++i) {
+  for (int j = 0; j < SadPatch::kRows; ++j)
+    for (int i = 0; i < SadPatch::kColumns; ++i) {
       const std::uint8_t value = image.at(u - 4 + i, v - 4 + j);
-      made.value[static_cast<std::size_t>(j * SadPatch::columns + i)] = value;
+      made.value[static_cast<std::size_t>(j * SadPatch::kColumns + i)] = value;
       sum += value;
     }
   for (std::int16_t& value : made.value) value = static_cast<std::int16_t>(value - roundedMean(sum));
@@ -46,7 +46,7 @@ SadPatch sadPatch(const ImageView& image, int u, int v) {
 
 int meanRemovedSad(const SadPatch& patch, const ImageView& image, int u, int v) {
   const std::uint8_t* row = image.row(v - 4) + (u - 4);
-  cv::v_int16x8 pixels[SadPatch::rows];
+  cv::v_int16x8 pixels[SadPatch::kRows];
   cv::v_int16x8 columns = cv::v_setzero_s16();
   for (cv::v_int16x8& line : pixels) {
     line = cv::v_reinterpret_as_s16(cv::v_load_expand(row));
@@ -58,7 +58,7 @@ int meanRemovedSad(const SadPatch& patch, const ImageView& image, int u, int v) 
   const std::int16_t* wanted = patch.value.data();
   for (const cv::v_int16x8& line : pixels) {
     sad += cv::v_absdiff(line - mean, cv::v_load_aligned(wanted));
-    wanted += SadPatch::columns;
+    wanted += SadPatch::kColumns;
   }
   return static_cast<int>(cv::v_reduce_sum(sad));
 }

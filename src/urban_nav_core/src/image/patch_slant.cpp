@@ -12,10 +12,10 @@ using namespace patch_kernel;
 
 namespace {
 
-constexpr double across_reach = 4.0;  // px
-constexpr int most_rounds = 4;
-constexpr double settled_slope = 0.01;
-constexpr double steepest_slope = 0.9;
+constexpr double kAcrossReach = 4.0;  // px
+constexpr int kMostRounds = 4;
+constexpr double kSettledSlope = 0.01;
+constexpr double kSteepestSlope = 0.9;
 
 /// What pixels say of (shift x, shift y, slant u, slant v): normal equations of one step.
 struct Equations {
@@ -33,11 +33,11 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
   const Eigen::Matrix2f back = patch.warp.A.inverse().cast<float>();
   const Eigen::Vector2f d = direction.cast<float>();
   std::array<PatchGrid, 4> J{gradients.x, gradients.y, {}, {}}, blind;
-  for (int v = 0; v < patch_size; ++v)
-    for (int u = 0; u < patch_size; ++u) {
-      const std::size_t at = static_cast<std::size_t>(v * patch_stride + u);
+  for (int v = 0; v < kPatchSize; ++v)
+    for (int u = 0; u < kPatchSize; ++u) {
+      const std::size_t at = static_cast<std::size_t>(v * kPatchStride + u);
       const Eigen::Vector2f p =
-          back * Eigen::Vector2f(static_cast<float>(u - patch_radius), static_cast<float>(v - patch_radius));
+          back * Eigen::Vector2f(static_cast<float>(u - kPatchRadius), static_cast<float>(v - kPatchRadius));
       const float slope = -(gradients.x[at] * d.x() + gradients.y[at] * d.y());
       J[2][at] = slope * p.x();
       J[3][at] = slope * p.y();
@@ -50,7 +50,7 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
   }
   // the spline's correlation between neighbours costs about a factor of two
   const double g2 = alignment.gain * alignment.gain;
-  made.noise2 = 2.0 * std::max(alignment.noise * alignment.noise, 0.5) * smoothed_noise * (1.0 + g2) / g2;
+  made.noise2 = 2.0 * std::max(alignment.noise * alignment.noise, 0.5) * kSmoothedNoise * (1.0 + g2) / g2;
   return made;
 }
 
@@ -70,14 +70,14 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
                             double usual_slope, PatchTemplate& made) {
   SlopedAlignment result;
   Eigen::Vector2d position = start;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     Eigen::Matrix2d A;
     A << 1.0 - result.slopes.x(), -result.slopes.y(), 0.0, 1.0;
     Gradients gradients;
     result.alignment.converged = false;
     if (!makeTemplate(source, A, made, gradients)) return result;
-    const Alignment found = alignPatch(image, made, position, across_reach);
-    if (!found.converged || (found.position - start).norm() > across_reach ||
+    const Alignment found = alignPatch(image, made, position, kAcrossReach);
+    if (!found.converged || (found.position - start).norm() > kAcrossReach ||
         !fits(image, found.position.x(), found.position.y()))
       return result;
     result.alignment = found;
@@ -95,9 +95,9 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
     const Eigen::Matrix2d inverse = equations.H.block<2, 2>(0, 0).inverse(),
                           coupling = inverse * equations.H.block<2, 2>(0, 2);
     result.alignment.covariance += 0.5 * coupling * estimate.covariance * coupling.transpose();
-    if (round + 1 == most_rounds || change.cwiseAbs().maxCoeff() < settled_slope) break;
+    if (round + 1 == kMostRounds || change.cwiseAbs().maxCoeff() < kSettledSlope) break;
     result.slopes += change;
-    if (result.slopes.cwiseAbs().maxCoeff() > steepest_slope) {
+    if (result.slopes.cwiseAbs().maxCoeff() > kSteepestSlope) {
       result.alignment.converged = false;
       return result;
     }

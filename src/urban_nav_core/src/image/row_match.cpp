@@ -13,9 +13,9 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr double uniqueness = 0.85;      // best over second best, more than two pixels away
-constexpr double accepted_share = 0.75;  // of the patch's own contrast
-constexpr int longest_row = 1024;        // disparities of one search
+constexpr double kUniqueness = 0.85;     // best over second best, more than two pixels away
+constexpr double kAcceptedShare = 0.75;  // of the patch's own contrast
+constexpr int kLongestRow = 1024;        // disparities of one search
 
 struct Best {
   int sad = std::numeric_limits<int>::max(), second = std::numeric_limits<int>::max(), u = 0;
@@ -24,8 +24,8 @@ struct Best {
 /// Best place of a patch on row v between two columns, and the best one more than two pixels from it.
 Best searchRow(const SadPatch& patch, const ImageView& image, int from, int to, int v) {
   Best best;
-  std::array<int, longest_row> sads;
-  to = std::min(to, from + longest_row - 1);
+  std::array<int, kLongestRow> sads;
+  to = std::min(to, from + kLongestRow - 1);
   meanRemovedSads(patch, image, from, v, to - from + 1, sads.data());
   for (int u = from; u <= to; ++u) {
     const int sad = sads[static_cast<std::size_t>(u - from)];
@@ -50,7 +50,7 @@ std::optional<int> findDisparity(const ImageView& left, const ImageView& right, 
   const int from = std::max(4, u - highest), to = std::min(right.width - 4, u - lowest);
   if (to <= from) return std::nullopt;
   const Best forth = searchRow(patch, right, from, to, row);
-  if (forth.sad > accepted_share * contrast || forth.sad > uniqueness * forth.second) return std::nullopt;
+  if (forth.sad > kAcceptedShare * contrast || forth.sad > kUniqueness * forth.second) return std::nullopt;
   const Best back = searchRow(sadPatch(right, forth.u, row), left, std::max(4, forth.u + lowest),
                               std::min(left.width - 4, forth.u + highest), v);
   if (std::abs(back.u - u) > 1) return std::nullopt;

@@ -14,51 +14,51 @@ using vectors::store;
 struct Narrow {
   typedef std::uint8_t Bytes __attribute__((vector_size(8)));
   typedef std::int16_t Numbers __attribute__((vector_size(16)));
-  static constexpr int lanes = 8;
+  static constexpr int kLanes = 8;
 };
 struct Middle {
   typedef std::uint8_t Bytes __attribute__((vector_size(16)));
   typedef std::int16_t Numbers __attribute__((vector_size(32)));
-  static constexpr int lanes = 16;
+  static constexpr int kLanes = 16;
 };
 
-constexpr int columns = SadPatch::columns, rows = SadPatch::rows, count = columns * rows;
+constexpr int kColumns = SadPatch::kColumns, kRows = SadPatch::kRows, kCount = kColumns * kRows;
 
 template <typename Width>
 URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride,
                                 int* sads) {
   using V = typename Width::Numbers;
-  constexpr int lanes = Width::lanes, line = lanes + columns;
-  alignas(32) std::int16_t pixels[rows * line], sums[line];
+  constexpr int kLanes = Width::kLanes, kLine = kLanes + kColumns;
+  alignas(32) std::int16_t pixels[kRows * kLine], sums[kLine];
   V near{}, far{};  // column by column, and seven further: no pixel beyond the last patch is touched
-  for (int j = 0; j < rows; ++j) {
+  for (int j = 0; j < kRows; ++j) {
     const V a = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride), V);
-    const V b = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride + columns - 1), V);
-    store(pixels + j * line, a);
-    store(pixels + j * line + columns - 1, b);
+    const V b = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride + kColumns - 1), V);
+    store(pixels + j * kLine, a);
+    store(pixels + j * kLine + kColumns - 1, b);
     near += a;
     far += b;
   }
   store(sums, near);
-  store(sums + columns - 1, far);
+  store(sums + kColumns - 1, far);
   V sum{};
 #pragma GCC unroll 8
-  for (int i = 0; i < columns; ++i) sum += load<V>(sums + i);
-  std::int16_t means[lanes];
+  for (int i = 0; i < kColumns; ++i) sum += load<V>(sums + i);
+  std::int16_t means[kLanes];
   store(means, sum);
   for (std::int16_t& mean : means)
-    mean = static_cast<std::int16_t>((2U * static_cast<unsigned>(mean) + count) / (2U * count));
+    mean = static_cast<std::int16_t>((2U * static_cast<unsigned>(mean) + kCount) / (2U * kCount));
   const V mean = load<V>(means);
   V total{};  // up to 36 720: taken as unsigned
-  for (int j = 0; j < rows; ++j)
+  for (int j = 0; j < kRows; ++j)
 #pragma GCC unroll 8
-    for (int i = 0; i < columns; ++i) {
-      const V difference = load<V>(pixels + j * line + i) - mean - patch[j * columns + i];
+    for (int i = 0; i < kColumns; ++i) {
+      const V difference = load<V>(pixels + j * kLine + i) - mean - patch[j * kColumns + i];
       total += difference > V{} ? difference : -difference;
     }
-  std::uint16_t result[lanes];
+  std::uint16_t result[kLanes];
   store(result, total);
-  for (int l = 0; l < lanes; ++l) sads[l] = result[l];
+  for (int l = 0; l < kLanes; ++l) sads[l] = result[l];
 }
 
 void compareNarrow(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) {
@@ -76,9 +76,9 @@ __attribute__((target("avx2"))) void compareMiddle(const std::int16_t* patch, co
 std::vector<InstructionSet> instructionSets() {
   std::vector<InstructionSet> sets;
 #ifdef URBAN_NAV_X86
-  if (__builtin_cpu_supports("avx2") != 0) sets.push_back({"avx2", Middle::lanes, compareMiddle});
+  if (__builtin_cpu_supports("avx2") != 0) sets.push_back({"avx2", Middle::kLanes, compareMiddle});
 #endif
-  sets.push_back({"baseline", Narrow::lanes, compareNarrow});
+  sets.push_back({"baseline", Narrow::kLanes, compareNarrow});
   return sets;
 }
 

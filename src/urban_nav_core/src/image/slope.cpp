@@ -10,8 +10,8 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr int rounds = 12;
-constexpr double settled = 1e-3;  // of the prior's information
+constexpr int kRounds = 12;
+constexpr double kSettled = 1e-3;  // of the prior's information
 
 }  // namespace
 
@@ -25,11 +25,11 @@ Slope::Estimate Slope::under(double usual) const {
   // + |s|^2).
   Estimate estimate;
   double w = 1.0 / (usual * usual);
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     estimate.covariance = (information_ + w * Eigen::Matrix2d::Identity()).inverse();
     estimate.mean = estimate.covariance * moment_;
     const double next = 3.0 / (usual * usual + estimate.mean.squaredNorm() + estimate.covariance.trace());
-    const bool done = std::abs(next - w) < settled * w;
+    const bool done = std::abs(next - w) < kSettled * w;
     w = next;
     if (done) break;
   }

@@ -8,8 +8,8 @@
 namespace urban_nav_core {
 
 std::string_view withoutByteOrderMark(std::string_view text) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  return text.substr(0, mark.size()) == mark ? text.substr(mark.size()) : text;
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
 }
 
 GraphLines::GraphLines(std::string name, UnknownTags unknown, std::string known_tags, std::string two_kinds)

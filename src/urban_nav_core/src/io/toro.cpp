@@ -13,7 +13,7 @@ namespace {
 
 using Words = GraphLines::Words;
 
-constexpr const char* known_tags = "VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX";
+constexpr const char* kKnownTags = "VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX";
 
 bool isVertex2(std::string_view tag) { return tag == "VERTEX2" || tag == "VERTEX"; }
 bool isEdge2(std::string_view tag) { return tag == "EDGE2" || tag == "EDGE"; }
@@ -22,7 +22,7 @@ std::size_t toroPoseSize(int dimension) { return dimension == 2 ? 3 : 6; }
 std::size_t toroInformationSize(int dimension) { return dimension == 2 ? 6 : 21; }
 
 // Where the numbers of EDGE2 (11 12 22 33 13 23) stand in the upper triangle (11 12 13 22 23 33).
-constexpr std::array<std::size_t, 6> upper_of_toro = {0, 1, 3, 5, 2, 4};
+constexpr std::array<std::size_t, 6> kUpperOfToro = {0, 1, 3, 5, 2, 4};
 
 Quaterniond toRotation(double roll, double pitch, double yaw) {
   const Quaterniond z(std::cos(0.5 * yaw), 0.0, 0.0, std::sin(0.5 * yaw));
@@ -55,7 +55,7 @@ void scaleRotation(std::array<double, 21>& information, double scale) {
 
 class ToroParser {
  public:
-  ToroParser(const std::string& name, UnknownTags unknown) : lines_(name, unknown, known_tags, "plane and space") {}
+  ToroParser(const std::string& name, UnknownTags unknown) : lines_(name, unknown, kKnownTags, "plane and space") {}
 
   void line(std::string_view text, int number) {
     const Words words = lines_.begin(text, number);
@@ -87,7 +87,7 @@ class ToroParser {
     edge.to = lines_.id(words[2]);
     edge.values = pose(words, 3, dimension);
     for (std::size_t i = 0; i < toroInformationSize(dimension); ++i)
-      edge.information[dimension == 2 ? upper_of_toro[i] : i] = lines_.number(words[3 + toroPoseSize(dimension) + i]);
+      edge.information[dimension == 2 ? kUpperOfToro[i] : i] = lines_.number(words[3 + toroPoseSize(dimension) + i]);
     if (dimension == 3) scaleRotation(edge.information, 2.0);
     for (const double value : edge.information)
       if (!std::isfinite(value)) lines_.refuse("information beyond a double's range", "");
@@ -138,7 +138,7 @@ void appendToroLine(std::string& text, const G2oGraph& graph, const G2oGraph::Li
       std::array<double, 21> information = edge.information;
       if (graph.dimension == 3) scaleRotation(information, 0.5);
       for (std::size_t i = 0; i < toroInformationSize(graph.dimension); ++i)
-        appendValue(text, information[graph.dimension == 2 ? upper_of_toro[i] : i]);
+        appendValue(text, information[graph.dimension == 2 ? kUpperOfToro[i] : i]);
       break;
     }
     case G2oGraph::Kind::Point:

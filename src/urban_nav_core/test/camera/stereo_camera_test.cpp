@@ -61,11 +61,11 @@ TEST(StereoCamera, CovarianceIsThatOfSamples) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   Eigen::Matrix3d sampled = Eigen::Matrix3d::Zero();
-  constexpr int n = 20000;
-  for (int i = 0; i < n; ++i) {
+  constexpr int kN = 20000;
+  for (int i = 0; i < kN; ++i) {
     const Eigen::Vector3d d =
         *skewedCamera().triangulate(pixel + L * Eigen::Vector3d(normal(random), normal(random), normal(random))) - p;
-    sampled += d * d.transpose() / n;
+    sampled += d * d.transpose() / kN;
   }
   const Eigen::Matrix3d expected = skewedCamera().triangulateCovariance(pixel, L * L.transpose());
   EXPECT_LT((sampled - expected).norm(), 0.05 * expected.norm());

@@ -9,13 +9,13 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr int exchanged_width = 512, exchanged_height = 384;
+constexpr int kExchangedWidth = 512, kExchangedHeight = 384;
 
 /// Random blobs of 8x3 px, `shift` px further to the left.
 std::vector<std::uint8_t> blobs(int shift) {
   std::vector<std::uint8_t> pixels;
-  for (int v = 0; v < exchanged_height; ++v)
-    for (int u = 0; u < exchanged_width; ++u) {
+  for (int v = 0; v < kExchangedHeight; ++v)
+    for (int u = 0; u < kExchangedWidth; ++u) {
       std::mt19937 level(static_cast<unsigned>((u + shift + 800) / 8 + 1000 * (v / 3)));
       pixels.push_back(static_cast<std::uint8_t>(level() % 200 + 20));
     }
@@ -23,7 +23,7 @@ std::vector<std::uint8_t> blobs(int shift) {
 }
 
 ImageView greyView(const std::vector<std::uint8_t>& pixels) {
-  return {pixels.data(), exchanged_width, exchanged_height, exchanged_width};
+  return {pixels.data(), kExchangedWidth, kExchangedHeight, kExchangedWidth};
 }
 
 TEST(LooksExchanged, IsTrueForNegativeDisparitiesOnly) {
@@ -33,10 +33,10 @@ TEST(LooksExchanged, IsTrueForNegativeDisparitiesOnly) {
 }
 
 TEST(LooksExchanged, IsFalseWithoutEvidence) {
-  const std::vector<std::uint8_t> far = blobs(0), flat(exchanged_width * exchanged_height, 90);
+  const std::vector<std::uint8_t> far = blobs(0), flat(kExchangedWidth * kExchangedHeight, 90);
   EXPECT_FALSE(looksExchanged(greyView(far), greyView(far))) << "all disparities are zero";
   EXPECT_FALSE(looksExchanged(greyView(flat), greyView(flat)));
-  const ImageView tiny{flat.data(), 20, 20, exchanged_width};
+  const ImageView tiny{flat.data(), 20, 20, kExchangedWidth};
   EXPECT_FALSE(looksExchanged(tiny, tiny));
 }
 

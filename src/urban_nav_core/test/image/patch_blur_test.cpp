@@ -10,20 +10,20 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr int width = 64;
+constexpr int kWidth = 64;
 
 /// A corner as a lens of this blur shows it: where two edges cross.
 std::vector<std::uint8_t> corner(double sigma) {
   const auto edge = [&](double x) { return 0.5 + 0.5 * std::erf(x / (std::sqrt(2.0) * sigma)); };
-  std::vector<std::uint8_t> pixels(width * width);
-  for (int v = 0; v < width; ++v)
-    for (int u = 0; u < width; ++u)
-      pixels[static_cast<std::size_t>(v * width + u)] =
+  std::vector<std::uint8_t> pixels(kWidth * kWidth);
+  for (int v = 0; v < kWidth; ++v)
+    for (int u = 0; u < kWidth; ++u)
+      pixels[static_cast<std::size_t>(v * kWidth + u)] =
           static_cast<std::uint8_t>(std::lround(40.0 + 160.0 * edge(u - 32.8) * edge(v - 33.3)));
   return pixels;
 }
 
-ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), width, width, width}; }
+ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), kWidth, kWidth, kWidth}; }
 
 // A corner moves into its bright side as it is blurred, and a template that is blurred as well moves along.
 TEST(PatchBlur, TakesTheDisplacementOfACornerAway) {

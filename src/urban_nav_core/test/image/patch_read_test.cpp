@@ -10,12 +10,12 @@
 namespace urban_nav_core::patch_read {
 namespace {
 
-constexpr int side = 16, line = 12;
-using Window = std::array<float, rows * line>;
+constexpr int kSide = 16, kLine = 12;
+using Window = std::array<float, kRows * kLine>;
 
 struct Example {
-  std::array<std::uint8_t, side * side> pixels{};
-  std::array<float, taps> x{}, y{};
+  std::array<std::uint8_t, kSide * kSide> pixels{};
+  std::array<float, kTaps> x{}, y{};
   explicit Example(bool blurs) {
     std::mt19937 random(5);
     for (auto& pixel : pixels) pixel = static_cast<std::uint8_t>(random());
@@ -28,7 +28,7 @@ struct Example {
 Window filled(double pace) {
   Window made{};
   for (std::size_t i = 0; i < made.size(); ++i)
-    made[i] = i % line == line - 1 ? 0.0F : static_cast<float>(std::sin(pace * static_cast<double>(i)));
+    made[i] = i % kLine == kLine - 1 ? 0.0F : static_cast<float>(std::sin(pace * static_cast<double>(i)));
   return made;
 }
 
@@ -37,16 +37,16 @@ TEST(PatchRead, FiltersAlongBothAxes) {
     const Example e(blurs);
     for (const InstructionSet& set : instructionSets()) {
       Window window;
-      set.read(e.pixels.data(), side, e.x.data(), e.y.data(), blurs, window.data());
-      for (int v = 0; v < rows; ++v)
-        for (int u = 0; u < rows; ++u) {
+      set.read(e.pixels.data(), kSide, e.x.data(), e.y.data(), blurs, window.data());
+      for (int v = 0; v < kRows; ++v)
+        for (int u = 0; u < kRows; ++u) {
           double expected = 0.0;
-          for (int j = 0; j < taps; ++j)
-            for (int i = 0; i < taps; ++i)
+          for (int j = 0; j < kTaps; ++j)
+            for (int i = 0; i < kTaps; ++i)
               expected += static_cast<double>(e.y[static_cast<std::size_t>(j)]) *
                           static_cast<double>(e.x[static_cast<std::size_t>(i)]) *
-                          e.pixels[static_cast<std::size_t>((v + j) * side + u + i)];
-          EXPECT_NEAR(static_cast<double>(window[static_cast<std::size_t>(v * line + u)]), expected, 1e-3)
+                          e.pixels[static_cast<std::size_t>((v + j) * kSide + u + i)];
+          EXPECT_NEAR(static_cast<double>(window[static_cast<std::size_t>(v * kLine + u)]), expected, 1e-3)
               << set.name << ' ' << u << ' ' << v;
         }
     }
@@ -88,10 +88,10 @@ TEST(PatchRead, GivesTheSameBitsWithEveryInstructionSet) {
     for (const bool blurs : {false, true}) {
       const Example e(blurs);
       Window one, other;
-      sets.front().read(e.pixels.data(), side, e.x.data(), e.y.data(), blurs, one.data());
-      set.read(e.pixels.data(), side, e.x.data(), e.y.data(), blurs, other.data());
+      sets.front().read(e.pixels.data(), kSide, e.x.data(), e.y.data(), blurs, one.data());
+      set.read(e.pixels.data(), kSide, e.x.data(), e.y.data(), blurs, other.data());
       for (std::size_t i = 0; i < one.size(); ++i)
-        EXPECT_TRUE(i % line == line - 1 || one[i] == other[i]) << set.name << ' ' << i;
+        EXPECT_TRUE(i % kLine == kLine - 1 || one[i] == other[i]) << set.name << ' ' << i;
     }
   }
 }

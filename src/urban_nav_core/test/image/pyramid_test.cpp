@@ -82,11 +82,11 @@ TEST(Pyramid, AgreesWithOpenCv) {
 }
 
 TEST(Pyramid, AStructureAtUStandsAtUOverTwoToTheLevel) {
-  constexpr double u0 = 127.3, v0 = 86.6;
+  constexpr double kU0 = 127.3, kV0 = 86.6;
   cv::Mat image(192, 256, CV_8U);
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
-      const double r2 = (u - u0) * (u - u0) + (v - v0) * (v - v0);
+      const double r2 = (u - kU0) * (u - kU0) + (v - kV0) * (v - kV0);
       image.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(250.0 * std::exp(-r2 / (2.0 * 12.0 * 12.0)));
     }
   }
@@ -103,8 +103,8 @@ TEST(Pyramid, AStructureAtUStandsAtUOverTwoToTheLevel) {
         v_sum += v * level.at(u, v);
       }
     }
-    EXPECT_NEAR(u_sum / mass, u0 * Pyramid::scale(l), 0.02) << "level " << l;
-    EXPECT_NEAR(v_sum / mass, v0 * Pyramid::scale(l), 0.02) << "level " << l;
+    EXPECT_NEAR(u_sum / mass, kU0 * Pyramid::scale(l), 0.02) << "level " << l;
+    EXPECT_NEAR(v_sum / mass, kV0 * Pyramid::scale(l), 0.02) << "level " << l;
   }
 }
 

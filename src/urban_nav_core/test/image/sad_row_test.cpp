@@ -20,12 +20,12 @@ std::vector<std::uint8_t> drawPixels(int width, int height, unsigned seed) {
 }
 
 TEST(SadRow, IsTheSumPlaceByPlaceWithEveryInstructionSet) {
-  constexpr int width = 60, height = 9;
-  const std::vector<std::uint8_t> a = drawPixels(width, height, 1), b = drawPixels(width, height, 2);
-  const ImageView left{a.data(), width, height, width}, right{b.data(), width, height, width};
+  constexpr int kWidth = 60, kHeight = 9;
+  const std::vector<std::uint8_t> a = drawPixels(kWidth, kHeight, 1), b = drawPixels(kWidth, kHeight, 2);
+  const ImageView left{a.data(), kWidth, kHeight, kWidth}, right{b.data(), kWidth, kHeight, kWidth};
   const SadPatch patch = sadPatch(left, 20, 4);
   for (const auto& set : sad_row::instructionSets())
-    for (int u = 4; u + set.lanes - 1 + 3 < width; ++u) {
+    for (int u = 4; u + set.lanes - 1 + 3 < kWidth; ++u) {
       std::vector<int> sads(static_cast<std::size_t>(set.lanes));
       set.compare(patch.value.data(), right.row(0) + u - 4, right.stride, sads.data());
       for (int i = 0; i < set.lanes; ++i)
@@ -35,11 +35,11 @@ TEST(SadRow, IsTheSumPlaceByPlaceWithEveryInstructionSet) {
 }
 
 TEST(SadRow, HasAnyLength) {
-  constexpr int width = 60, height = 9;
-  const std::vector<std::uint8_t> pixels = drawPixels(width, height, 3);
-  const ImageView image{pixels.data(), width, height, width};
+  constexpr int kWidth = 60, kHeight = 9;
+  const std::vector<std::uint8_t> pixels = drawPixels(kWidth, kHeight, 3);
+  const ImageView image{pixels.data(), kWidth, kHeight, kWidth};
   const SadPatch patch = sadPatch(image, 20, 4);
-  for (int count = 0; count <= width - 7; ++count) {
+  for (int count = 0; count <= kWidth - 7; ++count) {
     std::vector<int> sads(static_cast<std::size_t>(count) + 1, -1);
     meanRemovedSads(patch, image, 4, 4, count, sads.data());
     for (int i = 0; i < count; ++i)

@@ -14,7 +14,7 @@
 namespace urban_nav_core {
 namespace {
 
-const std::string empty_readme =
+const std::string kEmptyReadme =
     "# Title\n<!-- parameters: stage -->\nold\n<!-- end -->\nbetween\n<!-- parameters:  -->\n<!-- end -->\nrest\n";
 
 class Documents : public ::testing::Test {
@@ -30,7 +30,7 @@ class Documents : public ::testing::Test {
 };
 
 TEST_F(Documents, GetEachTableWhereItBelongs) {
-  writeAtomically(package_ + "/README.md", empty_readme);
+  writeAtomically(package_ + "/README.md", kEmptyReadme);
   writeAtomically(package_ + "/config/stage.yaml", "old");
   writeDocuments(package_, {{"stage", rows_}, {"", {rows_[0]}}});
   EXPECT_EQ(readTextFile(package_ + "/config/stage.yaml"), printYaml("stage", rows_));

@@ -24,18 +24,18 @@ MotionInput motion(StampNs from, StampNs to) {
 
 TEST(StereoAssembler, PartnersLeaveTogetherWhicheverComesFirst) {
   StereoAssembler assembler;
-  assembler.addLeft(image(100 * ms, 1));
+  assembler.addLeft(image(100 * kMillisecond, 1));
   EXPECT_FALSE(assembler.take());
-  assembler.addRight(image(101 * ms, 2));
-  assembler.addRight(image(149 * ms, 4));
-  assembler.addLeft(image(150 * ms, 3));
+  assembler.addRight(image(101 * kMillisecond, 2));
+  assembler.addRight(image(149 * kMillisecond, 4));
+  assembler.addLeft(image(150 * kMillisecond, 3));
   const auto first = assembler.take(), second = assembler.take();
   ASSERT_TRUE(first && second);
   EXPECT_FALSE(assembler.take());
-  EXPECT_EQ(first->pair.stamp, 100 * ms);
+  EXPECT_EQ(first->pair.stamp, 100 * kMillisecond);
   EXPECT_EQ(first->pair.left.at(0, 0), 1);
   EXPECT_EQ(first->pair.right.at(0, 0), 2);
-  EXPECT_EQ(second->pair.stamp, 150 * ms);
+  EXPECT_EQ(second->pair.stamp, 150 * kMillisecond);
   EXPECT_EQ(second->pair.left.at(3, 3), 3);
   EXPECT_EQ(second->pair.right.at(3, 3), 4);
   EXPECT_EQ(assembler.leftsMissing() + assembler.rightsMissing(), 0);
@@ -43,24 +43,24 @@ TEST(StereoAssembler, PartnersLeaveTogetherWhicheverComesFirst) {
 
 TEST(StereoAssembler, AnImageWithoutPartnerLeavesAloneOnceALaterOneShowsIt) {
   StereoAssembler assembler;
-  assembler.addLeft(image(100 * ms, 1));
-  assembler.addLeft(image(150 * ms, 3));
+  assembler.addLeft(image(100 * kMillisecond, 1));
+  assembler.addLeft(image(150 * kMillisecond, 3));
   auto lone = assembler.take();
   ASSERT_TRUE(lone);
-  EXPECT_EQ(lone->pair.stamp, 100 * ms);
+  EXPECT_EQ(lone->pair.stamp, 100 * kMillisecond);
   EXPECT_FALSE(lone->pair.left.empty());
   EXPECT_TRUE(lone->pair.right.empty());
 
-  assembler.addRight(image(200 * ms, 6));
+  assembler.addRight(image(200 * kMillisecond, 6));
   lone = assembler.take();
   ASSERT_TRUE(lone);
-  EXPECT_EQ(lone->pair.stamp, 150 * ms);
+  EXPECT_EQ(lone->pair.stamp, 150 * kMillisecond);
   EXPECT_FALSE(assembler.take());
 
   assembler.finish();
   lone = assembler.take();
   ASSERT_TRUE(lone);
-  EXPECT_EQ(lone->pair.stamp, 200 * ms);
+  EXPECT_EQ(lone->pair.stamp, 200 * kMillisecond);
   EXPECT_TRUE(lone->pair.left.empty());
   EXPECT_EQ(assembler.rightsMissing(), 2);
   EXPECT_EQ(assembler.leftsMissing(), 1);
@@ -69,12 +69,12 @@ TEST(StereoAssembler, AnImageWithoutPartnerLeavesAloneOnceALaterOneShowsIt) {
 }
 
 TEST(StereoAssembler, ToleranceIsTheLargestDifferenceThatPairs) {
-  StereoAssembler assembler(10 * ms);
-  assembler.addLeft(image(100 * ms, 1));
-  assembler.addRight(image(110 * ms, 1));
+  StereoAssembler assembler(10 * kMillisecond);
+  assembler.addLeft(image(100 * kMillisecond, 1));
+  assembler.addRight(image(110 * kMillisecond, 1));
   EXPECT_TRUE(assembler.take());
-  assembler.addLeft(image(200 * ms, 1));
-  assembler.addRight(image(210 * ms + 1, 1));
+  assembler.addLeft(image(200 * kMillisecond, 1));
+  assembler.addRight(image(210 * kMillisecond + 1, 1));
   const auto lone = assembler.take();
   ASSERT_TRUE(lone);
   EXPECT_TRUE(lone->pair.right.empty());
@@ -82,18 +82,18 @@ TEST(StereoAssembler, ToleranceIsTheLargestDifferenceThatPairs) {
 
 TEST(StereoAssembler, APairTakesTheMotionThatEndedBeforeIt) {
   StereoAssembler assembler;
-  for (StampNs t = 0; t < 200; t += 20) assembler.addMotion(motion(t * ms, (t + 20) * ms));
-  assembler.addLeft(image(100 * ms, 1));
-  assembler.addRight(image(100 * ms, 1));
-  assembler.addLeft(image(150 * ms, 1));
-  assembler.addRight(image(150 * ms, 1));
+  for (StampNs t = 0; t < 200; t += 20) assembler.addMotion(motion(t * kMillisecond, (t + 20) * kMillisecond));
+  assembler.addLeft(image(100 * kMillisecond, 1));
+  assembler.addRight(image(100 * kMillisecond, 1));
+  assembler.addLeft(image(150 * kMillisecond, 1));
+  assembler.addRight(image(150 * kMillisecond, 1));
   const auto first = assembler.take(), second = assembler.take();
   ASSERT_TRUE(first && second);
   ASSERT_EQ(first->inputs.size(), 5U);
-  EXPECT_EQ(first->inputs.back().to, 100 * ms);
+  EXPECT_EQ(first->inputs.back().to, 100 * kMillisecond);
   ASSERT_EQ(second->inputs.size(), 2U);
-  EXPECT_EQ(second->inputs.front().from, 100 * ms);
-  EXPECT_EQ(second->inputs.back().to, 140 * ms);
+  EXPECT_EQ(second->inputs.front().from, 100 * kMillisecond);
+  EXPECT_EQ(second->inputs.back().to, 140 * kMillisecond);
 }
 
 TEST(StereoAssembler, PixelsLiveAsLongAsThePair) {

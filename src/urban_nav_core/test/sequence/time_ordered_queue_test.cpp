@@ -22,10 +22,10 @@ std::vector<Entry> drain(TestQueue& queue) {
 std::vector<Entry> threeStreams() {
   std::vector<Entry> inputs;
   for (StampNs t = 0; t < 2000; t += 50) {
-    inputs.emplace_back(t * ms, 1);
-    inputs.emplace_back(t * ms, 2);
+    inputs.emplace_back(t * kMillisecond, 1);
+    inputs.emplace_back(t * kMillisecond, 2);
   }
-  for (StampNs t = 7; t < 2000; t += 36) inputs.emplace_back(t * ms, 0);
+  for (StampNs t = 7; t < 2000; t += 36) inputs.emplace_back(t * kMillisecond, 0);
   std::sort(inputs.begin(), inputs.end());
   return inputs;
 }
@@ -37,9 +37,9 @@ TEST(TimeOrderedQueue, WhateverIsShuffledWithinTheLatenessLeavesInOrder) {
   for (int run = 0; run < 20; ++run) {
     std::vector<std::pair<double, Entry>> arrivals;
     for (const Entry& input : inputs)
-      arrivals.emplace_back(static_cast<double>(input.first) / ms + delay(random), input);
+      arrivals.emplace_back(static_cast<double>(input.first) / kMillisecond + delay(random), input);
     std::sort(arrivals.begin(), arrivals.end());
-    TestQueue queue(3, 50 * ms);
+    TestQueue queue(3, 50 * kMillisecond);
     std::vector<Entry> out;
     for (const auto& [when, input] : arrivals) {
       ASSERT_TRUE(queue.put(input.second, input.first, 0));
@@ -52,7 +52,7 @@ TEST(TimeOrderedQueue, WhateverIsShuffledWithinTheLatenessLeavesInOrder) {
 }
 
 TEST(TimeOrderedQueue, TheSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
-  TestQueue live(3, 100 * ms, DeliveryOrder::OrderedStreams), offline(3, 50 * ms);
+  TestQueue live(3, 100 * kMillisecond, DeliveryOrder::OrderedStreams), offline(3, 50 * kMillisecond);
   std::vector<Entry> live_out, offline_out;
   for (const Entry& input : threeStreams()) {
     live.put(input.second, input.first, 0);
@@ -69,33 +69,33 @@ TEST(TimeOrderedQueue, TheSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
 }
 
 TEST(TimeOrderedQueue, OrderedStreamsLeaveAsSoonAsAllHaveComeThatFar) {
-  TestQueue queue(2, 100 * ms, DeliveryOrder::OrderedStreams);
-  queue.put(0, 50 * ms, 0);
+  TestQueue queue(2, 100 * kMillisecond, DeliveryOrder::OrderedStreams);
+  queue.put(0, 50 * kMillisecond, 0);
   EXPECT_TRUE(drain(queue).empty());
-  queue.put(1, 50 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Entry>{{50 * ms, 0}, {50 * ms, 1}}));
+  queue.put(1, 50 * kMillisecond, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{50 * kMillisecond, 0}, {50 * kMillisecond, 1}}));
 }
 
 TEST(TimeOrderedQueue, ASilentStreamIsWaitedForNoLongerThanTheLateness) {
-  TestQueue queue(2, 100 * ms, DeliveryOrder::OrderedStreams);
+  TestQueue queue(2, 100 * kMillisecond, DeliveryOrder::OrderedStreams);
   queue.put(0, 0, 0);
-  queue.put(0, 99 * ms, 0);
+  queue.put(0, 99 * kMillisecond, 0);
   EXPECT_TRUE(drain(queue).empty());
-  queue.put(0, 100 * ms, 0);
+  queue.put(0, 100 * kMillisecond, 0);
   EXPECT_EQ(drain(queue), (std::vector<Entry>{{0, 0}}));
   EXPECT_FALSE(queue.reached(1));
-  EXPECT_EQ(*queue.reached(0), 100 * ms);
+  EXPECT_EQ(*queue.reached(0), 100 * kMillisecond);
 }
 
 TEST(TimeOrderedQueue, LateAndDoubledInputsAreCountedAndDropped) {
-  TestQueue queue(2, 10 * ms);
-  queue.put(0, 100 * ms, 0);
-  queue.put(0, 120 * ms, 0);
-  EXPECT_FALSE(queue.put(0, 120 * ms, 1)) << "the same again, still waiting";
+  TestQueue queue(2, 10 * kMillisecond);
+  queue.put(0, 100 * kMillisecond, 0);
+  queue.put(0, 120 * kMillisecond, 0);
+  EXPECT_FALSE(queue.put(0, 120 * kMillisecond, 1)) << "the same again, still waiting";
   EXPECT_EQ(drain(queue).size(), 1U);
-  EXPECT_FALSE(queue.put(0, 100 * ms, 1)) << "the same again, handed on";
-  EXPECT_FALSE(queue.put(1, 90 * ms, 1));
-  EXPECT_TRUE(queue.put(1, 100 * ms, 1)) << "after it in the order (stamp, stream)";
+  EXPECT_FALSE(queue.put(0, 100 * kMillisecond, 1)) << "the same again, handed on";
+  EXPECT_FALSE(queue.put(1, 90 * kMillisecond, 1));
+  EXPECT_TRUE(queue.put(1, 100 * kMillisecond, 1)) << "after it in the order (stamp, stream)";
   EXPECT_EQ(queue.counts(0).received, 4);
   EXPECT_EQ(queue.counts(0).duplicate, 2);
   EXPECT_EQ(queue.counts(0).late, 0);
@@ -103,12 +103,12 @@ TEST(TimeOrderedQueue, LateAndDoubledInputsAreCountedAndDropped) {
 }
 
 TEST(TimeOrderedQueue, OneStampFarAheadHoldsNothingUp) {
-  TestQueue queue(1, 10 * ms);
-  queue.put(0, 100 * ms, 0);
-  queue.put(0, 100'000'000 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Entry>{{100 * ms, 0}}));
-  queue.put(0, 150 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Entry>{{150 * ms, 0}}));
+  TestQueue queue(1, 10 * kMillisecond);
+  queue.put(0, 100 * kMillisecond, 0);
+  queue.put(0, 100'000'000 * kMillisecond, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{100 * kMillisecond, 0}}));
+  queue.put(0, 150 * kMillisecond, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{150 * kMillisecond, 0}}));
   EXPECT_EQ(queue.waiting(), 1U);
 }
 

@@ -5,6 +5,6 @@
 
 namespace urban_nav_core {
 
-constexpr StampNs ms = 1'000'000, kSecond = 1'000'000'000;
+constexpr StampNs kMillisecond = 1'000'000, kSecond = 1'000'000'000;
 
 }  // namespace urban_nav_core

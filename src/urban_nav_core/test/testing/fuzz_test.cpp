@@ -13,10 +13,10 @@
 namespace urban_nav_core::testing {
 namespace {
 
-const std::vector<std::string> seeds = {"1.5 2.5 3.5\n4 5 6\n", "stage:\n  window: 25\n"};
+const std::vector<std::string> kSeeds = {"1.5 2.5 3.5\n4 5 6\n", "stage:\n  window: 25\n"};
 
 TEST(Fuzz, SameSeedSameTexts) {
-  Mutator a(seeds, 7), b(seeds, 7), c(seeds, 8);
+  Mutator a(kSeeds, 7), b(kSeeds, 7), c(kSeeds, 8);
   bool differs = false;
   for (int i = 0; i < 1000; ++i) {
     const std::string text = a.next();
@@ -32,7 +32,7 @@ TEST(Fuzz, TakesEmptySeeds) {
 }
 
 TEST(Fuzz, CountsWhatIsTakenAndRefused) {
-  const FuzzResult result = fuzzText(seeds, [](const std::string& text) {
+  const FuzzResult result = fuzzText(kSeeds, [](const std::string& text) {
     if (text.find("nan") != std::string::npos) throw UserError("file", "nan", "numbers");
   });
   EXPECT_EQ(result.failure, "");
@@ -41,17 +41,17 @@ TEST(Fuzz, CountsWhatIsTakenAndRefused) {
 }
 
 TEST(Fuzz, FindsAReaderThatThrowsSomethingElse) {
-  const FuzzResult result = fuzzText(seeds, [](const std::string& text) { (void)std::stod(text); });
+  const FuzzResult result = fuzzText(kSeeds, [](const std::string& text) { (void)std::stod(text); });
   EXPECT_NE(result.failure, "");
 }
 
 TEST(Fuzz, GivesFilesAndRemovesThem) {
   std::string last;
   bool first_was_the_seed = false;
-  const FuzzResult result = fuzzFile(seeds, "poses.txt", [&](const std::string& path) {
+  const FuzzResult result = fuzzFile(kSeeds, "poses.txt", [&](const std::string& path) {
     std::stringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
-    if (last.empty()) first_was_the_seed = text.str() == seeds[0];
+    if (last.empty()) first_was_the_seed = text.str() == kSeeds[0];
     last = path;
   });
   EXPECT_EQ(result.failure, "");

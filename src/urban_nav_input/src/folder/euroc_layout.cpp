@@ -103,7 +103,7 @@ std::vector<EurocImu> readEurocImu(const std::string& mav0) {
 sensor_msgs::Imu toImuMessage(const EurocImu& row) {
   sensor_msgs::Imu message;
   message.header.stamp = urban_nav_ros::toRosTime(row.stamp);
-  message.header.frame_id = urban_nav_core::frames::imu;
+  message.header.frame_id = urban_nav_core::frames::kImu;
   message.angular_velocity.x = row.rate.x();
   message.angular_velocity.y = row.rate.y();
   message.angular_velocity.z = row.rate.z();

@@ -65,12 +65,12 @@ std::pair<urban_nav_core::ImageView, std::shared_ptr<const void>> sharedView(con
 }
 
 bool isImageName(const std::string& name) {
-  static constexpr std::array<std::string_view, 9> known = {".png", ".jpg", ".jpeg", ".pgm", ".pnm",
-                                                            ".ppm", ".bmp", ".tif",  ".tiff"};
+  static constexpr std::array<std::string_view, 9> kKnown = {".png", ".jpg", ".jpeg", ".pgm", ".pnm",
+                                                             ".ppm", ".bmp", ".tif",  ".tiff"};
   std::string extension = std::filesystem::path(name).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(known.begin(), known.end(), extension) != known.end();
+  return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
 
 }  // namespace urban_nav_input

@@ -45,11 +45,11 @@ std::optional<KittiLayout> findKittiLayout(const std::string& folder) {
     const char *left, *right;
     KittiPair pair;
   };
-  static constexpr std::array<Names, 4> all = {{{"image_0", "image_1", KittiPair::Grey},
-                                                {"image_00", "image_01", KittiPair::Grey},
-                                                {"image_2", "image_3", KittiPair::Colour},
-                                                {"image_02", "image_03", KittiPair::Colour}}};
-  for (const Names& names : all) {
+  static constexpr std::array<Names, 4> kAll = {{{"image_0", "image_1", KittiPair::Grey},
+                                                 {"image_00", "image_01", KittiPair::Grey},
+                                                 {"image_2", "image_3", KittiPair::Colour},
+                                                 {"image_02", "image_03", KittiPair::Colour}}};
+  for (const Names& names : kAll) {
     const fs::path left = fs::path(folder) / names.left;
     const fs::path right = fs::path(folder) / names.right;
     if (!fs::is_directory(left) && !fs::is_directory(right)) continue;
@@ -172,8 +172,8 @@ std::optional<StampNs> parseDateTime(const std::string& text) {
       minute > 59 || !seconds)
     return std::nullopt;
   const StampNs days = daysSince1970(static_cast<int>(year), static_cast<int>(month), static_cast<int>(day));
-  constexpr StampNs minute_ns = 60'000'000'000;
-  return ((days * 24 + hour) * 60 + minute) * minute_ns + *seconds;
+  constexpr StampNs kMinuteNs = 60'000'000'000;
+  return ((days * 24 + hour) * 60 + minute) * kMinuteNs + *seconds;
 }
 
 }  // namespace urban_nav_input

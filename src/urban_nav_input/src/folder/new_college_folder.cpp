@@ -67,8 +67,8 @@ class NewCollegeFolder : public Source {
       const auto* odometry = std::get_if<NewCollegeOdometry>(&*event);
       if (odometry == nullptr) continue;
       const urban_nav_core::PoseWithCovariance pose{odometry->T_odom_base, urban_nav_core::Matrix6d::Zero()};
-      motion_ = wheels_->add(urban_nav_ros::toOdometryMessage(odometry->stamp, pose, urban_nav_core::frames::odom,
-                                                              urban_nav_core::frames::base_link));
+      motion_ = wheels_->add(urban_nav_ros::toOdometryMessage(odometry->stamp, pose, urban_nav_core::frames::kOdom,
+                                                              urban_nav_core::frames::kBaseLink));
       if (motion_) return;
     }
   }

@@ -10,8 +10,8 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 
 urban_nav_core::StereoCamera newCollegeCamera() {
-  constexpr double focal_length = 389.956085;  // px
-  return {{focal_length, focal_length, 254.903519, 201.899490, 512, 384}, 0.120005};
+  constexpr double kFocalLength = 389.956085;  // px
+  return {{kFocalLength, kFocalLength, 254.903519, 201.899490, 512, 384}, 0.120005};
 }
 
 Pose newCollegeLeftLaser() {

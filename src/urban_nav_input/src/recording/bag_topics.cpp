@@ -224,7 +224,7 @@ void guessOtherInfos(const std::map<std::string, std::string>& available, BagTop
 /// Cameras of a panoramic head, unless the user names one: the first topic of each camera whose name tells so.
 void guessPanorama(const std::map<std::string, std::string>& available, BagTopics& topics) {
   if (topics.panorama().empty()) {
-    for (std::size_t camera = 0; camera < panorama_cameras; ++camera)
+    for (std::size_t camera = 0; camera < kPanoramaCameras; ++camera)
       for (const auto& [topic, type] : available) {
         const std::string number = std::to_string(camera);
         if (!isImageType(type) || !(contains(topic, "ladybug") || contains(topic, "panorama")) ||
@@ -289,7 +289,7 @@ Role panoramaInfoRole(std::size_t camera) {
 
 std::vector<std::size_t> BagTopics::panorama() const {
   std::vector<std::size_t> cameras;
-  for (std::size_t camera = 0; camera < panorama_cameras; ++camera)
+  for (std::size_t camera = 0; camera < kPanoramaCameras; ++camera)
     if (find(panoramaRole(camera))) cameras.push_back(camera);
   return cameras;
 }

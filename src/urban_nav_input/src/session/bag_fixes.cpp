@@ -22,7 +22,7 @@ namespace {
 
 void placeAntenna(std::list<rosbag::Bag>& bags, const std::string& frame, BagFixes& fixes) {
   const urban_nav_ros::StaticTransforms transforms = readTransforms(bags);
-  if (const auto T_base_gps = transforms.lookup(urban_nav_core::frames::base_link, frame)) {
+  if (const auto T_base_gps = transforms.lookup(urban_nav_core::frames::kBaseLink, frame)) {
     fixes.p_base = T_base_gps->t();
     fixes.is_placed = true;
   }

@@ -41,7 +41,7 @@ BagPanorama::BagPanorama(Recording& recording, const BagTopics& topics,
     else if (const auto packed = recording.first<sensor_msgs::CompressedImage>(topic.name))
       camera.frame = packed->header.frame_id;
     else continue;
-    camera.T_base_camera = transforms.lookup(urban_nav_core::frames::base_link, camera.frame);
+    camera.T_base_camera = transforms.lookup(urban_nav_core::frames::kBaseLink, camera.frame);
     if (const auto info = topics.find(panoramaInfoRole(number)))
       if (const auto message = recording.first<sensor_msgs::CameraInfo>(info->name))
         camera.calibration = urban_nav_ros::toCameraInfo(*message);

@@ -195,7 +195,7 @@ class BagSource : public Source {
   void place() {
     const urban_nav_ros::StaticTransforms transforms = readTransforms(bags_);
     if (const std::optional<urban_nav_core::Pose> T_base_optical =
-            transforms.lookup(frames::base_link, camera_frame_)) {
+            transforms.lookup(frames::kBaseLink, camera_frame_)) {
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
       is_placed_ = true;
     } else {
@@ -205,13 +205,13 @@ class BagSource : public Source {
     }
     const auto imu = topics_.find(Role::Imu) ? first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
     const std::optional<urban_nav_core::Pose> T_base_imu =
-        imu ? transforms.lookup(frames::base_link, imu->header.frame_id) : std::nullopt;
+        imu ? transforms.lookup(frames::kBaseLink, imu->header.frame_id) : std::nullopt;
     if (T_base_imu) R_base_imu_ = T_base_imu->R();
     for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
       const auto scan = topic ? first<sensor_msgs::LaserScan>(topic->name) : nullptr;
       if (!scan) continue;
-      if (const auto T_base_laser = transforms.lookup(frames::base_link, scan->header.frame_id)) {
+      if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
         laser_topics_.push_back(topic->name);
       } else {

@@ -29,7 +29,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
       {"base_frame",
        &P::base_frame,
        "",
-       urban_nav_core::frames::base_link,
+       urban_nav_core::frames::kBaseLink,
        false,
        false,
        {},

@@ -9,12 +9,12 @@
 
 namespace urban_nav_live {
 
-using urban_nav_core::max_step_back;
+using urban_nav_core::kMaxStepBack;
 
-/// Detects stamps that jump back by more than max_step_back. Not thread-safe.
+/// Detects stamps that jump back by more than kMaxStepBack. Not thread-safe.
 class TimeJumpDetector {
  public:
-  /// Returns true if `stamp` lies more than max_step_back before the newest one.
+  /// Returns true if `stamp` lies more than kMaxStepBack before the newest one.
   bool jumpsBack(urban_nav_core::StampNs stamp) const { return newest_ && urban_nav_core::jumpsBack(stamp, *newest_); }
   /// Raises the newest stamp; an earlier one has no effect.
   void advance(urban_nav_core::StampNs stamp) { newest_ = std::max(newest_.value_or(stamp), stamp); }

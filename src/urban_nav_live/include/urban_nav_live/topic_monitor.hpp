@@ -20,13 +20,13 @@ class TopicMonitor {
  public:
   using Clock = std::chrono::steady_clock;
   using Now = std::function<Clock::time_point()>;
-  static constexpr double no_timeout = std::numeric_limits<double>::infinity();
+  static constexpr double kNoTimeout = std::numeric_limits<double>::infinity();
 
   explicit TopicMonitor(Now now = &Clock::now) : now_(std::move(now)) {}
 
-  /// Monitors a topic by its full name. `timeout`: s without a message until the topic is silent; no_timeout: it need
+  /// Monitors a topic by its full name. `timeout`: s without a message until the topic is silent; kNoTimeout: it need
   /// only arrive once. `group`: a word by which faults are asked for.
-  void expect(const std::string& topic, double timeout = no_timeout, const std::string& group = "");
+  void expect(const std::string& topic, double timeout = kNoTimeout, const std::string& group = "");
   /// Declares that messages of two topics come in pairs, as stereo images do.
   void expectPairs(const std::string& topic, const std::string& partner);
 
@@ -44,7 +44,7 @@ class TopicMonitor {
  private:
   struct Topic {
     std::string group;
-    double timeout = no_timeout;
+    double timeout = kNoTimeout;
     bool any = false;
     Clock::time_point when{};
     urban_nav_core::StampNs stamp = 0;

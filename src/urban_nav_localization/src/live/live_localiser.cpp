@@ -20,9 +20,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t max_odometry = 1000;
+constexpr std::size_t kMaxOdometry = 1000;
 // Keyframes that wait for smoothed odometry, or for the map to be read: a hundred metres of driving, 7 MB.
-constexpr std::size_t max_waiting = 100;
+constexpr std::size_t kMaxWaiting = 100;
 
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -83,7 +83,7 @@ void LiveLocaliser::addOdometry(const StampedPose& T_odom_base) {
   }
   builder_.addOdometry(T_odom_base);
   odometry_.push_back(T_odom_base);
-  if (odometry_.size() > max_odometry) odometry_.pop_front();
+  if (odometry_.size() > kMaxOdometry) odometry_.pop_front();
   takeKeyframes();
 }
 
@@ -95,7 +95,7 @@ void LiveLocaliser::addScan(const std::string& frame, const urban_nav_core::Scan
 void LiveLocaliser::takeKeyframes() {
   for (Keyframe& keyframe : builder_.take()) {
     waiting_.push_back(std::move(keyframe));
-    if (waiting_.size() <= max_waiting) continue;
+    if (waiting_.size() <= kMaxWaiting) continue;
     waiting_.pop_front();
     ++state_.dropped_keyframes;
   }

@@ -12,8 +12,8 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs max_age = 60'000'000'000;  // ns
-constexpr std::size_t max_scans = 10000;
+constexpr StampNs kMaxAge = 60'000'000'000;  // ns
+constexpr std::size_t kMaxScans = 10000;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ void RecentScans::add(const std::string& frame, Scan scan) {
   if (!scans.empty() && urban_nav_core::jumpsBack(scan.stamp, scans.back().stamp)) scans.clear();
   if (!scans.empty() && scan.stamp <= scans.back().stamp) return;  // one among thousands
   scans.push_back(std::move(scan));
-  while (scans.size() > max_scans || scans.back().stamp - scans.front().stamp > max_age) scans.pop_front();
+  while (scans.size() > kMaxScans || scans.back().stamp - scans.front().stamp > kMaxAge) scans.pop_front();
 }
 
 void RecentScans::setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser) {

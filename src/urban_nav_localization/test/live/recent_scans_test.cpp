@@ -9,7 +9,7 @@ namespace {
 using urban_nav_core::Scan;
 using urban_nav_core::StampNs;
 
-constexpr StampNs scan_second = 1'000'000'000;
+constexpr StampNs kScanSecond = 1'000'000'000;
 
 Scan scanAt(StampNs stamp) {
   Scan scan;
@@ -26,40 +26,40 @@ std::vector<StampNs> listStamps(const RecentScans& scans, StampNs first, StampNs
 
 TEST(RecentScans, GivesAStretchWithBothEnds) {
   RecentScans scans;
-  for (int i = 1; i <= 5; ++i) scans.add("left", scanAt(i * scan_second));
+  for (int i = 1; i <= 5; ++i) scans.add("left", scanAt(i * kScanSecond));
   EXPECT_TRUE(scans.lasers().empty()) << "no pose yet";
   EXPECT_EQ(scans.unplaced(), std::vector<std::string>{"left"});
   scans.setLaser("left", urban_nav_core::Pose());
   EXPECT_TRUE(scans.unplaced().empty());
-  EXPECT_EQ(listStamps(scans, 2 * scan_second, 4 * scan_second),
-            (std::vector<StampNs>{2 * scan_second, 3 * scan_second, 4 * scan_second}));
-  EXPECT_TRUE(listStamps(scans, 6 * scan_second, 9 * scan_second).empty());
+  EXPECT_EQ(listStamps(scans, 2 * kScanSecond, 4 * kScanSecond),
+            (std::vector<StampNs>{2 * kScanSecond, 3 * kScanSecond, 4 * kScanSecond}));
+  EXPECT_TRUE(listStamps(scans, 6 * kScanSecond, 9 * kScanSecond).empty());
 }
 
 TEST(RecentScans, IgnoresRepeatedAndLateScans) {
   RecentScans scans;
   scans.setLaser("left", urban_nav_core::Pose());
-  for (const StampNs stamp : {10 * scan_second, 10 * scan_second, 10 * scan_second - scan_second / 2, 11 * scan_second})
+  for (const StampNs stamp : {10 * kScanSecond, 10 * kScanSecond, 10 * kScanSecond - kScanSecond / 2, 11 * kScanSecond})
     scans.add("left", scanAt(stamp));
-  EXPECT_EQ(listStamps(scans, 0, 20 * scan_second), (std::vector<StampNs>{10 * scan_second, 11 * scan_second}));
+  EXPECT_EQ(listStamps(scans, 0, 20 * kScanSecond), (std::vector<StampNs>{10 * kScanSecond, 11 * kScanSecond}));
 }
 
 TEST(RecentScans, DropsScansFromBeforeAJumpBack) {
   RecentScans scans;
   scans.setLaser("left", urban_nav_core::Pose());
-  scans.add("left", scanAt(100 * scan_second));
-  scans.add("left", scanAt(5 * scan_second));
-  EXPECT_EQ(listStamps(scans, 0, 200 * scan_second), (std::vector<StampNs>{5 * scan_second}));
+  scans.add("left", scanAt(100 * kScanSecond));
+  scans.add("left", scanAt(5 * kScanSecond));
+  EXPECT_EQ(listStamps(scans, 0, 200 * kScanSecond), (std::vector<StampNs>{5 * kScanSecond}));
 }
 
 TEST(RecentScans, KeepsTheLastMinute) {
   RecentScans scans;
   scans.setLaser("left", urban_nav_core::Pose());
-  for (int i = 1; i <= 100; ++i) scans.add("left", scanAt(i * scan_second));
-  const std::vector<StampNs> stamps = listStamps(scans, 0, 200 * scan_second);
+  for (int i = 1; i <= 100; ++i) scans.add("left", scanAt(i * kScanSecond));
+  const std::vector<StampNs> stamps = listStamps(scans, 0, 200 * kScanSecond);
   ASSERT_FALSE(stamps.empty());
-  EXPECT_EQ(stamps.front(), 40 * scan_second);
-  EXPECT_EQ(stamps.back(), 100 * scan_second);
+  EXPECT_EQ(stamps.front(), 40 * kScanSecond);
+  EXPECT_EQ(stamps.back(), 100 * kScanSecond);
 }
 
 }  // namespace

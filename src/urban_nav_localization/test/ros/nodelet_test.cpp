@@ -27,11 +27,11 @@ namespace {
 
 using geometry_msgs::PoseWithCovarianceStamped;
 using urban_nav_msgs::LocalizationState;
-using urban_nav_registration::calibration_property;
 using urban_nav_registration::calibrationFingerprint;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kCalibrationProperty;
 using urban_nav_registration::KeyframeExtractor;
 using urban_nav_registration::KeyframeSelector;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
@@ -114,15 +114,15 @@ class LocalizationNodelet : public ::testing::Test {
     KeyframeSelector selector((urban_nav_registration::Parameters()));
     Store store(path, Access::Write);
     const urban_nav_store::Session session{
-        urban_nav_store::makeSessionId({"lisa", "", start, ""}), "first", "lisa", "", start, true};
+        urban_nav_store::makeSessionId({"lisa", "", kStart, ""}), "first", "lisa", "", kStart, true};
     store.sessions().put(session);
     store.sessions().put(
-        session.id, urban_nav_store::Property{calibration_property, calibrationFingerprint(camera, T_base_left())});
-    for (int i = 0; i < lap; ++i) {
+        session.id, urban_nav_store::Property{kCalibrationProperty, calibrationFingerprint(camera, T_base_left())});
+    for (int i = 0; i < kLap; ++i) {
       const Pose T_map_base = T_map_world() * day.T_world_camera(i) * T_base_left().inverse();
       store.graph().put(session.id, urban_nav_store::Node{day.stamp(i), T_map_base});
       if (selector.select(T_map_base))
-        store.keyframes().put(session.id, keyframe_camera,
+        store.keyframes().put(session.id, kKeyframeCamera,
                               toStoredKeyframe(extractor.extract({"", day.stamp(i)}, day.frame(i).pair())));
     }
     store.commit();
@@ -194,7 +194,7 @@ TEST_F(LocalizationNodelet, AnInitialPoseIsNeitherNeededNorAcceptedAgainstMatche
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(roomOfAnotherDay());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));
-  const Pose wrong = T_map_world() * robot.T_world_base(lap / 2);
+  const Pose wrong = T_map_world() * robot.T_world_base(kLap / 2);
   robot.applyInitialPose(wrong, "odom");
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses refused", "1"); }));
   robot.applyInitialPose(wrong);
@@ -253,7 +253,7 @@ TEST_F(LocalizationNodelet, AStoreThatIsNoneIsNamedWithTheParameter) {
   ASSERT_TRUE(DrivingRobot::until([&] { return subscriber.getNumPublishers() > 0; }));
   {
     Store empty(path("empty.db"), Access::Write);
-    empty.sessions().put(urban_nav_store::Session{"0123456789abcdef0123", "empty", "", "", start, true});
+    empty.sessions().put(urban_nav_store::Session{"0123456789abcdef0123", "empty", "", "", kStart, true});
     empty.commit();
   }
   const auto complains = [&](const std::string& store, const std::string& words) {

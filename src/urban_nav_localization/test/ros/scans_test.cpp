@@ -19,11 +19,11 @@ namespace {
 
 using urban_nav_msgs::LocalizationState;
 using urban_nav_registration::Keyframe;
-using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Store;
 
-constexpr int half = static_cast<int>(2.0 * half_way / (speed * period));  // frames of each way
+constexpr int kHalf = static_cast<int>(2.0 * kHalfWay / (kSpeed * kPeriod));  // frames of each way
 
 class VisitingRobot : public DrivingRobot {
  public:
@@ -41,15 +41,15 @@ class ScanningVisitor : public Scanning {
 void makeMap(const std::string& path) {
   Store store(path, urban_nav_store::Access::Write);
   const urban_nav_store::Session session{
-      urban_nav_store::makeSessionId({"lisa", "", start, ""}), "first", "lisa", "", start, true};
+      urban_nav_store::makeSessionId({"lisa", "", kStart, ""}), "first", "lisa", "", kStart, true};
   store.sessions().put(session);
   Keyframe nothing;
   nothing.at.stamp = Scanning::toStamp(0);
   nothing.width = nothing.height = 1;
-  store.keyframes().put(session.id, keyframe_camera, toStoredKeyframe(nothing));
+  store.keyframes().put(session.id, kKeyframeCamera, toStoredKeyframe(nothing));
   for (const auto& [frame, T_base_laser] : Scanning::lasers())
     store.sessions().put(session.id, urban_nav_store::Extrinsic{frame, T_base_laser});
-  for (int i = 0; i < half; ++i) {
+  for (int i = 0; i < kHalf; ++i) {
     urban_nav_store::Node node{Scanning::toStamp(i), Scanning::T_world_base(0).inverse() * Scanning::T_world_base(i)};
     if (i > 0) node.covariance = 1e-7 * urban_nav_core::Matrix6d::Identity();
     store.graph().put(session.id, node);
@@ -72,8 +72,8 @@ TEST(LocalizationNodeletScans, WhoDrivesTheOtherWayIsFoundByItsLasers) {
   const auto count = [&](const char* key) { return std::atoi(robot.diagnosis(key).c_str()); };
   // Piece by piece, with a look each: the first where six metres were driven, then each two.
   const auto is_known = [&] { return robot.diagnosis("state") == "LOCALIZED"; };
-  int last = frames - half;
-  for (int to = last + 65; to < frames && !is_known(); to += 22) {
+  int last = kFrames - kHalf;
+  for (int to = last + 65; to < kFrames && !is_known(); to += 22) {
     const int scans = count("scans"), queries = count("cloud queries");
     robot.scan(last, to);
     ASSERT_TRUE(DrivingRobot::until([&] { return count("scans") >= scans + 2 * (to - last); }))

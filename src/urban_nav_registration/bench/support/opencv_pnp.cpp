@@ -15,9 +15,9 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-constexpr int features = 500, least_inliers = 50;
-constexpr float ratio = 0.8F, inlier_px = 2.0F;
-constexpr int disparities = 64;
+constexpr int kFeatures = 500, kLeastInliers = 50;
+constexpr float kRatio = 0.8F, kInlierPx = 2.0F;
+constexpr int kDisparities = 64;
 
 cv::Mat toMat(const ImageView& image) {
   return {image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
@@ -26,9 +26,9 @@ cv::Mat toMat(const ImageView& image) {
 
 cv::Ptr<cv::Feature2D> makeDetector(Feature feature) {
 #if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 4)
-  if (feature == Feature::Sift) return cv::SIFT::create(features);
+  if (feature == Feature::Sift) return cv::SIFT::create(kFeatures);
 #endif
-  return cv::ORB::create(features);
+  return cv::ORB::create(kFeatures);
 }
 
 }  // namespace
@@ -43,13 +43,13 @@ std::optional<Pose> poseByOpenCv(Feature feature, const StereoCamera& camera, co
   detector->detectAndCompute(left, cv::noArray(), in_a, of_a);
   detector->detectAndCompute(other, cv::noArray(), in_b, of_b);
   if (in_a.size() < 2 || in_b.size() < 2) return std::nullopt;
-  cv::StereoSGBM::create(0, disparities, 5, 200, 800, 1, 0, 10, 100, 2)->compute(left, right, disparity);
+  cv::StereoSGBM::create(0, kDisparities, 5, 200, 800, 1, 0, 10, 100, 2)->compute(left, right, disparity);
   std::vector<std::vector<cv::DMatch>> matches;
   cv::BFMatcher(feature == Feature::Sift ? cv::NORM_L2 : cv::NORM_HAMMING).knnMatch(of_b, of_a, matches, 2);
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
   for (const auto& match : matches) {
-    if (match.size() < 2 || match[0].distance > ratio * match[1].distance) continue;
+    if (match.size() < 2 || match[0].distance > kRatio * match[1].distance) continue;
     const cv::Point2f at = in_a[static_cast<std::size_t>(match[0].trainIdx)].pt;
     const double d = disparity.at<std::int16_t>(cvRound(at.y), cvRound(at.x)) / 16.0;
     if (d <= 0.5) continue;
@@ -64,9 +64,9 @@ std::optional<Pose> poseByOpenCv(Feature feature, const StereoCamera& camera, co
   cv::Vec3d turn, t;
   std::vector<int> inliers;
   cv::setRNGSeed(1);
-  if (!cv::solvePnPRansac(points, pixels, K, cv::noArray(), turn, t, false, 500, inlier_px, 0.999, inliers,
+  if (!cv::solvePnPRansac(points, pixels, K, cv::noArray(), turn, t, false, 500, kInlierPx, 0.999, inliers,
                           cv::SOLVEPNP_P3P) ||
-      static_cast<int>(inliers.size()) < least_inliers)
+      static_cast<int>(inliers.size()) < kLeastInliers)
     return std::nullopt;
   std::vector<cv::Point3d> kept_points;
   std::vector<cv::Point2d> kept_pixels, projected;
@@ -78,8 +78,8 @@ std::optional<Pose> poseByOpenCv(Feature feature, const StereoCamera& camera, co
   cv::projectPoints(kept_points, turn, t, K, cv::noArray(), projected);
   int agreeing = 0;
   for (std::size_t i = 0; i < projected.size(); ++i)
-    if (cv::norm(projected[i] - kept_pixels[i]) < static_cast<double>(inlier_px)) ++agreeing;
-  if (agreeing < least_inliers) return std::nullopt;
+    if (cv::norm(projected[i] - kept_pixels[i]) < static_cast<double>(kInlierPx)) ++agreeing;
+  if (agreeing < kLeastInliers) return std::nullopt;
   const Pose T_b_a(urban_nav_core::expSo3({turn[0], turn[1], turn[2]}), {t[0], t[1], t[2]});
   return T_b_a.inverse();
 }

@@ -30,7 +30,7 @@ FreeSpace::FreeSpace(const PointCloud& cloud, float edge) : per_m_(1.0F / edge),
     Eigen::Vector3f at = cloud.origins[i] + 0.5F * along;
     for (float left = length - 0.5F * edge; left > kBeforeTheEnd * edge; left -= edge, at += along) {
       const std::size_t cube = findCube(at);
-      if (cube != none && beams_[cube] < kOccupied - 1) ++beams_[cube];
+      if (cube != kNone && beams_[cube] < kOccupied - 1) ++beams_[cube];
     }
   }
 }
@@ -42,13 +42,13 @@ std::size_t FreeSpace::findCube(const Eigen::Vector3f& point) const {
   const auto within = [](float value, std::size_t most) {
     return value >= 1.0F && value < static_cast<float>(most - 1);
   };
-  if (!within(at.x(), kWide) || !within(at.y(), kWide) || !within(at.z(), kHigh)) return none;
+  if (!within(at.x(), kWide) || !within(at.y(), kWide) || !within(at.z(), kHigh)) return kNone;
   return static_cast<std::size_t>(at.x()) + kAcross * static_cast<std::size_t>(at.y()) +
          kAbove * static_cast<std::size_t>(at.z());
 }
 
 void FreeSpace::mark(std::size_t cube) {
-  if (cube == none) return;
+  if (cube == kNone) return;
   for (std::size_t k = cube - kAbove; k <= cube + kAbove; k += kAbove)
     for (std::size_t j = k - kAcross; j <= k + kAcross; j += kAcross)
       for (std::size_t i = j - 1; i <= j + 1; ++i) beams_[i] = kOccupied;
@@ -56,7 +56,7 @@ void FreeSpace::mark(std::size_t cube) {
 
 bool FreeSpace::isFree(const Eigen::Vector3f& point) const {
   const std::size_t cube = findCube(point);
-  return cube != none && beams_[cube] >= kFewest && beams_[cube] != kOccupied;
+  return cube != kNone && beams_[cube] >= kFewest && beams_[cube] != kOccupied;
 }
 
 }  // namespace urban_nav_registration

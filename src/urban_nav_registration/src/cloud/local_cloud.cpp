@@ -16,16 +16,16 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs longest_stay = 20'000'000'000;  // ns: before and after a time, however little the robot moved
-constexpr StampNs longest_gap = 500'000'000;      // ns without a pose in which beams have no place
-constexpr double usual_range = 10.0;              // m: of surfaces beside a street
-constexpr double least_bend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s
-constexpr std::size_t most_points = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
+constexpr StampNs kLongestStay = 20'000'000'000;  // ns: before and after a time, however little the robot moved
+constexpr StampNs kLongestGap = 500'000'000;      // ns without a pose in which beams have no place
+constexpr double kUsualRange = 10.0;              // m: of surfaces beside a street
+constexpr double kLeastBend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s
+constexpr std::size_t kMostPoints = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
 
 /// Evenly, so that dense clouds stay bounded.
 void thin(PointCloud& cloud) {
-  if (cloud.points.size() <= most_points) return;
-  const std::size_t step = (cloud.points.size() + most_points - 1) / most_points;
+  if (cloud.points.size() <= kMostPoints) return;
+  const std::size_t step = (cloud.points.size() + kMostPoints - 1) / kMostPoints;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); i += step, ++kept) {
     cloud.points[kept] = cloud.points[i];
@@ -42,10 +42,10 @@ std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs
   const double here = odometry.distance(at);
   const std::size_t nearest = frames.nearest(at);
   std::size_t first = nearest, last = nearest;
-  while (first > 0 && at - frames[first - 1].stamp <= longest_stay &&
+  while (first > 0 && at - frames[first - 1].stamp <= kLongestStay &&
          here - odometry.distance(frames[first - 1].stamp) <= way)
     --first;
-  while (last + 1 < frames.size() && frames[last + 1].stamp - at <= longest_stay &&
+  while (last + 1 < frames.size() && frames[last + 1].stamp - at <= kLongestStay &&
          odometry.distance(frames[last + 1].stamp) - here <= way)
     ++last;
   return {frames[first].stamp, frames[last].stamp};
@@ -59,7 +59,7 @@ PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, con
   std::vector<urban_nav_core::LaserPoint> points;
   for (const LaserScans& laser : lasers) {
     urban_nav_core::BeamRenderer renderer(odometry.trajectory(), laser.T_base_laser, T_first_moment->inverse(),
-                                          longest_gap);
+                                          kLongestGap);
     laser.forEach(first, last, [&](const urban_nav_core::Scan& scan) {
       points.clear();
       renderer.render(scan, points);
@@ -83,10 +83,10 @@ double deformationSigma(const OdometryChain& odometry, StampNs at, double way) {
     if (const auto T_moment_end = odometry.between(at, end)) {
       const auto& covariance = T_moment_end->covariance;
       variance = std::max(variance, (covariance.topLeftCorner<3, 3>().trace() +
-                                     usual_range * usual_range * covariance.bottomRightCorner<3, 3>().trace()) /
+                                     kUsualRange * kUsualRange * covariance.bottomRightCorner<3, 3>().trace()) /
                                         3.0);
     }
-  return std::max(std::sqrt(variance / 3.0), least_bend);
+  return std::max(std::sqrt(variance / 3.0), kLeastBend);
 }
 
 }  // namespace urban_nav_registration

@@ -23,7 +23,7 @@ constexpr std::array<int, 8> kNearestFirst = {0, 1, 2, 4, 3, 5, 6, 7};
 // something near was found in its own, the others are too far away mostly.
 SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::shared_ptr<const SurfelIndex> finer)
     : finer_(std::move(finer)), reach_(reach), per_m_(0.5F / reach), table_(surfels.size() / 4 + 16) {
-  std::vector<std::uint32_t> cells(surfels.size(), CellTable::none);
+  std::vector<std::uint32_t> cells(surfels.size(), CellTable::kNone);
   std::vector<std::uint32_t> counts;
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     if (!(surfels[i].planarity > 0.0F)) continue;
@@ -36,7 +36,7 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::s
   sorted_.resize(begins_.back());
   std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
   for (std::size_t i = 0; i < surfels.size(); ++i)
-    if (cells[i] != CellTable::none) sorted_[next[cells[i]]++] = surfels[i];
+    if (cells[i] != CellTable::kNone) sorted_[next[cells[i]]++] = surfels[i];
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
     lanes_[lane].resize(sorted_.size() + kSurfelLanes - 1, 0.0F);
     const auto axis = static_cast<Eigen::Index>(lane % 3);
@@ -71,7 +71,7 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
     }
     const std::uint32_t cell =
         table_.find(toKey({own.x + (x ? over.x : 0), own.y + (y ? over.y : 0), own.z + (z ? over.z : 0)}));
-    if (cell == CellTable::none) continue;
+    if (cell == CellTable::kNone) continue;
     for (std::uint32_t i = begins_[cell]; i < begins_[cell + 1]; i += kSurfelLanes) {
       const auto lane = [&](std::size_t which) { return cv::v_load(&lanes_[which][i]); };
       const cv::v_float32x4 dx = lane(0) - x0, dy = lane(1) - y0, dz = lane(2) - z0;

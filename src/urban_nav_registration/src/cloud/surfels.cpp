@@ -67,7 +67,7 @@ SurfelGrid makeGrid(const PointCloud& cloud, float voxel) {
   grid.cubes.reserve(cloud.points.size() / 8 + 16);
   const float per_m = 1.0F / voxel, limit = voxel * static_cast<float>(kFarthestCell);
   std::uint64_t last = 0;
-  std::uint32_t number = CellTable::none;
+  std::uint32_t number = CellTable::kNone;
   for (const Eigen::Vector3f& point : cloud.points) {
     if (!isWithin(point, limit)) continue;
     ++grid.used;

@@ -295,14 +295,14 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   };
   if (search == SearchMode::AtOnce) {
     explain();
-    return searched(pair, guess, alignment, nullptr, look(guess.t(), fine_resolution));
+    return searched(pair, guess, alignment, nullptr, look(guess.t(), kFineResolution));
   }
   const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
   const Alignment local = judged(first, pair, localEvidence(first, pair), alignment);
   if (search == SearchMode::Never || local.verdict == ClosureVerdict::Degenerate) return local;
   const bool failed = local.verdict == ClosureVerdict::Rejected;
   const std::vector<PoseCandidate> others =
-      failed ? look(guess.t(), fine_resolution) : findRivals(local, look(guess.t(), coarse_resolution));
+      failed ? look(guess.t(), kFineResolution) : findRivals(local, look(guess.t(), kCoarseResolution));
   if (!failed && others.empty()) return local;
   explain();
   return searched(pair, guess, alignment, &first, others);

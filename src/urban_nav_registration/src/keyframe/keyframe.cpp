@@ -7,8 +7,8 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr int largest_stored_size = 32767;  // px: places are kept in 16 bits
-constexpr int most_levels = 8;              // of a pyramid from that size on
+constexpr int kLargestStoredSize = 32767;  // px: places are kept in 16 bits
+constexpr int kMostLevels = 8;             // of a pyramid from that size on
 
 }  // namespace
 
@@ -19,11 +19,11 @@ void archive(urban_nav_core::Archive& archive, KeyframePoint& point) {
 void archive(urban_nav_core::Archive& archive, Keyframe& keyframe) {
   archive(keyframe.at.session, keyframe.at.stamp, keyframe.width, keyframe.height, keyframe.image, keyframe.points);
   if (!archive.isReading()) return;
-  archive.require(keyframe.width >= 0 && keyframe.height >= 0 && keyframe.width <= largest_stored_size &&
-                      keyframe.height <= largest_stored_size,
+  archive.require(keyframe.width >= 0 && keyframe.height >= 0 && keyframe.width <= kLargestStoredSize &&
+                      keyframe.height <= kLargestStoredSize,
                   "an image of no size");
   for (const KeyframePoint& point : keyframe.points) {
-    archive.require(point.level < most_levels, "a point of no level");
+    archive.require(point.level < kMostLevels, "a point of no level");
     archive.require(point.u >= 0 && point.v >= 0 && point.u << point.level < keyframe.width &&
                         point.v << point.level < keyframe.height,
                     "a point outside its image");

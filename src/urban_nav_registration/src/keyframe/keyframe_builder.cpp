@@ -9,8 +9,8 @@ using urban_nav_core::StampNs;
 namespace {
 
 // Five seconds at 20 Hz: odometry that lags more has dropped frames. 40 MB at 512x384.
-constexpr std::size_t max_pairs = 100;
-constexpr std::size_t max_poses = 1000;
+constexpr std::size_t kMaxPairs = 100;
+constexpr std::size_t kMaxPoses = 1000;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void KeyframeBuilder::restart() {
 void KeyframeBuilder::addPair(urban_nav_core::StereoPairWithMotion pair) {
   ++counts_.pairs;
   pairs_.push_back(std::move(pair));
-  if (pairs_.size() <= max_pairs) return;
+  if (pairs_.size() <= kMaxPairs) return;
   pairs_.pop_front();
   ++counts_.without_odometry;
 }
@@ -49,7 +49,7 @@ void KeyframeBuilder::addOdometry(const StampedPose& T_odom_base) {
   if (newest_pose_ && T_odom_base.stamp <= *newest_pose_) return;
   newest_pose_ = T_odom_base.stamp;
   odometry_.push_back(T_odom_base);
-  if (odometry_.size() > max_poses) odometry_.pop_front();
+  if (odometry_.size() > kMaxPoses) odometry_.pop_front();
 }
 
 std::vector<Keyframe> KeyframeBuilder::take() {

@@ -16,8 +16,8 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr int conversion_quality = 95;     // of JPEG: the image has been compressed once before
-constexpr int largest_coordinate = 32767;  // px: points are kept in 16 bits
+constexpr int kConversionQuality = 95;     // of JPEG: the image has been compressed once before
+constexpr int kLargestCoordinate = 32767;  // px: points are kept in 16 bits
 
 cv::Matx33d toIntrinsics(const Pinhole& camera) {
   return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
@@ -42,7 +42,7 @@ bool KeyframeConversion::convertPoint(const KeyframePoint& point, KeyframePoint&
   made = point;
   const double size = 1 << point.level;
   const Eigen::Vector2d rounded = (pixel / size).array().round();
-  if (!(rounded.minCoeff() >= 0.0) || !(rounded.maxCoeff() <= largest_coordinate)) return false;
+  if (!(rounded.minCoeff() >= 0.0) || !(rounded.maxCoeff() <= kLargestCoordinate)) return false;
   made.u = static_cast<std::int16_t>(rounded.x());
   made.v = static_cast<std::int16_t>(rounded.y());
   if (!to_.left.contains(made.pixel())) return false;
@@ -73,7 +73,7 @@ Keyframe KeyframeConversion::convert(const Keyframe& keyframe) const {
   cv::Mat seen;
   cv::warpPerspective(pixels, seen, homography, {made.width, made.height}, cv::INTER_LINEAR);
   made.image =
-      encodeJpeg({seen.data, seen.cols, seen.rows, static_cast<std::ptrdiff_t>(seen.step)}, conversion_quality);
+      encodeJpeg({seen.data, seen.cols, seen.rows, static_cast<std::ptrdiff_t>(seen.step)}, kConversionQuality);
   made.points.reserve(keyframe.points.size());
   for (const KeyframePoint& point : keyframe.points) {
     KeyframePoint converted;

@@ -22,22 +22,22 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 // As swf_vo's front end has them, which says where they come from.
-constexpr int stereo_levels = 3;
-constexpr double slack = 2.0;
-constexpr double largest_disparity = 0.16;
-constexpr int lowest_disparity = -2;
-constexpr double least_disparity_px = -1.0;
-constexpr float level_preference = 0.3F;
-constexpr double same_row = 1.5;
-constexpr double least_stereo_correlation = 0.85;
-constexpr std::uint8_t clipped_from = 254;
-constexpr int clipping_reach = 2;
-constexpr int attempts_per_point = 3;
-constexpr std::array<int, 3> thresholds = {20, 10, 4};  // of FAST, until there are enough
-constexpr int wanted_per_point = 6;                     // corners, so that the quadtree has a choice
+constexpr int kStereoLevels = 3;
+constexpr double kSlack = 2.0;
+constexpr double kLargestDisparity = 0.16;
+constexpr int kLowestDisparity = -2;
+constexpr double kLeastDisparityPx = -1.0;
+constexpr float kLevelPreference = 0.3F;
+constexpr double kSameRow = 1.5;
+constexpr double kLeastStereoCorrelation = 0.85;
+constexpr std::uint8_t kClippedFrom = 254;
+constexpr int kClippingReach = 2;
+constexpr int kAttemptsPerPoint = 3;
+constexpr std::array<int, 3> kThresholds = {20, 10, 4};  // of FAST, until there are enough
+constexpr int kWantedPerPoint = 6;                       // corners, so that the quadtree has a choice
 // Bench, pairs, a street of 512x384: 80, 90, 95, 100 take 34, 51, 73, 124 kB, and of pairs 4 to 7.5 m apart 75, 77, 78,
 // 79 % are upgraded, nearer ones and errors not distinguished.
-constexpr int jpeg_quality = 95;
+constexpr int kJpegQuality = 95;
 
 struct CornerCandidate {
   int level = 0, u = 0, v = 0;
@@ -48,7 +48,7 @@ struct CornerCandidate {
 bool isOfClipped(const ImageView& image, int u, int v, int reach) {
   const int first = std::max(u - reach, 0), end = std::min(u + reach + 1, image.width);
   for (int j = std::max(v - reach, 0); j <= std::min(v + reach, image.height - 1); ++j)
-    if (*std::max_element(image.row(j) + first, image.row(j) + end) >= clipped_from) return true;
+    if (*std::max_element(image.row(j) + first, image.row(j) + end) >= kClippedFrom) return true;
   return false;
 }
 
@@ -62,27 +62,27 @@ void gather(const Pyramid& pyramid, int level, int wanted, std::vector<CornerCan
   const ImageView& image = pyramid.level(level);
   urban_nav_core::Fast fast;
   const std::vector<urban_nav_core::Corner>* found = nullptr;
-  for (const int threshold : thresholds) {
+  for (const int threshold : kThresholds) {
     found = &fast.detect(image, threshold, urban_nav_core::Fast::Suppression::LocalMaximum);
     if (static_cast<int>(found->size()) >= wanted) break;
   }
   float weight = 1.0F;
-  for (int i = 0; i < level; ++i) weight *= level_preference;
+  for (int i = 0; i < level; ++i) weight *= kLevelPreference;
   for (const auto& corner : *found) {
     if (corner.u < kHarrisMargin || corner.v < kHarrisMargin || corner.u >= image.width - kHarrisMargin ||
         corner.v >= image.height - kHarrisMargin)
       continue;
     candidates.push_back(
         {level, corner.u, corner.v, weight * urban_nav_core::structureTensor(image, corner.u, corner.v).harris(),
-         isOfClipped(pyramid.level(0), corner.u << level, corner.v << level, clipping_reach << level)});
+         isOfClipped(pyramid.level(0), corner.u << level, corner.v << level, kClippingReach << level)});
   }
 }
 
 bool measureDepth(const StereoCamera& camera, const ImageView& left, const ImageView& right, KeyframePoint& point) {
   const double size = 1.0 / Pyramid::scale(point.level);
   const int offset = static_cast<int>(std::lround(camera.disparity_offset / size));
-  const auto whole = urban_nav_core::findDisparity(left, right, point.u, point.v, lowest_disparity + offset,
-                                                   static_cast<int>(largest_disparity * left.width) + offset);
+  const auto whole = urban_nav_core::findDisparity(left, right, point.u, point.v, kLowestDisparity + offset,
+                                                   static_cast<int>(kLargestDisparity * left.width) + offset);
   if (!whole) return false;
   const auto source = urban_nav_core::cutSource(left, point.u, point.v);
   if (!source) return false;
@@ -92,12 +92,12 @@ bool measureDepth(const StereoCamera& camera, const ImageView& left, const Image
   const auto found =
       urban_nav_core::alignAcross(right, *source, Eigen::Vector2d(point.u - *whole, point.v), usual_slope, made);
   const auto& alignment = found.alignment;
-  if (!alignment.converged || alignment.correlation < least_stereo_correlation ||
-      std::abs(alignment.position.y() - point.v) > same_row)
+  if (!alignment.converged || alignment.correlation < kLeastStereoCorrelation ||
+      std::abs(alignment.position.y() - point.v) > kSameRow)
     return false;
   const double disparity = (point.u - alignment.position.x()) * size;
   const double variance = 2.0 * alignment.covariance(0, 0) * size * size;  // the left patch has noise as well
-  if (!(disparity - camera.disparity_offset >= least_disparity_px) || !std::isfinite(variance)) return false;
+  if (!(disparity - camera.disparity_offset >= kLeastDisparityPx) || !std::isfinite(variance)) return false;
   point.disparity = static_cast<float>(disparity);
   point.sigma_disparity = static_cast<float>(std::sqrt(variance));
   point.slope_u = static_cast<float>(found.slopes.x());
@@ -118,23 +118,23 @@ Keyframe KeyframeExtractor::extract(const urban_nav_core::PoseRef& at, const urb
   if (!fits(pair.left)) return keyframe;
   keyframe.width = pair.left.width;
   keyframe.height = pair.left.height;
-  keyframe.image = encodeJpeg(pair.left, jpeg_quality);
+  keyframe.image = encodeJpeg(pair.left, kJpegQuality);
   if (!fits(pair.right)) return keyframe;
 
-  Pyramid left(stereo_levels), right(stereo_levels);
+  Pyramid left(kStereoLevels), right(kStereoLevels);
   left.build(pair.left);
   right.build(pair.right);
   std::vector<CornerCandidate> candidates;
   for (int level = 0; level < left.levels(); ++level)
-    gather(left, level, (wanted_per_point * points_) >> (2 * level), candidates);
+    gather(left, level, (kWantedPerPoint * points_) >> (2 * level), candidates);
   std::sort(candidates.begin(), candidates.end(), [](const CornerCandidate& a, const CornerCandidate& b) {
     if (a.of_clipped != b.of_clipped) return b.of_clipped;
     if (a.score != b.score) return a.score > b.score;
     if (a.level != b.level) return a.level < b.level;
     return a.v != b.v ? a.v < b.v : a.u < b.u;
   });
-  urban_nav_core::FeatureQuadtree quadtree(keyframe.width, keyframe.height, points_, depthFor(points_), slack);
-  int attempts = attempts_per_point * points_;
+  urban_nav_core::FeatureQuadtree quadtree(keyframe.width, keyframe.height, points_, depthFor(points_), kSlack);
+  int attempts = kAttemptsPerPoint * points_;
   for (const CornerCandidate& candidate : candidates) {
     if (quadtree.count() >= points_ || attempts <= 0) break;
     // where there is little else, better than nothing

@@ -11,20 +11,20 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double font_scale = 0.42;
+constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+constexpr double kFontScale = 0.42;
 
 }  // namespace
 
 void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour) {
-  if (!text.empty()) cv::putText(canvas, text, at, font, font_scale, colour, 1, cv::LINE_AA);
+  if (!text.empty()) cv::putText(canvas, text, at, kFont, kFontScale, colour, 1, cv::LINE_AA);
 }
 
 void writeTitle(cv::Mat& canvas, const std::string& title) {
   if (title.empty()) return;
-  const cv::Size size = cv::getTextSize(title, font, font_scale, 1, nullptr);
-  cv::rectangle(canvas, {0, 0, size.width + 10, 18}, ink, cv::FILLED);
-  write(canvas, title, {5, 13}, paper);
+  const cv::Size size = cv::getTextSize(title, kFont, kFontScale, 1, nullptr);
+  cv::rectangle(canvas, {0, 0, size.width + 10, 18}, kInk, cv::FILLED);
+  write(canvas, title, {5, 13}, kPaper);
 }
 
 Picture toPicture(const cv::Mat& canvas) {
@@ -47,10 +47,10 @@ std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {
 }
 
 Picture decodePicture(std::string_view jpeg) {
-  constexpr std::int64_t largest = 100'000'000;  // pixels
+  constexpr std::int64_t kLargest = 100'000'000;  // pixels
   const std::vector<std::uint8_t> bytes(jpeg.begin(), jpeg.end());
   const auto size = sizeOfJpeg(bytes);
-  if (!size || std::int64_t{size->width} * size->height > largest) return {};
+  if (!size || std::int64_t{size->width} * size->height > kLargest) return {};
   try {
     const cv::Mat pixels = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
     return pixels.empty() ? Picture() : toPicture(pixels);

@@ -9,9 +9,9 @@
 namespace urban_nav_registration {
 
 // What pictures of closures look like, BGR.
-const cv::Scalar paper(245, 245, 245), ink(30, 30, 30);
-constexpr int caption_height = 24;  ///< px, of the strip below
-constexpr int panel_gap = 4;        ///< px, between the panels
+const cv::Scalar kPaper(245, 245, 245), kInk(30, 30, 30);
+constexpr int kCaptionHeight = 24;  ///< px, of the strip below
+constexpr int kPanelGap = 4;        ///< px, between the panels
 
 /// `at`: where the line of text begins, on its base line.
 void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour);

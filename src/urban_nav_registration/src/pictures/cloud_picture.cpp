@@ -18,17 +18,17 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double shown_share = 0.97;  // of the points, along each axis: few of the far ones are left out
-constexpr double farthest = 1e4;      // m: beyond, a point is not believed
-constexpr double smallest_half = 0.1, cloud_margin = 1.05;
-constexpr int narrowest_cloud = 100, widest = 4000;  // px
-const cv::Scalar red(60, 60, 220), blue(220, 60, 60), green(60, 150, 60);
+constexpr double kShownShare = 0.97;    // of the points, along each axis: few of the far ones are left out
+constexpr double kFarthestPoint = 1e4;  // m: beyond, a point is not believed
+constexpr double kSmallestHalf = 0.1, kCloudMargin = 1.05;
+constexpr int kNarrowestCloud = 100, kWidest = 4000;  // px
+const cv::Scalar kRed(60, 60, 220), kBlue(220, 60, 60), kGreen(60, 150, 60);
 
 Points finite(const PointCloud& cloud) {
   Points points;
   points.reserve(cloud.points.size());
   for (const Eigen::Vector3f& point : cloud.points)
-    if (point.allFinite() && point.cwiseAbs().maxCoeff() < farthest) points.push_back(point.cast<double>());
+    if (point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthestPoint) points.push_back(point.cast<double>());
   return points;
 }
 
@@ -54,14 +54,14 @@ struct Extent {
 Extent computeExtent(const Points& target, const Points& source) {
   Extent extent;
   if (target.empty() && source.empty()) return extent;
-  extent.half = smallest_half;
+  extent.half = kSmallestHalf;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Points* points : {&target, &source})
       for (const Eigen::Vector3d& point : *points) values.push_back(point[axis]);
-    const double low = quantile(values, 1.0 - shown_share), high = quantile(values, shown_share);
+    const double low = quantile(values, 1.0 - kShownShare), high = quantile(values, kShownShare);
     extent.centre[axis] = 0.5 * (low + high);
-    extent.half = std::max(extent.half, 0.5 * cloud_margin * (high - low));
+    extent.half = std::max(extent.half, 0.5 * kCloudMargin * (high - low));
   }
   return extent;
 }
@@ -84,19 +84,19 @@ class CloudPanel {
         const float t = of_target.at<float>(v, u), s = of_source.at<float>(v, u);
         canvas_.at<cv::Vec3b>(v, u) = cv::Vec3b(level(1.0F - t), level((1.0F - t) * (1.0F - s)), level(1.0F - s));
       }
-    if (target.empty() && source.empty()) write(canvas_, "no points", {12, canvas_.rows / 2}, ink);
+    if (target.empty() && source.empty()) write(canvas_, "no points", {12, canvas_.rows / 2}, kInk);
   }
 
   void drawOrigin(const Eigen::Vector3d& at, const cv::Scalar& colour) {
     cv::circle(canvas_, pixel(at), 4, colour, cv::FILLED, cv::LINE_AA);
-    cv::circle(canvas_, pixel(at), 4, ink, 1, cv::LINE_AA);
+    cv::circle(canvas_, pixel(at), 4, kInk, 1, cv::LINE_AA);
   }
 
   /// A direction that slides, through both sides of a place.
   void drawFree(const Eigen::Vector3d& at, const Eigen::Vector3d& direction) {
     const Eigen::Vector3d reach = 0.5 * extent_.half * direction;
-    cv::arrowedLine(canvas_, pixel(at), pixel(at + reach), green, 2, cv::LINE_AA, 0, 0.06);
-    cv::arrowedLine(canvas_, pixel(at), pixel(at - reach), green, 2, cv::LINE_AA, 0, 0.06);
+    cv::arrowedLine(canvas_, pixel(at), pixel(at + reach), kGreen, 2, cv::LINE_AA, 0, 0.06);
+    cv::arrowedLine(canvas_, pixel(at), pixel(at - reach), kGreen, 2, cv::LINE_AA, 0, 0.06);
   }
 
   /// A round length of about a quarter of the panel.
@@ -104,10 +104,10 @@ class CloudPanel {
     const double about = 0.5 * extent_.half, ten = std::pow(10.0, std::floor(std::log10(about)));
     const double length = about >= 5.0 * ten ? 5.0 * ten : about >= 2.0 * ten ? 2.0 * ten : ten;
     const int px = static_cast<int>(std::lround(length * px_per_m_)), y = canvas_.rows - 10;
-    cv::line(canvas_, {10, y}, {10 + px, y}, ink, 2);
+    cv::line(canvas_, {10, y}, {10 + px, y}, kInk, 2);
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%g m", length);
-    write(canvas_, text.data(), {10, y - 6}, ink);
+    write(canvas_, text.data(), {10, y - 6}, kInk);
   }
 
  private:
@@ -118,7 +118,7 @@ class CloudPanel {
     return {0.5 * canvas_.cols + from_centre[right_], 0.5 * canvas_.rows - from_centre[up_]};
   }
   cv::Point pixel(const Eigen::Vector3d& point) const {
-    const Eigen::Vector2d at = place(point).cwiseMax(-farthest).cwiseMin(farthest);
+    const Eigen::Vector2d at = place(point).cwiseMax(-kFarthestPoint).cwiseMin(kFarthestPoint);
     return {static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y()))};
   }
 
@@ -151,9 +151,9 @@ class CloudPanel {
 
 Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pose& T_guess, const Pose& T_target_source,
                    const CloudPictureOptions& options) {
-  const int size = std::clamp(options.panel, narrowest_cloud, widest);
+  const int size = std::clamp(options.panel, kNarrowestCloud, kWidest);
   const Points of_target = finite(target), of_source = finite(source);
-  cv::Mat canvas(size + caption_height, 3 * size + 2 * panel_gap, CV_8UC3, paper);
+  cv::Mat canvas(size + kCaptionHeight, 3 * size + 2 * kPanelGap, CV_8UC3, kPaper);
   const Extent extent = computeExtent(of_target, moved(of_source, T_target_source));
   struct Look {
     const char* title;
@@ -168,18 +168,18 @@ Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pos
     cv::Mat area = canvas(cv::Rect(left, 0, size, size));
     CloudPanel panel(area, extent, 0, look.up);
     panel.draw(of_target, moved(of_source, look.T));
-    panel.drawOrigin(Eigen::Vector3d::Zero(), red);
-    panel.drawOrigin(look.T.t(), blue);
+    panel.drawOrigin(Eigen::Vector3d::Zero(), kRed);
+    panel.drawOrigin(look.T.t(), kBlue);
     if (&look.T == &T_target_source)
       for (const urban_nav_core::Vector6d& direction : options.free_directions)
         if (direction.allFinite() && direction.head<3>().norm() > 0.5)
           panel.drawFree(look.T.t(), direction.head<3>().normalized());
     panel.drawBar();
     writeTitle(area, look.title);
-    left += size + panel_gap;
+    left += size + kPanelGap;
   }
-  cv::Mat below = canvas(cv::Rect(0, size, canvas.cols, caption_height));
-  write(below, options.caption, {6, 16}, ink);
+  cv::Mat below = canvas(cv::Rect(0, size, canvas.cols, kCaptionHeight));
+  write(below, options.caption, {6, 16}, kInk);
   return toPicture(canvas);
 }
 

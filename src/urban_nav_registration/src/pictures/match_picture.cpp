@@ -14,12 +14,12 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr int subpixel_bits = 4;  // of OpenCV's drawing coordinates
-constexpr int usual_width = 512, usual_height = 384;
-constexpr int largest_picture = 16384;  // px: beyond, a size is not believed
-constexpr int narrowest_view = 64;
-constexpr double opacity = 0.5;  // of the lines, so that the views stay to be seen
-const cv::Scalar grey(150, 150, 150), panel(110, 110, 110);
+constexpr int kSubpixelBits = 4;  // of OpenCV's drawing coordinates
+constexpr int kUsualWidth = 512, kUsualHeight = 384;
+constexpr int kLargestPicture = 16384;  // px: beyond, a size is not believed
+constexpr int kNarrowestView = 64;
+constexpr double kOpacity = 0.5;  // of the lines, so that the views stay to be seen
+const cv::Scalar kGrey(150, 150, 150), kPanel(110, 110, 110);
 
 /// Green over yellow to red, in BGR; `share` of the worst.
 cv::Scalar toColour(double share) {
@@ -32,8 +32,8 @@ double findWorst(const MatchPictureOptions& options) {
 }
 
 bool isPlausible(const Keyframe& keyframe) {
-  return keyframe.width > 0 && keyframe.height > 0 && keyframe.width <= largest_picture &&
-         keyframe.height <= largest_picture && keyframe.height <= 4 * keyframe.width;
+  return keyframe.width > 0 && keyframe.height > 0 && keyframe.width <= kLargestPicture &&
+         keyframe.height <= kLargestPicture && keyframe.height <= 4 * keyframe.width;
 }
 
 /// A view's place in the picture.
@@ -46,9 +46,9 @@ struct ViewPanel {
     return pixel.allFinite() && pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < width && pixel.y() < height;
   }
   cv::Point at(const Eigen::Vector2d& pixel) const {
-    constexpr double unit = 1 << subpixel_bits;
-    return {static_cast<int>(std::lround(unit * (area.x + scale * pixel.x()))),
-            static_cast<int>(std::lround(unit * (area.y + scale * pixel.y())))};
+    constexpr double kUnit = 1 << kSubpixelBits;
+    return {static_cast<int>(std::lround(kUnit * (area.x + scale * pixel.x()))),
+            static_cast<int>(std::lround(kUnit * (area.y + scale * pixel.y())))};
   }
 };
 
@@ -56,8 +56,8 @@ struct ViewPanel {
 ViewPanel makePanel(const Keyframe& keyframe, const Keyframe& other, int widest) {
   ViewPanel made;
   const Keyframe* sized = isPlausible(keyframe) ? &keyframe : isPlausible(other) ? &other : nullptr;
-  made.width = sized != nullptr ? sized->width : usual_width;
-  made.height = sized != nullptr ? sized->height : usual_height;
+  made.width = sized != nullptr ? sized->width : kUsualWidth;
+  made.height = sized != nullptr ? sized->height : kUsualHeight;
   made.scale = std::min(1.0, static_cast<double>(widest) / made.width);
   made.area = {0, 0, std::max(1, static_cast<int>(std::lround(made.scale * made.width))),
                std::max(1, static_cast<int>(std::lround(made.scale * made.height)))};
@@ -68,8 +68,8 @@ void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title
   const cv::Mat picture =
       isPlausible(keyframe) ? decodeJpeg(keyframe.image, {keyframe.width, keyframe.height}) : cv::Mat();
   if (picture.empty()) {
-    canvas.setTo(panel);
-    write(canvas, keyframe.image.empty() ? "no image" : "image unreadable", {12, canvas.rows / 2}, paper);
+    canvas.setTo(kPanel);
+    write(canvas, keyframe.image.empty() ? "no image" : "image unreadable", {12, canvas.rows / 2}, kPaper);
   } else {
     cv::Mat reduced;
     cv::resize(picture, reduced, canvas.size(), 0.0, 0.0, cv::INTER_AREA);
@@ -92,47 +92,47 @@ void drawMatchesOn(cv::Mat& canvas, const ViewPanel& a, const ViewPanel& b, cons
                       lines_drawn = std::min(most, count);
     for (std::size_t k = 0; k < lines_drawn; ++k) {
       const MatchedPixels* match = matches[k * count / lines_drawn];
-      cv::line(lines, a.at(match->in_a), b.at(match->in_b), is_grey ? grey : colour(match), 1, cv::LINE_AA,
-               subpixel_bits);
+      cv::line(lines, a.at(match->in_a), b.at(match->in_b), is_grey ? kGrey : colour(match), 1, cv::LINE_AA,
+               kSubpixelBits);
     }
   };
   draw(others, true);
   draw(shown, false);
-  cv::addWeighted(lines, opacity, canvas, 1.0 - opacity, 0.0, canvas);
+  cv::addWeighted(lines, kOpacity, canvas, 1.0 - kOpacity, 0.0, canvas);
   for (const MatchedPixels* match : shown)
     for (const cv::Point& end : {a.at(match->in_a), b.at(match->in_b)})
-      cv::circle(canvas, end, 2 << subpixel_bits, colour(match), cv::FILLED, cv::LINE_AA, subpixel_bits);
+      cv::circle(canvas, end, 2 << kSubpixelBits, colour(match), cv::FILLED, cv::LINE_AA, kSubpixelBits);
 }
 
 void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
-  constexpr int bar = 60, words = 100;
-  write(canvas, options.caption, {6, 16}, ink);
-  const int from = canvas.cols - bar - words;
-  if (from < narrowest_view) return;
-  cv::rectangle(canvas, {from - 60, 0, canvas.cols - from + 60, canvas.rows}, paper, cv::FILLED);
-  write(canvas, "residual", {from - 58, 16}, ink);
-  for (int i = 0; i < bar; ++i)
-    cv::line(canvas, {from + 4 + i, 7}, {from + 4 + i, 17}, toColour(static_cast<double>(i) / (bar - 1)));
+  constexpr int kBar = 60, kWords = 100;
+  write(canvas, options.caption, {6, 16}, kInk);
+  const int from = canvas.cols - kBar - kWords;
+  if (from < kNarrowestView) return;
+  cv::rectangle(canvas, {from - 60, 0, canvas.cols - from + 60, canvas.rows}, kPaper, cv::FILLED);
+  write(canvas, "residual", {from - 58, 16}, kInk);
+  for (int i = 0; i < kBar; ++i)
+    cv::line(canvas, {from + 4 + i, 7}, {from + 4 + i, 17}, toColour(static_cast<double>(i) / (kBar - 1)));
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g px", findWorst(options));
-  write(canvas, text.data(), {from + bar + 10, 16}, ink);
+  write(canvas, text.data(), {from + kBar + 10, 16}, kInk);
 }
 
 }  // namespace
 
 Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
                     const MatchPictureOptions& options) {
-  const int widest = std::clamp(options.widest, narrowest_view, largest_picture);
+  const int widest = std::clamp(options.widest, kNarrowestView, kLargestPicture);
   ViewPanel of_a = makePanel(a, b, widest), of_b = makePanel(b, a, widest);
-  if (options.stacked) of_b.area.y = of_a.area.height + panel_gap;
-  else of_b.area.x = of_a.area.width + panel_gap;
+  if (options.stacked) of_b.area.y = of_a.area.height + kPanelGap;
+  else of_b.area.x = of_a.area.width + kPanelGap;
   const cv::Rect both = of_a.area | of_b.area;
-  cv::Mat canvas(both.height + caption_height, both.width, CV_8UC3, paper);
+  cv::Mat canvas(both.height + kCaptionHeight, both.width, CV_8UC3, kPaper);
   drawView(canvas(of_a.area), a, options.title_a);
   drawView(canvas(of_b.area), b, options.title_b);
   cv::Mat views = canvas(both);
   drawMatchesOn(views, of_a, of_b, pixels, options);
-  drawStrip(canvas(cv::Rect(0, both.height, both.width, caption_height)), options);
+  drawStrip(canvas(cv::Rect(0, both.height, both.width, kCaptionHeight)), options);
   return toPicture(canvas);
 }
 

@@ -11,8 +11,8 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr double quaternion_tolerance = 1e-3;
-constexpr double rounding = 1e-6;  // px, m; of a quaternion
+constexpr double kQuaternionTolerance = 1e-3;
+constexpr double kRounding = 1e-6;  // px, m; of a quaternion
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::string calibrationFingerprint(const urban_nav_core::StereoCamera& camera,
 }
 
 std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& words) {
-  constexpr std::size_t fewest_values = 12;  // one more if the disparity has an offset
+  constexpr std::size_t kFewestValues = 12;  // one more if the disparity has an offset
   MountedCamera made;
   urban_nav_core::Pinhole& left = made.camera.left;
   std::istringstream text(words);
@@ -42,14 +42,14 @@ std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& word
     if (!value || !std::isfinite(*value)) return std::nullopt;
     values.push_back(*value);
   }
-  if (values.size() != fewest_values && values.size() != fewest_values + 1) return std::nullopt;
+  if (values.size() != kFewestValues && values.size() != kFewestValues + 1) return std::nullopt;
   left.fx = values[0], left.fy = values[1], left.cx = values[2], left.cy = values[3];
   made.camera.baseline = values[4];
   if (!(left.fx > 0.0) || !(left.fy > 0.0) || !(made.camera.baseline > 0.0)) return std::nullopt;
   const Eigen::Quaterniond q(values[11], values[8], values[9], values[10]);
-  if (!(std::abs(q.norm() - 1.0) < quaternion_tolerance)) return std::nullopt;
+  if (!(std::abs(q.norm() - 1.0) < kQuaternionTolerance)) return std::nullopt;
   made.T_base_left = urban_nav_core::Pose(q, {values[5], values[6], values[7]});
-  if (values.size() > fewest_values) made.camera.disparity_offset = values[12];
+  if (values.size() > kFewestValues) made.camera.disparity_offset = values[12];
   return made;
 }
 
@@ -62,7 +62,7 @@ bool isSameCalibration(const std::string& words, const std::string& others) {
     if (!more_a || !more_b) return more_a == more_b;
     if (of_a == of_b) continue;
     const auto number_a = urban_nav_core::parseNumber(of_a), number_b = urban_nav_core::parseNumber(of_b);
-    if (!number_a || !number_b || !(std::abs(*number_a - *number_b) <= rounding)) return false;
+    if (!number_a || !number_b || !(std::abs(*number_a - *number_b) <= kRounding)) return false;
   }
 }
 

@@ -9,8 +9,8 @@ using urban_nav_store::StoredKeyframe;
 
 namespace {
 
-constexpr const char* kind = "keyframe of loop_metric";
-constexpr std::uint32_t version = 1;
+constexpr const char* kKind = "keyframe of loop_metric";
+constexpr std::uint32_t kVersion = 1;
 
 }  // namespace
 
@@ -23,12 +23,12 @@ StoredKeyframe toStoredKeyframe(const Keyframe& keyframe) {
   rest.image.clear();
   urban_nav_core::Archive bytes;
   archive(bytes, rest);
-  stored.features = urban_nav_core::seal(kind, version, bytes.take());
+  stored.features = urban_nav_core::seal(kKind, kVersion, bytes.take());
   return stored;
 }
 
 Keyframe toKeyframe(const StoredKeyframe& stored, const std::string& session) {
-  urban_nav_core::Archive bytes(urban_nav_core::unseal(kind, version, stored.features), kind);
+  urban_nav_core::Archive bytes(urban_nav_core::unseal(kKind, kVersion, stored.features), kKind);
   Keyframe keyframe;
   archive(bytes, keyframe);
   bytes.finish();

@@ -12,15 +12,15 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr int view_levels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
+constexpr int kViewLevels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
 // Side of a descriptor's window on the thing seen. Bench, pairs, a street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4
 // to 7.5 m apart 72, 75, 78, 77, 75 % are upgraded.
-constexpr double window_m = 1.2;
-constexpr double largest_window = 0.35;  // of the image's height
+constexpr double kWindowM = 1.2;
+constexpr double kLargestWindow = 0.35;  // of the image's height
 
 }  // namespace
 
-View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.at), pyramid(view_levels) {
+View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.at), pyramid(kViewLevels) {
   const cv::Mat pixels = decodeJpeg(keyframe.image, {camera.left.width, camera.left.height});
   if (pixels.empty()) return;
   pyramid.build({pixels.data, pixels.cols, pixels.rows, static_cast<std::ptrdiff_t>(pixels.step)});
@@ -40,12 +40,12 @@ View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.a
     if (!point.plane.allFinite() || !(point.sigma_disparity > 0.0)) continue;
     points.push_back(point);
   }
-  descriptors.resize(descriptor_size, static_cast<Eigen::Index>(points.size()));
+  descriptors.resize(kDescriptorSize, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ViewPoint& point = points[i];
     const double px_per_m = std::max(0.0, point.disparity - camera.disparity_offset) / camera.baseline;
-    const double window = std::clamp(window_m * px_per_m, least_window_px,
-                                     std::max(least_window_px, largest_window * camera.left.height));
+    const double window =
+        std::clamp(kWindowM * px_per_m, kLeastWindowPx, std::max(kLeastWindowPx, kLargestWindow * camera.left.height));
     descriptors.col(static_cast<Eigen::Index>(i)) = describe(pyramid, point.pixel, window);
   }
 }

@@ -12,29 +12,29 @@ using urban_nav_core::Pyramid;
 
 namespace {
 
-constexpr int grid = 16, parts = 4, directions = 8;
-constexpr float largest_element = 0.2F;  // Lowe 2004, section 6.1: so that no single edge under other light decides
-constexpr float least_contrast = 1.0F;   // grey levels a step, mean over the window
-constexpr float ratio = 0.9F;            // of distances, best over second best
+constexpr int kGrid = 16, kParts = 4, kDirections = 8;
+constexpr float kLargestElement = 0.2F;  // Lowe 2004, section 6.1: so that no single edge under other light decides
+constexpr float kLeastContrast = 1.0F;   // grey levels a step, mean over the window
+constexpr float kRatio = 0.9F;           // of distances, best over second best
 
-constexpr int wide = grid + 2;  // one more on each side for the gradient
+constexpr int kWideGrid = kGrid + 2;  // one more on each side for the gradient
 
 /// Where a row or a column of the grid is read: pixel and share of the next one.
 struct Places {
-  std::array<int, wide> at;
-  std::array<float, wide> share;
+  std::array<int, kWideGrid> at;
+  std::array<float, kWideGrid> share;
   Places(double middle, double step, int size) {
-    for (std::size_t i = 0; i < wide; ++i) {
-      const double x = std::clamp(middle + (static_cast<double>(i) - 0.5 * (wide - 1)) * step, 0.0, size - 1.001);
+    for (std::size_t i = 0; i < kWideGrid; ++i) {
+      const double x = std::clamp(middle + (static_cast<double>(i) - 0.5 * (kWideGrid - 1)) * step, 0.0, size - 1.001);
       at[i] = static_cast<int>(x);
       share[i] = static_cast<float>(x - at[i]);
     }
   }
 };
 
-using DescriptorGrid = std::array<float, grid * grid>;
+using DescriptorGrid = std::array<float, kGrid * kGrid>;
 
-/// Directions of gradients as places among the bins, 0 ... `directions`, to 1e-4 of a bin (Abramowitz and Stegun
+/// Directions of gradients as places among the bins, 0 ... `kDirections`, to 1e-4 of a bin (Abramowitz and Stegun
 /// 1964, 4.4.49): the library's own takes a third of a descriptor's time.
 void computeDirections(const DescriptorGrid& dx, const DescriptorGrid& dy, DescriptorGrid& place) {
   for (std::size_t i = 0; i < place.size(); ++i) {
@@ -42,22 +42,22 @@ void computeDirections(const DescriptorGrid& dx, const DescriptorGrid& dy, Descr
     const float large = std::max(x, y), small = std::min(x, y);
     const float a = small / std::max(large, 1e-20F), a2 = a * a;
     float turn = a * (0.9998660F + a2 * (-0.3302995F + a2 * (0.1801410F + a2 * (-0.0851330F + a2 * 0.0208351F))));
-    constexpr float pi = 3.14159265F;
-    turn = y > x ? 0.5F * pi - turn : turn;
-    turn = dx[i] < 0.0F ? pi - turn : turn;
+    constexpr float kPi = 3.14159265F;
+    turn = y > x ? 0.5F * kPi - turn : turn;
+    turn = dx[i] < 0.0F ? kPi - turn : turn;
     turn = dy[i] < 0.0F ? -turn : turn;
-    place[i] = (turn + pi) * (directions / (2.0F * pi));
+    place[i] = (turn + kPi) * (kDirections / (2.0F * kPi));
   }
 }
 
 /// Which two parts of the window a row or a column of the grid belongs to, and by how much to the second.
 struct Shares {
-  std::array<int, grid> part{};
-  std::array<float, grid> second{};
+  std::array<int, kGrid> part{};
+  std::array<float, kGrid> second{};
   Shares() {
-    for (std::size_t i = 0; i < grid; ++i) {
-      constexpr float per_part = static_cast<float>(parts) / grid;
-      const float x = (static_cast<float>(i) + 0.5F) * per_part + 0.5F;
+    for (std::size_t i = 0; i < kGrid; ++i) {
+      constexpr float kPerPart = static_cast<float>(kParts) / kGrid;
+      const float x = (static_cast<float>(i) + 0.5F) * kPerPart + 0.5F;
       part[i] = static_cast<int>(x);
       second[i] = x - static_cast<float>(part[i]);
     }
@@ -67,91 +67,92 @@ struct Shares {
 struct Weights {
   DescriptorGrid value{};
   Weights() {
-    for (int j = 0; j < grid; ++j)
-      for (int i = 0; i < grid; ++i) {
-        const double x = i - 0.5 * (grid - 1), y = j - 0.5 * (grid - 1);
+    for (int j = 0; j < kGrid; ++j)
+      for (int i = 0; i < kGrid; ++i) {
+        const double x = i - 0.5 * (kGrid - 1), y = j - 0.5 * (kGrid - 1);
         // sigma of half the window (Lowe 2004, section 6.1)
-        value[static_cast<std::size_t>(j * grid + i)] =
-            static_cast<float>(std::exp(-(x * x + y * y) / (2.0 * 0.25 * grid * grid)));
+        value[static_cast<std::size_t>(j * kGrid + i)] =
+            static_cast<float>(std::exp(-(x * x + y * y) / (2.0 * 0.25 * kGrid * kGrid)));
       }
   }
 };
 
 /// Returns grey values at a square grid of points, `step` px apart, about `middle`, interpolated in both directions.
-std::array<float, wide * wide> sampleWindow(const ImageView& image, const Eigen::Vector2d& middle, double step) {
+std::array<float, kWideGrid * kWideGrid> sampleWindow(const ImageView& image, const Eigen::Vector2d& middle,
+                                                      double step) {
   const Places columns(middle.x(), step, image.width), rows(middle.y(), step, image.height);
-  std::array<float, wide * wide> grey;
-  for (std::size_t j = 0; j < wide; ++j) {
+  std::array<float, kWideGrid * kWideGrid> grey;
+  for (std::size_t j = 0; j < kWideGrid; ++j) {
     const std::uint8_t *above = image.row(rows.at[j]), *below = above + image.stride;
-    for (std::size_t i = 0; i < wide; ++i) {
+    for (std::size_t i = 0; i < kWideGrid; ++i) {
       const std::uint8_t *p = above + columns.at[i], *q = below + columns.at[i];
       const float top = static_cast<float>(p[0]) + columns.share[i] * static_cast<float>(p[1] - p[0]);
       const float bottom = static_cast<float>(q[0]) + columns.share[i] * static_cast<float>(q[1] - q[0]);
-      grey[j * wide + i] = top + rows.share[j] * (bottom - top);
+      grey[j * kWideGrid + i] = top + rows.share[j] * (bottom - top);
     }
   }
   return grey;
 }
 
 /// Returns histograms of directions, of gradients of these sizes and directions, for each part of the window.
-Eigen::Matrix<float, descriptor_size, 1> histograms(const DescriptorGrid& size, const DescriptorGrid& place) {
+Eigen::Matrix<float, kDescriptorSize, 1> histograms(const DescriptorGrid& size, const DescriptorGrid& place) {
   static const Weights weights;
   static const Shares shares;
-  Eigen::Matrix<float, descriptor_size, 1> made;
+  Eigen::Matrix<float, kDescriptorSize, 1> made;
   // Histograms with a margin of a part on each side, for what is shared out beyond the window.
-  std::array<float, (parts + 2) * (parts + 2) * directions> bins{};
-  for (std::size_t j = 0; j < grid; ++j)
-    for (std::size_t i = 0; i < grid; ++i) {
-      const std::size_t k = j * grid + i;
-      const int o = std::min(static_cast<int>(place[k]), directions), first = o % directions,
-                next = (o + 1) % directions;
+  std::array<float, (kParts + 2) * (kParts + 2) * kDirections> bins{};
+  for (std::size_t j = 0; j < kGrid; ++j)
+    for (std::size_t i = 0; i < kGrid; ++i) {
+      const std::size_t k = j * kGrid + i;
+      const int o = std::min(static_cast<int>(place[k]), kDirections), first = o % kDirections,
+                next = (o + 1) % kDirections;
       const float fo = place[k] - static_cast<float>(o), w = size[k] * weights.value[k];
       const float fx = shares.second[i], fy = shares.second[j];
-      float* bin = &bins[static_cast<std::size_t>((shares.part[j] * (parts + 2) + shares.part[i]) * directions)];
-      constexpr int below = (parts + 2) * directions;
+      float* bin = &bins[static_cast<std::size_t>((shares.part[j] * (kParts + 2) + shares.part[i]) * kDirections)];
+      constexpr int kBelow = (kParts + 2) * kDirections;
       const auto add = [&](int at, float share) {
         bin[at + first] += share * (1.0F - fo);
         bin[at + next] += share * fo;
       };
       add(0, w * (1.0F - fx) * (1.0F - fy));
-      add(directions, w * fx * (1.0F - fy));
-      add(below, w * (1.0F - fx) * fy);
-      add(below + directions, w * fx * fy);
+      add(kDirections, w * fx * (1.0F - fy));
+      add(kBelow, w * (1.0F - fx) * fy);
+      add(kBelow + kDirections, w * fx * fy);
     }
-  for (int j = 0; j < parts; ++j)
-    for (int i = 0; i < parts; ++i)
-      for (int o = 0; o < directions; ++o)
-        made[(j * parts + i) * directions + o] =
-            bins[static_cast<std::size_t>(((j + 1) * (parts + 2) + i + 1) * directions + o)];
+  for (int j = 0; j < kParts; ++j)
+    for (int i = 0; i < kParts; ++i)
+      for (int o = 0; o < kDirections; ++o)
+        made[(j * kParts + i) * kDirections + o] =
+            bins[static_cast<std::size_t>(((j + 1) * (kParts + 2) + i + 1) * kDirections + o)];
   return made;
 }
 
 }  // namespace
 
-Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const Eigen::Vector2d& centre,
+Eigen::Matrix<float, kDescriptorSize, 1> describe(const Pyramid& pyramid, const Eigen::Vector2d& centre,
                                                   double window) {
-  Eigen::Matrix<float, descriptor_size, 1> made = Eigen::Matrix<float, descriptor_size, 1>::Zero();
-  const int level = std::clamp(static_cast<int>(std::floor(std::log2(window / grid))), 0, pyramid.levels() - 1);
+  Eigen::Matrix<float, kDescriptorSize, 1> made = Eigen::Matrix<float, kDescriptorSize, 1>::Zero();
+  const int level = std::clamp(static_cast<int>(std::floor(std::log2(window / kGrid))), 0, pyramid.levels() - 1);
   const ImageView& image = pyramid.level(level);
   const double scale = Pyramid::scale(level);
-  const std::array<float, wide* wide> grey = sampleWindow(image, centre * scale, window / grid * scale);
+  const std::array<float, kWideGrid* kWideGrid> grey = sampleWindow(image, centre * scale, window / kGrid * scale);
   DescriptorGrid dx, dy, size, place;
   float contrast = 0.0F;
-  for (std::size_t j = 0; j < grid; ++j)
-    for (std::size_t i = 0; i < grid; ++i) {
-      const float* p = &grey[(j + 1) * wide + i + 1];
-      const std::size_t k = j * grid + i;
+  for (std::size_t j = 0; j < kGrid; ++j)
+    for (std::size_t i = 0; i < kGrid; ++i) {
+      const float* p = &grey[(j + 1) * kWideGrid + i + 1];
+      const std::size_t k = j * kGrid + i;
       dx[k] = 0.5F * (p[1] - p[-1]);
-      dy[k] = 0.5F * (p[wide] - p[-wide]);
+      dy[k] = 0.5F * (p[kWideGrid] - p[-kWideGrid]);
       size[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k]);
       contrast += size[k];
     }
-  if (!(contrast > least_contrast * grid * grid)) return made;
+  if (!(contrast > kLeastContrast * kGrid * kGrid)) return made;
   computeDirections(dx, dy, place);
 
   made = histograms(size, place);
   made /= made.norm();
-  made = made.cwiseMin(largest_element);
+  made = made.cwiseMin(kLargestElement);
   made /= made.norm();
   return made;
 }
@@ -170,7 +171,7 @@ struct Nearest {
       second = std::max(second, product);
     }
   }
-  bool isClear() const { return which >= 0 && 1.0F - best < ratio * ratio * (1.0F - second); }
+  bool isClear() const { return which >= 0 && 1.0F - best < kRatio * kRatio * (1.0F - second); }
 };
 
 }  // namespace

@@ -20,15 +20,15 @@ namespace {
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-constexpr double huber = 2.5;                               // standard deviations, as swf_vo's
-constexpr double gate_two = 13.8, gate_three = 16.3;        // chi-square, 99.9 %
-constexpr double median_two = 1.386, median_three = 2.366;  // of chi-square
-constexpr double exact_offset = 1e6;                        // 1/px: what weighs an offset that is not allowed for
-constexpr int parts_across = 4, parts_down = 3;             // of the image, within which errors may be alike
-constexpr double least_depth_sigmas = 3.0;
-constexpr double settled_m = 1e-6, settled_rad = 1e-7;
+constexpr double kHuber = 2.5;                              // standard deviations, as swf_vo's
+constexpr double kGateTwo = 13.8, kGateThree = 16.3;        // chi-square, 99.9 %
+constexpr double kMedianTwo = 1.386, kMedianThree = 2.366;  // of chi-square
+constexpr double kExactOffset = 1e6;                        // 1/px: what weighs an offset that is not allowed for
+constexpr int kPartsAcross = 4, kPartsDown = 3;             // of the image, within which errors may be alike
+constexpr double kLeastDepthSigmas = 3.0;
+constexpr double kSettledM = 1e-6, kSettledRad = 1e-7;
 // Keeps the pose where matches leave it open; far below what any match says.
-constexpr double anchor = 1e-6;
+constexpr double kAnchor = 1e-6;
 
 /// One sight linearised at its best depth, the depth eliminated.
 struct Reduced {
@@ -50,27 +50,27 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
   Reduced made;
   const Eigen::Matrix4d W = computeWeight(sight);
   SightResidual r;
-  constexpr int most_steps = 4;
-  for (int step = 0; step < most_steps; ++step) {
+  constexpr int kMostSteps = 4;
+  for (int step = 0; step < kMostSteps; ++step) {
     r = computeResidual(sight, camera, T_a_b, offset, rho);
     if (!r.visible) return made;
-    const Eigen::Vector4d along = W * r.J.col(of_depth);
-    const double d = along.dot(r.e) / along.dot(r.J.col(of_depth));
+    const Eigen::Vector4d along = W * r.J.col(kOfDepth);
+    const double d = along.dot(r.e) / along.dot(r.J.col(kOfDepth));
     if (!std::isfinite(d)) return made;
-    if (std::abs(d) < 1e-7 || step + 1 == most_steps) break;
+    if (std::abs(d) < 1e-7 || step + 1 == kMostSteps) break;
     rho += d;
   }
   // A depth that is not distinguishable from infinity has a derivative of noise, which would pass for knowledge of the
   // translation.
-  if (rho * camera.left.fx * camera.baseline < least_depth_sigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
+  if (rho * camera.left.fx * camera.baseline < kLeastDepthSigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
   const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;
   const Eigen::Matrix<double, 8, 8> H = JW * r.J;
   const Eigen::Matrix<double, 8, 1> b = JW * r.e;
-  const double of_rho = H(of_depth, of_depth);
-  const Vector7d cross = H.col(of_depth).head<7>();
+  const double of_rho = H(kOfDepth, kOfDepth);
+  const Vector7d cross = H.col(kOfDepth).head<7>();
   made.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
-  made.b = b.head<7>() - cross * (b[of_depth] / of_rho);
-  made.chi2 = r.e.dot(W * r.e) - b[of_depth] * b[of_depth] / of_rho;
+  made.b = b.head<7>() - cross * (b[kOfDepth] / of_rho);
+  made.chi2 = r.e.dot(W * r.e) - b[kOfDepth] * b[kOfDepth] / of_rho;
   made.residual_px = r.e.segment<2>(1).norm() / sight.size;
   made.visible = made.H.allFinite() && made.b.allFinite();
   return made;
@@ -78,7 +78,7 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
 
 double computeWeight(double chi2, double scale2) {
   const double chi = std::sqrt(std::max(chi2 / scale2, 0.0));
-  return chi > huber ? huber / chi : 1.0;
+  return chi > kHuber ? kHuber / chi : 1.0;
 }
 
 /// How much larger squared residuals are than promised, by their median, which outliers do not move.
@@ -87,7 +87,7 @@ double estimateScale(const std::vector<Sight>& sights, const std::vector<Reduced
   ratios.clear();
   for (std::size_t i = 0; i < sights.size(); ++i)
     if (reduced[i].visible)
-      ratios.push_back(reduced[i].chi2 / (sights[i].coordinates() == 3 ? median_three : median_two));
+      ratios.push_back(reduced[i].chi2 / (sights[i].coordinates() == 3 ? kMedianThree : kMedianTwo));
   if (ratios.empty()) return 1.0;
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
@@ -104,17 +104,17 @@ struct Inflation {
 
 Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
                     double scale2, const Matrix7d& H) {
-  std::array<Vector7d, 2 * parts_across * parts_down> scores;
-  std::array<bool, 2 * parts_across * parts_down> used{};
+  std::array<Vector7d, 2 * kPartsAcross * kPartsDown> scores;
+  std::array<bool, 2 * kPartsAcross * kPartsDown> used{};
   scores.fill(Vector7d::Zero());
   for (std::size_t i = 0; i < sights.size(); ++i) {
     if (!reduced[i].visible) continue;
     const Eigen::Vector3d& ray = sights[i].ray;
     const double u = (camera.left.fx * ray.x() + camera.left.cx) / camera.left.width,
                  v = (camera.left.fy * ray.y() + camera.left.cy) / camera.left.height;
-    const int column = std::clamp(static_cast<int>(u * parts_across), 0, parts_across - 1),
-              row = std::clamp(static_cast<int>(v * parts_down), 0, parts_down - 1);
-    const auto part = static_cast<std::size_t>(((sights[i].of_a ? 0 : parts_down) + row) * parts_across + column);
+    const int column = std::clamp(static_cast<int>(u * kPartsAcross), 0, kPartsAcross - 1),
+              row = std::clamp(static_cast<int>(v * kPartsDown), 0, kPartsDown - 1);
+    const auto part = static_cast<std::size_t>(((sights[i].of_a ? 0 : kPartsDown) + row) * kPartsAcross + column);
     scores[part] += computeWeight(reduced[i].chi2, scale2) / scale2 * reduced[i].b;
     used[part] = true;
   }
@@ -127,7 +127,7 @@ Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights
   }
   if (count <= 7) return {};
   Matrix7d held = H;
-  held.diagonal().array() += anchor;
+  held.diagonal().array() += kAnchor;
   const Matrix7d C = urban_nav_core::solveByLdlt<7, 7>(held, Matrix7d::Identity()), V = C * S * C;
   const auto mean = [&](int first) {
     const Eigen::Matrix3d promised = C.block<3, 3>(first, first), found = V.block<3, 3>(first, first);
@@ -161,7 +161,7 @@ void judgeSights(const std::vector<Sight>& sights, const std::vector<Reduced>& r
     if (!reduced[i].visible) continue;
     outcome.chi2 = reduced[i].chi2;
     outcome.residual_px = reduced[i].residual_px;
-    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? gate_three : gate_two) &&
+    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? kGateThree : kGateTwo) &&
                      outcome.residual_px <= options.largest_residual_px;
     if (!outcome.inlier) continue;
     ++made.inliers;
@@ -180,7 +180,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   for (std::size_t i = 0; i < sights.size(); ++i) rho[i] = inverseDepth(sights[i], camera);
   std::vector<Reduced> reduced(sights.size());
   const double offset_weight =
-      options.sigma_offset > 0.0 ? 1.0 / (options.sigma_offset * options.sigma_offset) : exact_offset * exact_offset;
+      options.sigma_offset > 0.0 ? 1.0 / (options.sigma_offset * options.sigma_offset) : kExactOffset * kExactOffset;
   const auto linearise = [&] {
     for (std::size_t i = 0; i < sights.size(); ++i)
       reduced[i] = reduce(sights[i], camera, made.T_a_b, made.offset, rho[i]);
@@ -195,8 +195,8 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
       H += weight * r.H;
       b += weight * r.b;
     }
-    H(of_offset, of_offset) += offset_weight;
-    b[of_offset] -= offset_weight * made.offset;
+    H(kOfOffset, kOfOffset) += offset_weight;
+    b[kOfOffset] -= offset_weight * made.offset;
   };
   Matrix7d H;
   Vector7d b;
@@ -204,12 +204,12 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   for (int step = 0; step < options.steps; ++step) {
     scale2 = linearise();
     sum(scale2, H, b);
-    H.diagonal().array() += anchor;
+    H.diagonal().array() += kAnchor;
     const Vector7d d = urban_nav_core::solveByLdlt<7, 1>(H, b);
     if (!d.allFinite()) return made;
     made.T_a_b = urban_nav_core::boxPlus(made.T_a_b, d.head<6>());
-    made.offset += d[of_offset];
-    if (d.head<3>().norm() < settled_m && d.segment<3>(3).norm() < settled_rad) break;
+    made.offset += d[kOfOffset];
+    if (d.head<3>().norm() < kSettledM && d.segment<3>(3).norm() < kSettledRad) break;
   }
   scale2 = linearise();
   sum(scale2, H, b);
@@ -221,8 +221,8 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
     H = (by.asDiagonal() * H * by.asDiagonal()).eval();
   }
   made.noise_factor = std::sqrt(scale2);
-  const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, of_offset);
-  made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(of_offset, of_offset);
+  const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, kOfOffset);
+  made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
   made.information = withCommonError(camera, made.T_a_b, options, made.information);
   judgeSights(sights, reduced, scale2, options, made);
   made.found = made.inliers >= 3 && made.T_a_b.isFinite() && made.information.allFinite();

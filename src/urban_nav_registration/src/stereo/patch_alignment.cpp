@@ -20,16 +20,16 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double least_view_correlation = 0.8;  // as swf_vo's
-constexpr double least_gain = 0.2, largest_gain = 5.0;
-constexpr double smallest_scale = 0.3, largest_scale = 3.5;  // of a patch from view to view: beyond, nothing is alike
-constexpr double most_stretch = 2.5;                         // of one axis over the other: a wall seen edge-on
-constexpr int view_margin = urban_nav_core::patch_radius + 3;
-constexpr double same_point_px = 3.0;  // of the level: a corner that the other view chose as well
-constexpr double own_window_px = 6.0;  // of the level: nearer patches share their pixels
-constexpr double least_depth_share =
+constexpr double kLeastViewCorrelation = 0.8;  // as swf_vo's
+constexpr double kLeastGain = 0.2, kLargestGain = 5.0;
+constexpr double kSmallestScale = 0.3, kLargestScale = 3.5;  // of a patch from view to view: beyond, nothing is alike
+constexpr double kMostStretch = 2.5;                         // of one axis over the other: a wall seen edge-on
+constexpr int kViewMargin = urban_nav_core::kPatchRadius + 3;
+constexpr double kSamePointPx = 3.0;  // of the level: a corner that the other view chose as well
+constexpr double kOwnWindowPx = 6.0;  // of the level: nearer patches share their pixels
+constexpr double kLeastDepthShare =
     0.02;  // of the inverse depth: what one sight's disparity does not know of the other's
-constexpr std::size_t grain = 32;
+constexpr std::size_t kPatchGrain = 32;
 
 struct Found {
   bool visible = false, found = false;
@@ -58,11 +58,11 @@ std::optional<PointView> findPlace(const StereoCamera& camera, const Eigen::Vect
 /// By how much a warp enlarges; empty where it does so too much or too unevenly.
 std::optional<double> enlargement(const Eigen::Matrix2d& A) {
   const double area = A.determinant();
-  if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return std::nullopt;
+  if (!(area > kSmallestScale * kSmallestScale && area < kLargestScale * kLargestScale)) return std::nullopt;
   // squares of the singular values: s1 s2 = area^2, s1 + s2 = |A|^2
   const double half = 0.5 * A.squaredNorm();
   const double larger = half + std::sqrt(std::max(half * half - area * area, 0.0));
-  if (larger / area > most_stretch) return std::nullopt;
+  if (larger / area > kMostStretch) return std::nullopt;
   return std::sqrt(area);
 }
 
@@ -96,18 +96,18 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   if (!of_middle) return made;
   const auto& image = to.pyramid.level(t);
   const Eigen::Vector2d start = of_middle->pixel * to_scale;
-  if (!(start.x() >= view_margin && start.y() >= view_margin && start.x() < image.width - view_margin &&
-        start.y() < image.height - view_margin))
+  if (!(start.x() >= kViewMargin && start.y() >= kViewMargin && start.x() < image.width - kViewMargin &&
+        start.y() < image.height - kViewMargin))
     return made;
   PatchWarp warp(of_middle->warp.A * (to_scale / from_scale), of_middle->warp.bend / from_scale);
-  warp.bend *= std::min(1.0, urban_nav_core::largest_bend / std::max(warp.bend.norm(), 1e-9));
+  warp.bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp.bend.norm(), 1e-9));
   PatchTemplate patch;
   if (!urban_nav_core::warpTemplate(*source, warp, patch)) return made;
   made.visible = true;
   made.likeness = urban_nav_core::correlationAt(image, patch, start);
   const auto aligned = urban_nav_core::alignPatch(image, patch, start, options.reach);
-  if (!aligned.converged || aligned.correlation < least_view_correlation || aligned.gain < least_gain ||
-      aligned.gain > largest_gain || !aligned.covariance.allFinite())
+  if (!aligned.converged || aligned.correlation < kLeastViewCorrelation || aligned.gain < kLeastGain ||
+      aligned.gain > kLargestGain || !aligned.covariance.allFinite())
     return made;
   made.found = true;
   made.size = 1.0 / to_scale;
@@ -127,7 +127,7 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
 std::vector<Found> lookForAll(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
                               double offset, const AligningOptions& options) {
   std::vector<Found> found(from.points.size());
-  urban_nav_core::forEach(from.points.size(), grain, [&](std::size_t i) {
+  urban_nav_core::forEach(from.points.size(), kPatchGrain, [&](std::size_t i) {
     found[i] = look(camera, from, to, from.points[i], T_to_from, offset, options);
     found[i].sight.point = static_cast<int>(i);
   });
@@ -151,12 +151,12 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
     see(found);
     if (!found.found) continue;
     Sight& sight = found.sight;
-    double nearest = same_point_px * same_point_px;
+    double nearest = kSamePointPx * kSamePointPx;
     const ViewPoint* partner = nullptr;
     for (std::size_t j = 0; j < b.points.size(); ++j) {
       const double size = std::max(found.size, b.points[j].size());
       const double square = (b.points[j].pixel - sight.pixel).squaredNorm() / (size * size);
-      if (square < own_window_px * own_window_px) taken[j] = true;
+      if (square < kOwnWindowPx * kOwnWindowPx) taken[j] = true;
       if (square >= nearest) continue;
       nearest = square;
       partner = &b.points[j];
@@ -166,7 +166,7 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
       const double slope = partner->plane.dot(camera.left.ray(sight.pixel)) - partner->plane.dot(partner->ray);
       sight.other_disparity = partner->disparity + per_depth * slope;
       sight.other_sigma =
-          std::hypot(partner->sigma_disparity, per_depth * slope, least_depth_share * sight.other_disparity);
+          std::hypot(partner->sigma_disparity, per_depth * slope, kLeastDepthShare * sight.other_disparity);
     }
     made.sights.push_back(sight);
   }

@@ -14,13 +14,13 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double corner_px = 1.0;     // of its level: how well a corner is found again
-constexpr double disparity_px = 0.3;  // added to its own deviation: the two corners are not quite one point
-constexpr double gate = 16.3;         // chi-square, 3 degrees of freedom, 99.9 %
-constexpr double confidence = 0.999;
-constexpr int least_samples = 60, most_samples = 1500;
-constexpr int fewest = 8;                // that agree: three fit by definition, and chance finds some more
-constexpr double least_z = 1.0 / 200.0;  // 1/m: of the points of a triple, with depth to speak of
+constexpr double kCornerPx = 1.0;     // of its level: how well a corner is found again
+constexpr double kDisparityPx = 0.3;  // added to its own deviation: the two corners are not quite one point
+constexpr double kGate = 16.3;        // chi-square, 3 degrees of freedom, 99.9 %
+constexpr double kConfidence = 0.999;
+constexpr int kLeastSamples = 60, kMostSamples = 1500;
+constexpr int kFewestInliers = 8;        // that agree: three fit by definition, and chance finds some more
+constexpr double kLeastZ = 1.0 / 200.0;  // 1/m: of the points of a triple, with depth to speak of
 
 struct Item {
   Sight sight;
@@ -42,16 +42,16 @@ std::vector<Item> makeItems(const StereoCamera& camera, const View& a, const Vie
     sight.point = pair.a;
     sight.ray = in_a.ray;
     sight.disparity = in_a.disparity;
-    sight.sigma_disparity = std::hypot(in_a.sigma_disparity, disparity_px);
+    sight.sigma_disparity = std::hypot(in_a.sigma_disparity, kDisparityPx);
     sight.pixel = in_b.pixel;
-    item.sigma_px = corner_px * std::max(in_a.size(), in_b.size());
+    item.sigma_px = kCornerPx * std::max(in_a.size(), in_b.size());
     sight.covariance = item.sigma_px * item.sigma_px * Eigen::Matrix2d::Identity();
     sight.other_disparity = in_b.disparity;
-    sight.other_sigma = std::hypot(in_b.sigma_disparity, disparity_px);
+    sight.other_sigma = std::hypot(in_b.sigma_disparity, kDisparityPx);
     item.rho = inverseDepth(sight, camera);
     item.sigma_rho = sight.sigma_disparity / per_depth;
     const double rho_b = (in_b.disparity - camera.disparity_offset) / per_depth;
-    item.deep = item.rho > least_z && rho_b > least_z;
+    item.deep = item.rho > kLeastZ && rho_b > kLeastZ;
     if (item.deep) {
       item.p_a = in_a.ray / item.rho;
       item.p_b = in_b.ray / rho_b;
@@ -66,20 +66,20 @@ double misfit(const Item& item, const StereoCamera& camera, const Eigen::Matrix3
               const Eigen::Vector3d& t_b_a) {
   const auto& c = camera.left;
   const Eigen::Vector3d p = R_b_a * item.sight.ray + t_b_a * item.rho;
-  if (!(p.z() > 1e-3)) return gate;
+  if (!(p.z() > 1e-3)) return kGate;
   const double iz = 1.0 / p.z(), x = p.x() * iz, y = p.y() * iz, per_depth = c.fx * camera.baseline;
   const double by_px = 1.0 / item.sigma_px, by_disparity = 1.0 / item.sight.other_sigma;
   const Eigen::Vector3d e(
       (item.sight.pixel.x() - c.fx * x - c.cx) * by_px, (item.sight.pixel.y() - c.fy * y - c.cy) * by_px,
       (item.sight.other_disparity - camera.disparity_offset - per_depth * item.rho * iz) * by_disparity);
   const double square = e.squaredNorm();
-  if (square > 1e4 * gate) return gate;
+  if (square > 1e4 * kGate) return kGate;
   const Eigen::Vector3d j =
       item.sigma_rho * Eigen::Vector3d(c.fx * iz * (t_b_a.x() - x * t_b_a.z()) * by_px,
                                        c.fy * iz * (t_b_a.y() - y * t_b_a.z()) * by_px,
                                        per_depth * iz * (1.0 - item.rho * iz * t_b_a.z()) * by_disparity);
   const double along = j.dot(e);
-  return std::min(gate, square - along * along / (1.0 + j.squaredNorm()));
+  return std::min(kGate, square - along * along / (1.0 + j.squaredNorm()));
 }
 
 struct Score {
@@ -94,7 +94,7 @@ Score computeScore(const std::vector<Item>& items, const StereoCamera& camera, c
   for (const Item& item : items) {
     const double chi2 = misfit(item, camera, R, T_b_a.t());
     score.cost += chi2;
-    if (chi2 < gate) ++score.inliers;
+    if (chi2 < kGate) ++score.inliers;
   }
   return score;
 }
@@ -139,7 +139,7 @@ Pose improve(const std::vector<Item>& items, const StereoCamera& camera, Pose T_
     const Eigen::Matrix3d R = T_b_a.R();
     std::vector<Sight> sights;
     for (const Item& item : items)
-      if (misfit(item, camera, R, T_b_a.t()) < gate) sights.push_back(item.sight);
+      if (misfit(item, camera, R, T_b_a.t()) < kGate) sights.push_back(item.sight);
     if (sights.size() < 3) break;
     EstimateOptions options;
     options.steps = 4;
@@ -157,10 +157,10 @@ Pose improve(const std::vector<Item>& items, const StereoCamera& camera, Pose T_
 
 int samplesFor(int inliers, std::size_t count) {
   const double share = static_cast<double>(inliers) / static_cast<double>(count), all = share * share * share;
-  if (all >= 1.0) return least_samples;
-  const double samples = std::log(1.0 - confidence) / std::log(1.0 - std::max(all, 1e-9));
+  if (all >= 1.0) return kLeastSamples;
+  const double samples = std::log(1.0 - kConfidence) / std::log(1.0 - std::max(all, 1e-9));
   return static_cast<int>(
-      std::clamp(std::ceil(samples), static_cast<double>(least_samples), static_cast<double>(most_samples)));
+      std::clamp(std::ceil(samples), static_cast<double>(kLeastSamples), static_cast<double>(kMostSamples)));
 }
 
 }  // namespace
@@ -173,9 +173,9 @@ Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b
   for (const Item& item : items)
     if (item.deep) deep.push_back(&item);
   if (deep.size() < 3) return made;
-  Score best{gate * static_cast<double>(items.size()), 0};
+  Score best{kGate * static_cast<double>(items.size()), 0};
   std::uint32_t state = 12345;
-  int wanted = most_samples;
+  int wanted = kMostSamples;
   const auto count = static_cast<std::uint32_t>(deep.size());
   for (; made.samples < wanted; ++made.samples) {
     std::array<const Item*, 3> triple{};
@@ -193,11 +193,11 @@ Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b
     wanted = samplesFor(best.inliers, items.size());
   }
   made.inliers = best.inliers;
-  made.found = best.inliers >= fewest;
+  made.found = best.inliers >= kFewestInliers;
   const Pose T_b_a = made.T_a_b.inverse();
   const Eigen::Matrix3d R = T_b_a.R();
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (misfit(items[i], camera, R, T_b_a.t()) >= gate) made.others.push_back(pairs[i]);
+    if (misfit(items[i], camera, R, T_b_a.t()) >= kGate) made.others.push_back(pairs[i]);
   return made;
 }
 

@@ -9,7 +9,7 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double least_depth = 1e-3;  // of z over the depth in its own view
+constexpr double kLeastDepth = 1e-3;  // of z over the depth in its own view
 
 }  // namespace
 
@@ -40,25 +40,25 @@ SightResidual computeResidual(const Sight& sight, const StereoCamera& camera, co
     p_by_pose.leftCols<3>() = rho * Eigen::Matrix3d::Identity();
     p_by_pose.rightCols<3>() = -skew(turned);
   }
-  if (!(p.z() > least_depth)) return made;
+  if (!(p.z() > kLeastDepth)) return made;
   made.visible = true;
   const double iz = 1.0 / p.z(), x = p.x() * iz, y = p.y() * iz;
   Eigen::Matrix<double, 2, 3> pixel_by_p;
   pixel_by_p << c.fx * iz, 0.0, -c.fx * x * iz, 0.0, c.fy * iz, -c.fy * y * iz;
 
   made.e[0] = sight.disparity - (per_depth * rho + camera.disparity_offset + offset);
-  made.J(0, of_offset) = 1.0;
-  made.J(0, of_depth) = per_depth;
+  made.J(0, kOfOffset) = 1.0;
+  made.J(0, kOfDepth) = per_depth;
   made.e.segment<2>(1) = sight.pixel - Eigen::Vector2d(c.fx * x + c.cx, c.fy * y + c.cy);
   made.J.block<2, 6>(1, 0) = pixel_by_p * p_by_pose;
-  made.J.block<2, 1>(1, of_depth) = pixel_by_p * p_by_depth;
+  made.J.block<2, 1>(1, kOfDepth) = pixel_by_p * p_by_depth;
   if (sight.other_sigma > 0.0) {
     const double disparity = per_depth * rho * iz;
     made.e[3] = sight.other_disparity - (disparity + camera.disparity_offset + offset);
     const double by_z = -disparity * iz;
     made.J.block<1, 6>(3, 0) = by_z * p_by_pose.row(2);
-    made.J(3, of_offset) = 1.0;
-    made.J(3, of_depth) = per_depth * iz + by_z * p_by_depth.z();
+    made.J(3, kOfOffset) = 1.0;
+    made.J(3, kOfDepth) = per_depth * iz + by_z * p_by_depth.z();
   }
   return made;
 }

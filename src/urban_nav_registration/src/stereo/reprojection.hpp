@@ -25,7 +25,7 @@ struct Sight {
 };
 
 /// Perturbations: of T_a_b as boxPlus, of the error of all disparities (px), of this point's inverse depth (1/m).
-inline constexpr int of_offset = 6, of_depth = 7;
+inline constexpr int kOfOffset = 6, kOfDepth = 7;
 
 /// Residuals of one sight, measured minus predicted: its own disparity, (u, v) in the other view, disparity there (zero
 /// without one). Negative derivatives are left to who uses them: `J` is that of the prediction.

@@ -25,25 +25,25 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr int fewest_agreeing = 8;  // pairs; false pairs have fewer as a rule, and the others fail at the patches
-constexpr std::size_t most_motions = 4;
-constexpr double convincing_likeness =
+constexpr int kFewestAgreeing = 8;  // pairs; false pairs have fewer as a rule, and the others fail at the patches
+constexpr std::size_t kMostMotions = 4;
+constexpr double kConvincingLikeness =
     0.65;                              // bench, pairs: no wrong motion had it in the end; no other is looked for then
-constexpr double match_gate = 1.75;    // times the mean error that is allowed: what is further off is no match
-constexpr std::size_t kept_views = 8;  // some 1 MB each at 512x384
-constexpr int least_points = 20;       // with depth, in either view
+constexpr double kMatchGate = 1.75;    // times the mean error that is allowed: what is further off is no match
+constexpr std::size_t kKeptViews = 8;  // some 1 MB each at 512x384
+constexpr int kLeastPoints = 20;       // with depth, in either view
 // A transform that is known to a metre and half a degree at the worst: what is worse pinches nothing.
-constexpr double largest_sigma_m = 1.0, largest_sigma_rad = 0.1;
+constexpr double kLargestSigmaM = 1.0, kLargestSigmaRad = 0.1;
 
 // Light moves all edges alike: shadows under ledges by millimetres, what a camera blurs by some hundredths of a pixel.
 // Bench, pairs, between days: in the mean of a hundred pairs poses are off by 0.03...0.09 px and 1...2 mm, in
 // directions that are the same for all pairs.
-constexpr double common_px = 0.06, common_m = 0.0015;
+constexpr double kCommonPx = 0.06, kCommonM = 0.0015;
 
-constexpr std::size_t coarse_rounds = 2;
+constexpr std::size_t kCoarseRounds = 2;
 /// From where consensus is good to some pixels to where patches say it best.
-constexpr std::array<AligningOptions, 4> rounds = {AligningOptions{2, 3.0, 0.1}, AligningOptions{1, 3.0, 0.1},
-                                                   AligningOptions{0, 2.0, 0.0}, AligningOptions{0, 1.5, 0.0}};
+constexpr std::array<AligningOptions, 4> kRounds = {AligningOptions{2, 3.0, 0.1}, AligningOptions{1, 3.0, 0.1},
+                                                    AligningOptions{0, 2.0, 0.0}, AligningOptions{0, 1.5, 0.0}};
 
 std::string stereoReason(const char* format, double value, double threshold) {
   std::array<char, 160> text{};
@@ -53,13 +53,13 @@ std::string stereoReason(const char* format, double value, double threshold) {
 
 /// The largest standard deviations of the translation (m) and of the rotation (rad); infinite where nothing is known.
 std::array<double, 2> largestSigmas(const Matrix6d& information) {
-  constexpr double nothing = std::numeric_limits<double>::infinity();
+  constexpr double kNothing = std::numeric_limits<double>::infinity();
   const auto covariance = urban_nav_core::invertPositiveDefinite(information);
-  if (!covariance) return {nothing, nothing};
+  if (!covariance) return {kNothing, kNothing};
   std::array<double, 2> sigmas{};
   for (const int half : {0, 1}) {
     const auto values = urban_nav_core::symmetricEigenvalues(covariance->block(3 * half, 3 * half, 3, 3));
-    sigmas[static_cast<std::size_t>(half)] = values && (*values)[2] > 0.0 ? std::sqrt((*values)[2]) : nothing;
+    sigmas[static_cast<std::size_t>(half)] = values && (*values)[2] > 0.0 ? std::sqrt((*values)[2]) : kNothing;
   }
   return sigmas;
 }
@@ -106,14 +106,14 @@ class StereoMatcher::Implementation {
       return refused(closure, StereoReason::NoImage,
                      std::string("the image of ") + (a->isReadable() ? "the later" : "the earlier") +
                          " view is missing, unreadable or of another size");
-    if (!test(closure, "points", std::min(closure.points_a, closure.points_b), least_points, true))
+    if (!test(closure, "points", std::min(closure.points_a, closure.points_b), kLeastPoints, true))
       return refused(closure, StereoReason::TooFewPoints,
                      stereoReason("%.0f points with depth in one of the views, %.0f wanted", closure.tests.back().value,
-                                  least_points));
+                                  kLeastPoints));
     const std::vector<DescriptorMatch> pairs = mutualNearest(a->descriptors, b->descriptors);
     closure.putative = static_cast<int>(pairs.size());
     Refined best = findMotion(*a, *b, pairs, closure);
-    if (!test(closure, "consensus", closure.consensus, fewest_agreeing, true) || !best.found.found)
+    if (!test(closure, "consensus", closure.consensus, kFewestAgreeing, true) || !best.found.found)
       return refused(closure, StereoReason::NoConsensus,
                      stereoReason("no motion explains more than %.0f of %.0f pairs of points", closure.consensus,
                                   closure.putative));
@@ -129,7 +129,7 @@ class StereoMatcher::Implementation {
       return views_.front();
     }
     views_.push_front(std::make_shared<const View>(keyframe, camera_));
-    if (views_.size() > kept_views) views_.pop_back();
+    if (views_.size() > kKeptViews) views_.pop_back();
     return views_.front();
   }
 
@@ -161,9 +161,9 @@ class StereoMatcher::Implementation {
     if (aligned.sights.size() < 6) return;
     EstimateOptions options;
     options.sigma_offset = parameters_.disparity_offset;
-    options.common_px = common_px;
-    options.common_m = common_m;
-    options.largest_residual_px = match_gate * parameters_.max_reprojection_error;
+    options.common_px = kCommonPx;
+    options.common_m = kCommonM;
+    options.largest_residual_px = kMatchGate * parameters_.max_reprojection_error;
     Estimate next = estimate(camera_, aligned.sights, refined.T_a_b, options);
     if (!next.found) return;
     refined = {next.T_a_b, std::move(next), std::move(aligned)};
@@ -172,25 +172,25 @@ class StereoMatcher::Implementation {
   /// Several are tried where facades repeat themselves: which is meant, patches decide.
   Refined findMotion(const View& a, const View& b, std::vector<DescriptorMatch> pairs, StereoClosure& closure) const {
     Refined best;
-    for (std::size_t tried = 0; tried < most_motions; ++tried) {
+    for (std::size_t tried = 0; tried < kMostMotions; ++tried) {
       Consensus motion = findConsensus(camera_, a, b, pairs);
       if (tried == 0) closure.consensus = motion.inliers;
       if (!motion.found) break;
       Refined its;
       its.T_a_b = motion.T_a_b;
-      for (std::size_t round = 0; round < coarse_rounds; ++round) look(a, b, rounds[round], its);
+      for (std::size_t round = 0; round < kCoarseRounds; ++round) look(a, b, kRounds[round], its);
       if (its.worth() > best.worth()) {
         best = std::move(its);
         closure.consensus = motion.inliers;
       }
-      if (best.aligned.likeness >= convincing_likeness) break;
+      if (best.aligned.likeness >= kConvincingLikeness) break;
       pairs = std::move(motion.others);
     }
     return best;
   }
 
   StereoClosure refine(const View& a, const View& b, Refined refined, StereoClosure& closure) const {
-    for (std::size_t round = coarse_rounds; round < rounds.size(); ++round) look(a, b, rounds[round], refined);
+    for (std::size_t round = kCoarseRounds; round < kRounds.size(); ++round) look(a, b, kRounds[round], refined);
     const Estimate& found = refined.found;
     const Aligned& aligned = refined.aligned;
     closure.visible = aligned.visible;
@@ -215,8 +215,8 @@ class StereoMatcher::Implementation {
     const bool small =
         test(closure, "reprojection_error_px", closure.reprojection_px, parameters_.max_reprojection_error, false);
     const bool alike = test(closure, "likeness", closure.likeness, parameters_.min_likeness, true);
-    const bool firm = test(closure, "sigma_m", sigma_m, largest_sigma_m, false);
-    const bool turned = test(closure, "sigma_rad", sigma_rad, largest_sigma_rad, false);
+    const bool firm = test(closure, "sigma_m", sigma_m, kLargestSigmaM, false);
+    const bool turned = test(closure, "sigma_rad", sigma_rad, kLargestSigmaRad, false);
     if (!enough)
       return refused(closure, StereoReason::TooFewMatches,
                      stereoReason("%.0f points of one view are where the other puts them, %.0f wanted", closure.matches,

@@ -12,24 +12,24 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int reduction = 4;              // pixels of the image per pixel of the depth map
-constexpr int largest_point = 6;          // px of the depth map
-constexpr double plane_unevenness = 0.1;  // m
+constexpr int kReduction = 4;             // pixels of the image per pixel of the depth map
+constexpr int kLargestPoint = 6;          // px of the depth map
+constexpr double kPlaneUnevenness = 0.1;  // m
 
 }  // namespace
 
 DepthMap::DepthMap(const urban_nav_core::Pinhole& camera, const DepthTolerance& tolerance)
     : tolerance_(tolerance),
-      width_((camera.width + reduction - 1) / reduction),
-      height_((camera.height + reduction - 1) / reduction),
+      width_((camera.width + kReduction - 1) / kReduction),
+      height_((camera.height + kReduction - 1) / kReduction),
       focal_(camera.fx, camera.fy),
       depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
              std::numeric_limits<float>::infinity()) {}
 
 void DepthMap::add(const ImagePoint& at, double edge) {
   const int size =
-      std::clamp(static_cast<int>(std::ceil(edge * focal_.x() / (reduction * at.depth))), 1, largest_point);
-  const int u0 = static_cast<int>(at.u / reduction) - size / 2, v0 = static_cast<int>(at.v / reduction) - size / 2;
+      std::clamp(static_cast<int>(std::ceil(edge * focal_.x() / (kReduction * at.depth))), 1, kLargestPoint);
+  const int u0 = static_cast<int>(at.u / kReduction) - size / 2, v0 = static_cast<int>(at.v / kReduction) - size / 2;
   const auto depth = static_cast<float>(at.depth);
   for (int v = std::max(0, v0); v < std::min(height_, v0 + size); ++v)
     for (int u = std::max(0, u0); u < std::min(width_, u0 + size); ++u) {
@@ -41,15 +41,15 @@ void DepthMap::add(const ImagePoint& at, double edge) {
 
 bool DepthMap::isOnPlane(const ImagePoint& at, const ViewedPoint& surface, int u, int v, double front) const {
   if (surface.normal.squaredNorm() < 0.5) return false;
-  const Eigen::Vector2d away(reduction * (u + 0.5) - at.u, reduction * (v + 0.5) - at.v);  // px, to the cell's middle
+  const Eigen::Vector2d away(kReduction * (u + 0.5) - at.u, kReduction * (v + 0.5) - at.v);  // px, to the cell's middle
   const Vector3d ray = surface.p / surface.p.z() +
                        Vector3d(away.x() / focal_.x(), away.y() / focal_.y(), 0.0);  // the lens bends neighbours alike
-  const double within_cell = 0.5 * reduction / focal_.x() * front;
-  return std::abs(surface.normal.dot(front * ray.normalized() - surface.p)) < plane_unevenness + within_cell;
+  const double within_cell = 0.5 * kReduction / focal_.x() * front;
+  return std::abs(surface.normal.dot(front * ray.normalized() - surface.p)) < kPlaneUnevenness + within_cell;
 }
 
 bool DepthMap::isVisible(const ImagePoint& at, const ViewedPoint& surface) const {
-  const int u0 = static_cast<int>(at.u / reduction), v0 = static_cast<int>(at.v / reduction);
+  const int u0 = static_cast<int>(at.u / kReduction), v0 = static_cast<int>(at.v / kReduction);
   const auto depth = static_cast<float>(at.depth);
   for (int v = std::max(0, v0 - 1); v <= std::min(height_ - 1, v0 + 1); ++v)
     for (int u = std::max(0, u0 - 1); u <= std::min(width_ - 1, u0 + 1); ++u) {

@@ -35,15 +35,15 @@ TEST(OffsetFrames, CovarianceFollowsTheTangent) {
   alignment.free_directions = {Vector6d::Unit(5)};
   const Alignment moved = toFileFrames(alignment, offsets);
   urban_nav_core::Matrix6d J;  // of the tangent (rho, phi) of the file's pose by that of the near one
-  constexpr double step = 1e-6;
+  constexpr double kStep = 1e-6;
   for (int i = 0; i < 6; ++i) {
-    const Vector6d d = step * Vector6d::Unit(i);
+    const Vector6d d = kStep * Vector6d::Unit(i);
     Alignment other = alignment;
     other.T_target_source = Pose(urban_nav_core::expSo3(d.tail<3>()) * alignment.T_target_source.q(),
                                  alignment.T_target_source.t() + d.head<3>());
     const Pose T = toFileFrames(other, offsets).T_target_source;
-    J.col(i) << (T.t() - moved.T_target_source.t()) / step,
-        urban_nav_core::logSo3(T.q() * moved.T_target_source.q().conjugate()) / step;
+    J.col(i) << (T.t() - moved.T_target_source.t()) / kStep,
+        urban_nav_core::logSo3(T.q() * moved.T_target_source.q().conjugate()) / kStep;
   }
   EXPECT_LT((moved.covariance - J * alignment.covariance * J.transpose()).norm(), 1e-3 * moved.covariance.norm());
   EXPECT_LT((moved.information * moved.covariance - urban_nav_core::Matrix6d::Identity()).norm(), 1e-4);

@@ -17,7 +17,7 @@ using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::RenderCamera;
 using urban_nav_registration::testing::Photographer;
 
-constexpr double distance_driven = 1.5;  // m
+constexpr double kDistanceDriven = 1.5;  // m
 
 /// Base poses of two days, and the transform between them that is measured with the cameras of both.
 class TwoCameras : public ::testing::Test {
@@ -49,7 +49,7 @@ class TwoCameras : public ::testing::Test {
   Photographer street_{urban_nav_core::testing::texturedStreet()};
   // Left optical axes along the street from base_link; base_link has the axes of the camera.
   Pose T_world_base1_ = lookingAlong({10.0, 0.0, 1.2}, 0.0);
-  Pose T_world_base2_ = lookingAlong({10.0 + distance_driven, 0.3, 1.2}, 0.05);
+  Pose T_world_base2_ = lookingAlong({10.0 + kDistanceDriven, 0.3, 1.2}, 0.05);
   Pose T_base1_base2_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
 
-constexpr int panel = 200, gap = 4;
+constexpr int kPanel = 200, kGap = 4;
 
 struct CloudColour {
   int blue = 0, green = 0, red = 0;
@@ -26,8 +26,8 @@ struct Counts {
 
 Counts computeCounts(const Picture& picture, int which) {
   Counts counts;
-  for (int v = 20; v < panel - 30; ++v)  // without title and bar
-    for (int u = which * (panel + gap); u < which * (panel + gap) + panel; ++u) {
+  for (int v = 20; v < kPanel - 30; ++v)  // without title and bar
+    for (int u = which * (kPanel + kGap); u < which * (kPanel + kGap) + kPanel; ++u) {
       const std::uint8_t* p = &picture.bgr[3 * static_cast<std::size_t>(v * picture.width + u)];
       const CloudColour colour{p[0], p[1], p[2]};
       counts.red += colour.isRed() ? 1 : 0;
@@ -54,14 +54,14 @@ PointCloud moved(const PointCloud& cloud, const Pose& T) {
 
 Picture drawn(const PointCloud& source, const PointCloud& target, const Pose& guess, const Pose& T,
               CloudPictureOptions options = {}) {
-  options.panel = panel;
+  options.panel = kPanel;
   return drawClouds(source, target, guess, T, options);
 }
 
 TEST(CloudPicture, PurpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
   const Pose T(urban_nav_core::Matrix3d::Identity(), {0.0, 1.5, 0.0});
   const Picture picture = drawn(moved(wall(), T.inverse()), wall(), Pose(), T);
-  EXPECT_EQ(picture.width, 3 * panel + 2 * gap);
+  EXPECT_EQ(picture.width, 3 * kPanel + 2 * kGap);
   ASSERT_EQ(picture.bgr.size(), 3U * picture.width * picture.height);
   const Counts before = computeCounts(picture, 0), above = computeCounts(picture, 1), side = computeCounts(picture, 2);
   EXPECT_GT(before.red, 100);

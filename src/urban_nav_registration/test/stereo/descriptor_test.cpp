@@ -52,9 +52,9 @@ TEST(Descriptor, FollowsTheScaleThatIsGiven) {
 TEST(Descriptor, NothingToSeeIsZeroAndMatchesNothing) {
   const Pyramid flat = toPicture([](double, double) { return 90.0; });
   EXPECT_EQ(describe(flat, {100.0, 80.0}, 32.0).norm(), 0.0F);
-  Descriptors zeros = Descriptors::Zero(descriptor_size, 5);
+  Descriptors zeros = Descriptors::Zero(kDescriptorSize, 5);
   EXPECT_TRUE(mutualNearest(zeros, zeros).empty());
-  EXPECT_TRUE(mutualNearest(Descriptors(descriptor_size, 0), zeros).empty());
+  EXPECT_TRUE(mutualNearest(Descriptors(kDescriptorSize, 0), zeros).empty());
 }
 
 TEST(Descriptor, BordersAndCornersAreReadToo) {
@@ -64,7 +64,7 @@ TEST(Descriptor, BordersAndCornersAreReadToo) {
 }
 
 TEST(MutualNearest, PairsEqualOnesAndLeavesDoubtfulOnes) {
-  Descriptors a = Descriptors::Zero(descriptor_size, 4), b = Descriptors::Zero(descriptor_size, 4);
+  Descriptors a = Descriptors::Zero(kDescriptorSize, 4), b = Descriptors::Zero(kDescriptorSize, 4);
   a(0, 0) = a(1, 1) = a(2, 2) = a(3, 3) = 1.0F;
   b(2, 0) = b(0, 1) = 1.0F;
   b(3, 2) = b(3, 3) = 1.0F;  // twice the same: either may be meant

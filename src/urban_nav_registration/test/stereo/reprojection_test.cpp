@@ -45,8 +45,8 @@ TEST(Sight, JacobianIsThatOfThePredictionAtLargeMotionsToo) {
       const Eigen::Vector4d by_depth =
           urban_nav_core::testing::numericJacobian<4, 1>([&](double d) { return predicted(T, offset, d); }, rho);
       EXPECT_LT((r.J.leftCols<6>() - by_pose).cwiseAbs().maxCoeff(), 1e-5 * by_pose.cwiseAbs().maxCoeff());
-      EXPECT_LT((r.J.col(of_offset) - by_offset).norm(), 1e-8);
-      EXPECT_LT((r.J.col(of_depth) - by_depth).norm(), 1e-5 * by_depth.norm());
+      EXPECT_LT((r.J.col(kOfOffset) - by_offset).norm(), 1e-8);
+      EXPECT_LT((r.J.col(kOfDepth) - by_depth).norm(), 1e-5 * by_depth.norm());
     }
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double edge = 0.05;  // m
+constexpr double kEdge = 0.05;  // m
 
 /// A camera 1 m over the ground that looks along it.
 struct Lookout {
@@ -20,11 +20,11 @@ struct Lookout {
     return {pixel->x(), pixel->y(), p_cam.norm()};
   }
   void add(const Vector3d& p_cam) {
-    if (const auto pixel = camera.project(p_cam); pixel && camera.contains(*pixel)) map.add(project(p_cam), edge);
+    if (const auto pixel = camera.project(p_cam); pixel && camera.contains(*pixel)) map.add(project(p_cam), kEdge);
   }
   void addGround() {
-    for (double z = 2.0; z < 25.0; z += edge)
-      for (double x = -3.0; x <= 3.0; x += edge) add({x, 1.0, z});
+    for (double z = 2.0; z < 25.0; z += kEdge)
+      for (double x = -3.0; x <= 3.0; x += kEdge) add({x, 1.0, z});
   }
   bool shows(const Vector3d& p_cam, const Vector3d& normal) const {
     return map.isVisible(project(p_cam), {p_cam, normal});
@@ -40,8 +40,8 @@ TEST(DepthMap, GroundSeenAtAGrazingAngleDoesNotHideItself) {
 
 TEST(DepthMap, AWallHidesWhatIsBehindItAndNotItself) {
   Lookout lookout;
-  for (double y = -1.0; y <= 1.0; y += edge)
-    for (double x = -1.0; x <= 1.0; x += edge) lookout.add({x, y, 5.0});
+  for (double y = -1.0; y <= 1.0; y += kEdge)
+    for (double x = -1.0; x <= 1.0; x += kEdge) lookout.add({x, y, 5.0});
   EXPECT_TRUE(lookout.shows({0.2, 0.1, 5.0}, {0.0, 0.0, -1.0}));
   EXPECT_FALSE(lookout.shows({0.2, 0.1, 8.0}, {0.0, 0.0, -1.0}));
   EXPECT_FALSE(lookout.shows({0.2, 0.1, 8.0}, Vector3d::Zero()));

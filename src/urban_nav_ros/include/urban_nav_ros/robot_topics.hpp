@@ -11,13 +11,13 @@ namespace urban_nav_ros {
 
 /// Groups of the topics that a stage takes from a robot with odometry (urban_nav_live::TopicMonitor).
 namespace topic_groups {
-constexpr const char* odometry = "odometry";
-constexpr const char* images = "images";
-constexpr const char* lasers = "lasers";
+constexpr const char* kOdometry = "odometry";
+constexpr const char* kImages = "images";
+constexpr const char* kLasers = "lasers";
 }  // namespace topic_groups
 
 /// s without a message until a topic is silent. A filter with a window gives its first smoothed pose so late.
-constexpr double robot_topic_timeout = 5.0;
+constexpr double kRobotTopicTimeout = 5.0;
 
 /// Subscribes to both poses of the odometry, to /tf_static, to the stereo camera if `stereo`, and to both lasers if
 /// `lasers`. Requires that Input can be made from ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr,
@@ -26,34 +26,34 @@ constexpr double robot_topic_timeout = 5.0;
 template <typename Input>
 void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool compressed, bool lasers) {
   TopicOptions options;
-  options.timeout = robot_topic_timeout;
+  options.timeout = kRobotTopicTimeout;
   options.queue = queue;
-  options.group = topic_groups::images;
+  options.group = topic_groups::kImages;
   if (stereo) {
     subscribeStereo(node, options, compressed, MotionTopic::None);
   } else {
     TopicOptions unmonitored;
     unmonitored.is_monitored = unmonitored.is_paused = false;
     node.template subscribeInput<tf2_msgs::TFMessage>(
-        topics::static_transforms, unmonitored,
+        topics::kStaticTransforms, unmonitored,
         [](const tf2_msgs::TFMessageConstPtr& message) { return Input(message); });
   }
-  options.group = topic_groups::lasers;
-  for (const char* topic : {topics::laser_left, topics::laser_right})
+  options.group = topic_groups::kLasers;
+  for (const char* topic : {topics::kLaserLeft, topics::kLaserRight})
     if (lasers)
       node.template subscribeInput<sensor_msgs::LaserScan>(
           topic, options, [](const sensor_msgs::LaserScanConstPtr& message) { return Input(message); });
-  options.group = topic_groups::odometry;
+  options.group = topic_groups::kOdometry;
   options.is_paused = false;
   node.template subscribeInput<nav_msgs::Odometry>(
-      topics::vo_odometry, options,
+      topics::kVoOdometry, options,
       [](const nav_msgs::OdometryConstPtr& message) -> std::optional<urban_nav_core::StampedPose> {
         const auto T_odom_base = toPose(message->pose.pose);
         if (!T_odom_base) return std::nullopt;
         return urban_nav_core::StampedPose{toStampNs(message->header.stamp), *T_odom_base};
       });
   node.template subscribeInput<urban_nav_msgs::RelativePose>(
-      topics::vo_relative_pose, options,
+      topics::kVoRelativePose, options,
       [](const urban_nav_msgs::RelativePoseConstPtr& message) { return toRelativePose(*message); });
 }
 

@@ -32,7 +32,7 @@ namespace urban_nav_ros {
 
 /// Subscription of a stage.
 struct TopicOptions {
-  double timeout = urban_nav_live::TopicMonitor::no_timeout;  ///< s without a message until the topic is silent
+  double timeout = urban_nav_live::TopicMonitor::kNoTimeout;  ///< s without a message until the topic is silent
   std::string group;                                          ///< of urban_nav_live::TopicMonitor
   bool is_monitored = true;                                   ///< a topic on which nothing need arrive is not
   bool is_paused = true;  ///< messages are dropped in a pause; odometry must not have a gap

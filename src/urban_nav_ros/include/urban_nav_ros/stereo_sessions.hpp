@@ -35,7 +35,7 @@ class StereoSessions {
                                sensor_msgs::ImuConstPtr>;
 
   struct Options {
-    std::string base_frame = urban_nav_core::frames::base_link;
+    std::string base_frame = urban_nav_core::frames::kBaseLink;
     bool rectified = false;         ///< the images are rectified already
     bool judges_images = false;     ///< `rectified` is a guess: the first pairs decide, where they can
     int queue_size = 200;           ///< messages kept before a session begins
@@ -55,7 +55,7 @@ class StereoSessions {
     std::string contradiction;         ///< sentence where what the images show contradicts their name
     std::string mounting;              ///< sentence on how T_base_left is known
     bool is_mounting_known = false;
-    /// Returns "512x384 px, rectified here; camera at tf base_link -> left".
+    /// Returns "512x384 px, rectified here; camera at tf kBaseLink -> left".
     std::string sentence() const;
   };
   struct Listener {
@@ -108,7 +108,7 @@ class StereoSessions {
   const Listener listener_;
   StaticTransforms transforms_;
   sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
-  std::string imu_frame_ = urban_nav_core::frames::imu;
+  std::string imu_frame_ = urban_nav_core::frames::kImu;
   std::deque<Message> waiting_;  // for a session
   RectificationJudge judge_;
   std::optional<Clock::time_point> first_image_;

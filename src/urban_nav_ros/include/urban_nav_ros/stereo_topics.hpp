@@ -25,7 +25,7 @@ inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInput
                                                const ros::NodeHandle& nh) {
   StereoSessions::Options options;
   options.base_frame = parameters.base_frame;
-  options.rectified = areRectified(parameters.image_type, nh.resolveName(topics::left_image));
+  options.rectified = areRectified(parameters.image_type, nh.resolveName(topics::kLeftImage));
   options.judges_images = parameters.image_type == "auto";
   options.queue_size = parameters.queue_size;
   options.max_lateness = parameters.max_lateness;
@@ -42,20 +42,20 @@ void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bo
   for (const Side side : {Side::Left, Side::Right}) {
     const bool is_left = side == Side::Left;
     TopicOptions once = options;
-    once.timeout = urban_nav_live::TopicMonitor::no_timeout;
+    once.timeout = urban_nav_live::TopicMonitor::kNoTimeout;
     once.queue = 10;
-    node.template subscribeInput<sensor_msgs::CameraInfo>(is_left ? topics::left_info : topics::right_info, once,
+    node.template subscribeInput<sensor_msgs::CameraInfo>(is_left ? topics::kLeftInfo : topics::kRightInfo, once,
                                                           [side](const sensor_msgs::CameraInfoConstPtr& message) {
                                                             return Input(InfoInput{side, message});
                                                           });
-    const char* images = is_left ? topics::left_image : topics::right_image;
+    const char* images = is_left ? topics::kLeftImage : topics::kRightImage;
     const auto toInput = [side](const auto& message) {
       return Input(ImageInput{side, message, toStampNs(message->header.stamp)});
     };
     if (compressed) node.template subscribeInput<sensor_msgs::CompressedImage>(images, options, toInput);
     else node.template subscribeInput<sensor_msgs::Image>(images, options, toInput);
   }
-  node.monitor().expectPairs(node.nh().resolveName(topics::left_image), node.nh().resolveName(topics::right_image));
+  node.monitor().expectPairs(node.nh().resolveName(topics::kLeftImage), node.nh().resolveName(topics::kRightImage));
 }
 
 /// Subscribes to images, camera_info, /tf_static and the motion sensor as inputs of a stage. Requires that Input can be
@@ -66,13 +66,13 @@ void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bo
   const auto forward = [](const auto& message) { return Input(message); };
   TopicOptions unmonitored;
   unmonitored.is_monitored = unmonitored.is_paused = false;
-  node.template subscribeInput<tf2_msgs::TFMessage>(topics::static_transforms, unmonitored, forward);
+  node.template subscribeInput<tf2_msgs::TFMessage>(topics::kStaticTransforms, unmonitored, forward);
   subscribeImages(node, options, compressed);
   if constexpr (std::is_constructible_v<Input, nav_msgs::OdometryConstPtr>)
     if (motion == MotionTopic::Wheels)
-      node.template subscribeInput<nav_msgs::Odometry>(topics::wheel_odometry, options, forward);
+      node.template subscribeInput<nav_msgs::Odometry>(topics::kWheelOdometry, options, forward);
   if constexpr (std::is_constructible_v<Input, sensor_msgs::ImuConstPtr>)
-    if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::imu, options, forward);
+    if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::kImu, options, forward);
 }
 
 }  // namespace urban_nav_ros

@@ -4,52 +4,52 @@
 /// Names of topics, relative to the node's namespace unless they begin with a slash.
 namespace urban_nav_ros::topics {
 
-constexpr const char* static_transforms = "/tf_static";
+constexpr const char* kStaticTransforms = "/tf_static";
 
 // Sensors.
-constexpr const char* left_image = "stereo/left/image_raw";
-constexpr const char* right_image = "stereo/right/image_raw";
-constexpr const char* left_rectified = "stereo/left/image_rect";
-constexpr const char* right_rectified = "stereo/right/image_rect";
-constexpr const char* left_info = "stereo/left/camera_info";
-constexpr const char* right_info = "stereo/right/camera_info";
-constexpr const char* laser_left = "laser_left/scan";
-constexpr const char* laser_right = "laser_right/scan";
-constexpr const char* wheel_odometry = "wheel_odom";
-constexpr const char* imu = "imu/data";
-constexpr const char* gps_fix = "gps/fix";
+constexpr const char* kLeftImage = "stereo/left/image_raw";
+constexpr const char* kRightImage = "stereo/right/image_raw";
+constexpr const char* kLeftRectified = "stereo/left/image_rect";
+constexpr const char* kRightRectified = "stereo/right/image_rect";
+constexpr const char* kLeftInfo = "stereo/left/camera_info";
+constexpr const char* kRightInfo = "stereo/right/camera_info";
+constexpr const char* kLaserLeft = "laser_left/scan";
+constexpr const char* kLaserRight = "laser_right/scan";
+constexpr const char* kWheelOdometry = "wheel_odom";
+constexpr const char* kImu = "imu/data";
+constexpr const char* kGpsFix = "gps/fix";
 
 // swf_vo.
-constexpr const char* vo_odometry = "vo/odometry";
-constexpr const char* vo_relative_pose = "vo/relative_pose";
-constexpr const char* vo_frame = "vo/frame";
-constexpr const char* vo_landmarks = "vo/landmarks";
-constexpr const char* vo_tracks = "vo/tracks";
-constexpr const char* vo_path = "vo/path";
+constexpr const char* kVoOdometry = "vo/odometry";
+constexpr const char* kVoRelativePose = "vo/relative_pose";
+constexpr const char* kVoFrame = "vo/frame";
+constexpr const char* kVoLandmarks = "vo/landmarks";
+constexpr const char* kVoTracks = "vo/tracks";
+constexpr const char* kVoPath = "vo/path";
 
 // dense_stereo.
-constexpr const char* stereo_disparity = "stereo/disparity";
-constexpr const char* stereo_points = "stereo/points2";
-constexpr const char* ground_plane = "stereo/ground_plane";
-constexpr const char* obstacles = "stereo/obstacles";
+constexpr const char* kStereoDisparity = "stereo/disparity";
+constexpr const char* kStereoPoints = "stereo/points2";
+constexpr const char* kGroundPlane = "stereo/ground_plane";
+constexpr const char* kObstacles = "stereo/obstacles";
 
 // Place recognition.
-constexpr const char* place_belief = "places/belief";
-constexpr const char* place_markers = "places/markers";
+constexpr const char* kPlaceBelief = "places/belief";
+constexpr const char* kPlaceMarkers = "places/markers";
 
 // Loop closures.
-constexpr const char* place_closure = "places/closure";
-constexpr const char* metric_closure = "loops/metric";
-constexpr const char* map_constraints = "map/constraints";
+constexpr const char* kPlaceClosure = "places/closure";
+constexpr const char* kMetricClosure = "loops/metric";
+constexpr const char* kMapConstraints = "map/constraints";
 
 // pose_graph.
-constexpr const char* graph_update = "graph/update";
-constexpr const char* graph_jump = "graph/jump";
-constexpr const char* graph_path = "graph/path";
-constexpr const char* graph_state = "graph/state";
-constexpr const char* graph_markers = "graph/markers";
+constexpr const char* kGraphUpdate = "graph/update";
+constexpr const char* kGraphJump = "graph/jump";
+constexpr const char* kGraphPath = "graph/path";
+constexpr const char* kGraphState = "graph/state";
+constexpr const char* kGraphMarkers = "graph/markers";
 
 // The operator.
-constexpr const char* initial_pose = "initialpose";
+constexpr const char* kInitialPose = "initialpose";
 
 }  // namespace urban_nav_ros::topics

@@ -18,8 +18,8 @@ namespace {
 class RectifiedCamera : public testing::Listener {
  public:
   RectifiedCamera() : Listener("stereo_rectify") {
-    keep(topics::left_rectified, left);
-    keep(topics::right_rectified, right);
+    keep(topics::kLeftRectified, left);
+    keep(topics::kRightRectified, right);
   }
 
   void show(urban_nav_core::StampNs stamp) {
@@ -45,10 +45,10 @@ class RectifiedCamera : public testing::Listener {
     images.publish(image);
   }
 
-  ros::Publisher left_image_ = advertise<sensor_msgs::Image>(topics::left_image);
-  ros::Publisher right_image_ = advertise<sensor_msgs::Image>(topics::right_image);
-  ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>(topics::left_info);
-  ros::Publisher right_info_ = advertise<sensor_msgs::CameraInfo>(topics::right_info);
+  ros::Publisher left_image_ = advertise<sensor_msgs::Image>(topics::kLeftImage);
+  ros::Publisher right_image_ = advertise<sensor_msgs::Image>(topics::kRightImage);
+  ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>(topics::kLeftInfo);
+  ros::Publisher right_info_ = advertise<sensor_msgs::CameraInfo>(topics::kRightInfo);
 };
 
 TEST(StereoRectifyNodelet, PublishesEachImageOnceAndReports) {

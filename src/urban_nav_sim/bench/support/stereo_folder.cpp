@@ -41,7 +41,7 @@ void StereoFolder::add(const std::array<cv::Mat, 2>& images, const urban_nav_cor
 }
 
 void StereoFolder::addTruth(const std::array<Picture, 2>& pictures, const std::string& folder) const {
-  const char* const cameras[] = {frames::stereo_left, frames::stereo_right};
+  const char* const cameras[] = {frames::kStereoLeft, frames::kStereoRight};
   for (std::size_t side = 0; side < 2; ++side) {
     const Picture& picture = pictures[side];
     cv::Mat depth(picture.height, picture.width, CV_32F), classes(picture.height, picture.width, CV_8U);

@@ -9,7 +9,7 @@ namespace urban_nav_sim {
 
 /// What the robot carries, as the command line names it.
 enum class Sensor : std::uint8_t { Stereo, Ladybug, Lasers, Imu, Wheels, Gps };
-inline constexpr std::array<Sensor, 6> all_sensors = {Sensor::Stereo, Sensor::Ladybug, Sensor::Lasers,
+inline constexpr std::array<Sensor, 6> kAllSensors = {Sensor::Stereo, Sensor::Ladybug, Sensor::Lasers,
                                                       Sensor::Imu,    Sensor::Wheels,  Sensor::Gps};
 
 /// "stereo", "ladybug", "lasers", "imu", "wheels", "gps".

@@ -22,7 +22,7 @@ struct SessionOptions {
   std::uint32_t seed = 1;
   int day = 1;             ///< 1, 2, ...
   double duration = 60.0;  ///< s
-  std::set<Sensor> sensors{all_sensors.begin(), all_sensors.end()};
+  std::set<Sensor> sensors{kAllSensors.begin(), kAllSensors.end()};
   Defects defects;
   std::set<Sensor> views;  ///< of these cameras and lasers, what each pixel and beam truly met too (ViewTruth)
   std::vector<Fault> faults;

@@ -13,27 +13,28 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr const char* any = "all";
+constexpr const char* kAny = "all";
 
-constexpr std::array<std::pair<Defect, const char*>, 16> names = {{{Defect::Noise, "noise"},
-                                                                   {Defect::Bias, "bias"},
-                                                                   {Defect::Blur, "blur"},
-                                                                   {Defect::Vignetting, "vignetting"},
-                                                                   {Defect::Exposure, "exposure"},
-                                                                   {Defect::Lens, "lens"},
-                                                                   {Defect::Edges, "edges"},
-                                                                   {Defect::Losses, "losses"},
-                                                                   {Defect::Steps, "steps"},
-                                                                   {Defect::Offset, "offset"},
-                                                                   {Defect::Tyres, "tyres"},
-                                                                   {Defect::Slip, "slip"},
-                                                                   {Defect::Multipath, "multipath"},
-                                                                   {Defect::Gaps, "gaps"},
-                                                                   {Defect::Jitter, "jitter"},
-                                                                   {Defect::Clock, "clock"}}};
+constexpr std::array<std::pair<Defect, const char*>, 16> kNames = {{{Defect::Noise, "noise"},
+                                                                    {Defect::Bias, "bias"},
+                                                                    {Defect::Blur, "blur"},
+                                                                    {Defect::Vignetting, "vignetting"},
+                                                                    {Defect::Exposure, "exposure"},
+                                                                    {Defect::Lens, "lens"},
+                                                                    {Defect::Edges, "edges"},
+                                                                    {Defect::Losses, "losses"},
+                                                                    {Defect::Steps, "steps"},
+                                                                    {Defect::Offset, "offset"},
+                                                                    {Defect::Tyres, "tyres"},
+                                                                    {Defect::Slip, "slip"},
+                                                                    {Defect::Multipath, "multipath"},
+                                                                    {Defect::Gaps, "gaps"},
+                                                                    {Defect::Jitter, "jitter"},
+                                                                    {Defect::Clock, "clock"}}};
 
 std::string surfaceClassName(Defect defect) {
-  return std::find_if(names.begin(), names.end(), [defect](const auto& each) { return each.first == defect; })->second;
+  return std::find_if(kNames.begin(), kNames.end(), [defect](const auto& each) { return each.first == defect; })
+      ->second;
 }
 
 bool isUsual(Defect defect) { return defect != Defect::Lens && defect != Defect::Offset && defect != Defect::Clock; }
@@ -67,22 +68,22 @@ std::vector<std::pair<Sensor, Defect>> parse(const std::string& word, const std:
   const std::size_t colon = word.find(':');
   if (colon == std::string::npos) throw UserError(where, "\"" + word + "\"", "SENSOR:DEFECT, as in imu:noise");
   const std::string of = word.substr(0, colon), name = word.substr(colon + 1);
-  const std::vector<Sensor> sensors = of == any ? std::vector<Sensor>(all_sensors.begin(), all_sensors.end())
-                                                : std::vector<Sensor>{parseSensor(of, where)};
+  const std::vector<Sensor> sensors = of == kAny ? std::vector<Sensor>(kAllSensors.begin(), kAllSensors.end())
+                                                 : std::vector<Sensor>{parseSensor(of, where)};
   std::vector<std::pair<Sensor, Defect>> meant;
   for (const Sensor sensor : sensors)
     for (const Defect defect : availableDefects(sensor))
-      if (name == any ? isUsual(defect) : name == surfaceClassName(defect)) meant.emplace_back(sensor, defect);
+      if (name == kAny ? isUsual(defect) : name == surfaceClassName(defect)) meant.emplace_back(sensor, defect);
   if (!meant.empty()) return meant;
   std::string list;
-  for (const auto& each : names) list += (list.empty() ? "" : ", ") + std::string(each.second);
-  throw UserError(where, "defect \"" + word + "\"", of == any ? list : listDefects(sensors.front()));
+  for (const auto& each : kNames) list += (list.empty() ? "" : ", ") + std::string(each.second);
+  throw UserError(where, "defect \"" + word + "\"", of == kAny ? list : listDefects(sensors.front()));
 }
 
 }  // namespace
 
 Defects::Defects() {
-  for (const Sensor sensor : all_sensors)
+  for (const Sensor sensor : kAllSensors)
     for (const Defect defect : availableDefects(sensor))
       if (isUsual(defect)) on_.emplace(sensor, defect);
 }
@@ -97,7 +98,7 @@ void Defects::switchOff(const std::string& word, const std::string& where) {
 
 std::string defectHelp() {
   std::string text = "Defects of the sensors (--with has lens, offset and clock, --without the others):\n";
-  for (const Sensor sensor : all_sensors) {
+  for (const Sensor sensor : kAllSensors) {
     std::string name = toString(sensor);
     name.resize(9, ' ');
     text += "  " + name + listDefects(sensor) + "\n";

@@ -13,17 +13,17 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::array<const char*, 15> device_fault_names = {"flip",  "garbage", "cut",       "length", "silence",
-                                                            "nak",   "late",    "streaming", "baud",   "mode",
-                                                            "power", "unplug",  "gap",       "delay",  "clock"};
+constexpr std::array<const char*, 15> kDeviceFaultNames = {"flip",  "garbage", "cut",       "length", "silence",
+                                                           "nak",   "late",    "streaming", "baud",   "mode",
+                                                           "power", "unplug",  "gap",       "delay",  "clock"};
 
 }  // namespace
 
-const char* toString(DeviceFaultKind kind) { return device_fault_names[static_cast<std::size_t>(kind)]; }
+const char* toString(DeviceFaultKind kind) { return kDeviceFaultNames[static_cast<std::size_t>(kind)]; }
 
 std::string deviceFaultList() {
   std::string list;
-  for (const char* const name : device_fault_names) list += (list.empty() ? "" : ", ") + std::string(name);
+  for (const char* const name : kDeviceFaultNames) list += (list.empty() ? "" : ", ") + std::string(name);
   return list;
 }
 
@@ -31,10 +31,10 @@ DeviceFault parseDeviceFault(const std::string& text, const std::string& option)
   const std::string where = option + " " + text;
   const auto parts = urban_nav_core::splitAt(text, ':');
   if (parts.size() < 3 || parts.size() > 4) throw UserError(where, "not a fault", "KIND:START_S:DURATION_S[:VALUE]");
-  const auto* const name = std::find(device_fault_names.begin(), device_fault_names.end(), parts[0]);
-  if (name == device_fault_names.end()) throw UserError(where, std::string(parts[0]), deviceFaultList());
+  const auto* const name = std::find(kDeviceFaultNames.begin(), kDeviceFaultNames.end(), parts[0]);
+  if (name == kDeviceFaultNames.end()) throw UserError(where, std::string(parts[0]), deviceFaultList());
   DeviceFault fault;
-  fault.kind = static_cast<DeviceFaultKind>(name - device_fault_names.begin());
+  fault.kind = static_cast<DeviceFaultKind>(name - kDeviceFaultNames.begin());
   const auto start = urban_nav_core::parseNumber(parts[1]), duration = urban_nav_core::parseNumber(parts[2]);
   if (!start || !duration || *start < 0.0 || *duration <= 0.0)
     throw UserError(where, std::string(parts[1]) + ":" + std::string(parts[2]),

@@ -7,7 +7,7 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr DeviceTime server_step = 1'000'000;  // ns
+constexpr DeviceTime kServerStep = 1'000'000;  // ns
 
 DeviceTime readServerClock(clockid_t clock) {
   timespec now{};
@@ -26,7 +26,7 @@ std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, 
   device.start(begin.value_or(next));
   bool plugged = true;
   while (!device.isFinished() && !stop()) {
-    next += server_step;
+    next += kServerStep;
     const timespec wake{static_cast<time_t>(next / 1'000'000'000), static_cast<long>(next % 1'000'000'000)};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr);
     const DeviceTime now = serverTime();

@@ -13,7 +13,7 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr DeviceTime session_lead = 4'000'000'000;  // ns, for the other devices to start
+constexpr DeviceTime kSessionLead = 4'000'000'000;  // ns, for the other devices to start
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::int64_t runSimulatedDevice(const SimulatedDeviceJob& job, DeviceReadings re
   const auto device = makeSimulatedDevice(job.kind, std::move(readings), job.options, job.tcp > 0);
   const auto link = job.tcp > 0 ? openTcpServer(job.tcp, gpsdGreeting()) : openPseudoTerminal(job.link);
   std::optional<DeviceTime> begin;
-  if (!job.begin.empty()) begin = urban_nav_core::agreeOnNumber(job.begin, serverTime() + session_lead);
+  if (!job.begin.empty()) begin = urban_nav_core::agreeOnNumber(job.begin, serverTime() + kSessionLead);
   const std::vector<DeviceTruth> truth = serveDevice(*device, *link, stop, begin);
   if (!job.truth.empty()) {
     std::string text = "sequence,true_ns\n";

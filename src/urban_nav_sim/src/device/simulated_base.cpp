@@ -8,10 +8,10 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr double base_period = 0.01, base_memory = 0.4;  // s
-constexpr int base_baud = 460800;
-constexpr double base_track = 0.54, full_turn = 6.283185307179586;
-constexpr std::size_t packet_size = 18;
+constexpr double kBasePeriod = 0.01, kBaseMemory = 0.4;  // s
+constexpr int kBaseBaud = 460800;
+constexpr double kBaseTrack = 0.54, kFullTurn = 6.283185307179586;
+constexpr std::size_t kPacketSize = 18;
 
 std::uint8_t packetChecksum(const DeviceBytes& bytes, std::size_t size) {
   unsigned sum = 0;
@@ -39,7 +39,7 @@ unsigned highWord(unsigned value) { return value >> 16; }
 }  // namespace
 
 SimulatedBase::SimulatedBase(std::vector<WheelReading> readings, const DeviceOptions& options)
-    : SimulatedDevice(options, 0.0, base_baud), readings_(std::move(readings)) {}
+    : SimulatedDevice(options, 0.0, kBaseBaud), readings_(std::move(readings)) {}
 
 void SimulatedBase::boot() {
   forward_ = yaw_ = 0.0;
@@ -49,16 +49,16 @@ void SimulatedBase::boot() {
 
 bool SimulatedBase::measure(double t) {
   const double rate = 1.0 + clock().skew;
-  while (static_cast<double>(cycle_) * base_period / rate <= t) {
-    const double time = static_cast<double>(cycle_) * base_period;
+  while (static_cast<double>(cycle_) * kBasePeriod / rate <= t) {
+    const double time = static_cast<double>(cycle_) * kBasePeriod;
     while (next_ < readings_.size() && readings_[next_].time <= time) {
       velocity_ = readings_[next_].velocity;
       yaw_rate_ = readings_[next_].yaw_rate;
       ++next_;
     }
-    forward_ += velocity_ * base_period;
-    yaw_ += yaw_rate_ * base_period;
-    if (now() - commanded_at_ > base_memory) command_velocity_ = command_turn_ = 0;
+    forward_ += velocity_ * kBasePeriod;
+    yaw_ += yaw_rate_ * kBasePeriod;
+    if (now() - commanded_at_ > kBaseMemory) command_velocity_ = command_turn_ = 0;
     sendMeasurement(cyclePackets(), time / rate, cycle_);
     ++cycle_;
     ++servo_frames_;
@@ -68,12 +68,12 @@ bool SimulatedBase::measure(double t) {
 }
 
 DeviceBytes SimulatedBase::cyclePackets() const {
-  const double per_degree = 7.8 * 360.0 / full_turn, half = 0.5 * base_track;
+  const double per_degree = 7.8 * 360.0 / kFullTurn, half = 0.5 * kBaseTrack;
   const unsigned left = counts(332.0 * (velocity_ - half * yaw_rate_)),
                  right = counts(332.0 * (velocity_ + half * yaw_rate_));
   const unsigned left_travel = counts(33215.0 * (forward_ - half * yaw_)),
                  right_travel = counts(33215.0 * (forward_ + half * yaw_));
-  const unsigned forward = counts(33215.0 * forward_), yaw = counts(112644.0 * yaw_ / full_turn);
+  const unsigned forward = counts(33215.0 * forward_), yaw = counts(112644.0 * yaw_ / kFullTurn);
   DeviceBytes bytes;
   appendPacket(bytes, 0x400, {0, 0, 0, 0});
   appendPacket(bytes, 0x401, {0, 0, 0, 0});
@@ -91,8 +91,8 @@ void SimulatedBase::takeByte(std::uint8_t byte) {
   pending_.push_back(byte);
   while (!pending_.empty() && (pending_[0] != 0xF0 || (pending_.size() > 1 && pending_[1] != 0x55)))
     pending_.erase(pending_.begin());
-  if (pending_.size() < packet_size) return;
-  if (packetChecksum(pending_, packet_size - 1) != pending_[packet_size - 1]) {
+  if (pending_.size() < kPacketSize) return;
+  if (packetChecksum(pending_, kPacketSize - 1) != pending_[kPacketSize - 1]) {
     pending_.erase(pending_.begin());
     return;
   }

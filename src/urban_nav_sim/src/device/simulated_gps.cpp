@@ -9,9 +9,9 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr int gps_baud = 9600, gpsd_rate = 100'000'000;
-constexpr double gps_least_delay = 0.0;                                                    // ms
-constexpr double knots_per_mps = 3600.0 / 1852.0, geoid_height = 47.0, range_error = 4.5;  // m
+constexpr int kGpsBaud = 9600, kGpsdRate = 100'000'000;
+constexpr double kGpsLeastDelay = 0.0;                                                    // ms
+constexpr double kKnotsPerMps = 3600.0 / 1852.0, kGeoidHeight = 47.0, kRangeError = 4.5;  // m
 
 std::string withChecksum(const std::string& body) {
   unsigned sum = 0;
@@ -62,15 +62,15 @@ std::string nmeaOfReading(const GpsReading& reading, double seconds) {
            withChecksum("GPGSA,A,1,,,,,,,,,,,,,,,") +
            withChecksum("GPRMC," + std::string(time) + ",V,,,,,,," + date + ",,,N");
   const std::string place = nmeaAngle(reading.latitude, 2, 'N', 'S') + "," + nmeaAngle(reading.longitude, 3, 'E', 'W');
-  const double hdop = reading.sigma * std::sqrt(2.0) / range_error;
+  const double hdop = reading.sigma * std::sqrt(2.0) / kRangeError;
   std::snprintf(text, sizeof(text), "GPGGA,%s,%s,1,08,%.1f,%.1f,M,%.1f,M,,", time, place.c_str(), hdop,
-                reading.height - geoid_height, geoid_height);
+                reading.height - kGeoidHeight, kGeoidHeight);
   std::string sentences = withChecksum(text);
   std::snprintf(text, sizeof(text), "GPGSA,A,3,01,02,03,04,05,06,07,08,,,,,%.1f,%.1f,%.1f", 2.0 * hdop, hdop,
                 1.6 * hdop);
   sentences += withChecksum(text);
-  std::snprintf(text, sizeof(text), "GPRMC,%s,A,%s,%.2f,%.2f,%s,,,A", time, place.c_str(),
-                knots_per_mps * reading.speed, reading.track, date);
+  std::snprintf(text, sizeof(text), "GPRMC,%s,A,%s,%.2f,%.2f,%s,,,A", time, place.c_str(), kKnotsPerMps * reading.speed,
+                reading.track, date);
   return sentences + withChecksum(text);
 }
 
@@ -107,7 +107,7 @@ std::string gpsdWatchAnswer() {
 }
 
 SimulatedGps::SimulatedGps(std::vector<GpsReading> readings, double utc, bool gpsd, const DeviceOptions& options)
-    : SimulatedDevice(options, gps_least_delay, gpsd ? gpsd_rate : gps_baud),
+    : SimulatedDevice(options, kGpsLeastDelay, gpsd ? kGpsdRate : kGpsBaud),
       readings_(std::move(readings)),
       utc_(utc),
       gpsd_(gpsd) {}

@@ -9,9 +9,9 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr int imu_baud = 115200;
-constexpr double imu_least_delay = 2.5;    // ms, with orientation
-constexpr double imu_reply_delay = 0.005;  // s
+constexpr int kImuBaud = 115200;
+constexpr double kImuLeastDelay = 2.5;    // ms, with orientation
+constexpr double kImuReplyDelay = 0.005;  // s
 
 DeviceBytes imuMessage(std::uint8_t mid, const DeviceBytes& data) {
   DeviceBytes message = {0xFA, 0xFF, mid, static_cast<std::uint8_t>(data.size())};
@@ -39,7 +39,7 @@ std::array<double, 4> nwuFromEnu(const std::array<double, 4>& q) {
 }  // namespace
 
 SimulatedImu::SimulatedImu(std::vector<ImuReading> readings, const DeviceOptions& options)
-    : SimulatedDevice(options, imu_least_delay, imu_baud), readings_(std::move(readings)) {
+    : SimulatedDevice(options, kImuLeastDelay, kImuBaud), readings_(std::move(readings)) {
   if (findDeviceFault(options.faults, DeviceFaultKind::Mode, 0.0) != nullptr) mode_ = {0, 2};
 }
 
@@ -92,10 +92,10 @@ void SimulatedImu::takeByte(std::uint8_t byte) {
 
 void SimulatedImu::answer(std::uint8_t mid, const DeviceBytes& data) {
   const auto reply = [&](const DeviceBytes& content) {
-    sendReply(imuMessage(static_cast<std::uint8_t>(mid + 1), content), imu_reply_delay);
+    sendReply(imuMessage(static_cast<std::uint8_t>(mid + 1), content), kImuReplyDelay);
   };
   if (fault(DeviceFaultKind::Nak) != nullptr) {
-    sendReply(imuMessage(0x42, {0x04}), imu_reply_delay);
+    sendReply(imuMessage(0x42, {0x04}), kImuReplyDelay);
     return;
   }
   const std::string product = "MTi-28A53G35";
@@ -120,14 +120,14 @@ void SimulatedImu::answer(std::uint8_t mid, const DeviceBytes& data) {
       boot();
       break;
     case 0x3F: measures_ = false; break;
-    default: sendReply(imuMessage(0x42, {0x04}), imu_reply_delay); break;
+    default: sendReply(imuMessage(0x42, {0x04}), kImuReplyDelay); break;
   }
 }
 
 void SimulatedImu::answerSetting(std::uint8_t mid, DeviceBytes& setting, const DeviceBytes& data) {
   const bool writes = data.size() == setting.size();
   if (writes) setting = data;
-  sendReply(imuMessage(static_cast<std::uint8_t>(mid + 1), writes ? DeviceBytes() : setting), imu_reply_delay);
+  sendReply(imuMessage(static_cast<std::uint8_t>(mid + 1), writes ? DeviceBytes() : setting), kImuReplyDelay);
 }
 
 }  // namespace urban_nav_sim

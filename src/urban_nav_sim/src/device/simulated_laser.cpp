@@ -9,11 +9,11 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr int slow_baud = 9600, fast_baud = 500000;
-constexpr double laser_least_delay = 3.33 + 1.0;  // ms, the scan and the first byte after it
-constexpr double reply_delay = 0.01;              // s
-constexpr std::uint8_t laser_status = 0x10;
-constexpr unsigned open_air = 0x7FFF, largest_range = 0x7FF6;
+constexpr int kSlowBaud = 9600, kFastBaud = 500000;
+constexpr double kLaserLeastDelay = 3.33 + 1.0;  // ms, the scan and the first byte after it
+constexpr double kReplyDelay = 0.01;             // s
+constexpr std::uint8_t kLaserStatus = 0x10;
+constexpr unsigned kOpenAir = 0x7FFF, kLargestRange = 0x7FF6;
 
 std::uint16_t sickCrc(const DeviceBytes& bytes) {
   unsigned crc = 0, last = 0;
@@ -41,8 +41,8 @@ DeviceBytes sickTelegram(const DeviceBytes& payload) {
 }
 
 unsigned rangeWord(float range) {
-  if (!std::isfinite(range) || range <= 0.0F) return open_air;
-  return std::min(static_cast<unsigned>(std::lround(1000.0 * range)), largest_range);
+  if (!std::isfinite(range) || range <= 0.0F) return kOpenAir;
+  return std::min(static_cast<unsigned>(std::lround(1000.0 * range)), kLargestRange);
 }
 
 DeviceBytes scanPayload(const LaserReading& reading, bool with_reflectivities, std::int64_t counter) {
@@ -60,31 +60,31 @@ DeviceBytes scanPayload(const LaserReading& reading, bool with_reflectivities, s
     }
   }
   payload.push_back(static_cast<std::uint8_t>(counter & 0xFF));
-  payload.push_back(laser_status);
+  payload.push_back(kLaserStatus);
   return payload;
 }
 
 }  // namespace
 
 SimulatedLaser::SimulatedLaser(std::vector<LaserReading> readings, const DeviceOptions& options)
-    : SimulatedDevice(options, laser_least_delay, slow_baud), readings_(std::move(readings)), configuration_(34, 0) {
+    : SimulatedDevice(options, kLaserLeastDelay, kSlowBaud), readings_(std::move(readings)), configuration_(34, 0) {
   configuration_[5] = 0x05;
   configuration_[6] = 0x01;
   if (findDeviceFault(options.faults, DeviceFaultKind::Mode, 0.0) != nullptr) configuration_[5] = 0x3F;
   if (findDeviceFault(options.faults, DeviceFaultKind::Streaming, 0.0) != nullptr) {
     streams_ = true;
-    setBaud(fast_baud);
+    setBaud(kFastBaud);
   }
 }
 
 void SimulatedLaser::boot() {
-  setBaud(slow_baud);
+  setBaud(kSlowBaud);
   streams_ = installation_ = false;
   pending_.clear();
   const std::string text = "LMS291;S14;X1.15";
   DeviceBytes payload = {0x90};
   payload.insert(payload.end(), text.begin(), text.end());
-  payload.push_back(laser_status);
+  payload.push_back(kLaserStatus);
   sendNow(sickTelegram(payload));
 }
 
@@ -113,7 +113,7 @@ bool SimulatedLaser::measure(double t) {
       restarted_ = true;
       counter_ = 0;
     }
-    if (streams_ && baud() == fast_baud)
+    if (streams_ && baud() == kFastBaud)
       sendMeasurement(sickTelegram(scanPayload(reading, with_reflectivities_, counter_)), reading.time / rate,
                       sequence_);
     ++sequence_;
@@ -137,18 +137,18 @@ void SimulatedLaser::takeByte(std::uint8_t byte) {
   const unsigned stated = pending_[pending_.size() - 2] + 256U * pending_.back();
   pending_.clear();
   if (stated != sickCrc(telegram) || fault(DeviceFaultKind::Nak) != nullptr) {
-    sendReply({0x15}, reply_delay);
+    sendReply({0x15}, kReplyDelay);
     return;
   }
   answer(DeviceBytes(telegram.begin() + 4, telegram.end()));
 }
 
 void SimulatedLaser::reply(DeviceBytes payload) {
-  payload.push_back(laser_status);
+  payload.push_back(kLaserStatus);
   DeviceBytes bytes = {0x06};
   const DeviceBytes telegram = sickTelegram(payload);
   bytes.insert(bytes.end(), telegram.begin(), telegram.end());
-  sendReply(std::move(bytes), reply_delay);
+  sendReply(std::move(bytes), kReplyDelay);
 }
 
 void SimulatedLaser::answer(const DeviceBytes& payload) {
@@ -162,7 +162,7 @@ void SimulatedLaser::answer(const DeviceBytes& payload) {
       status[8] = streams_ ? 0x50 : 0x25;
       status[107] = 90;
       status[109] = 50;
-      status[116] = baud() == fast_baud ? 0x01 : 0x67;
+      status[116] = baud() == kFastBaud ? 0x01 : 0x67;
       status[117] = 0x80;
       status[122] = configuration_[6];
       reply(status);
@@ -213,10 +213,10 @@ void SimulatedLaser::answerMode(const DeviceBytes& payload) {
       installation_ = false;
       with_reflectivities_ = payload[1] == 0x50;
       break;
-    case 0x48: rate = fast_baud; break;
+    case 0x48: rate = kFastBaud; break;
     case 0x40: rate = 38400; break;
     case 0x41: rate = 19200; break;
-    case 0x42: rate = slow_baud; break;
+    case 0x42: rate = kSlowBaud; break;
     default: result = 2; break;
   }
   reply({0xA0, result});

@@ -14,12 +14,12 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::array<FaultKind, 7> all_kinds = {FaultKind::Drop, FaultKind::Freeze, FaultKind::Swap, FaultKind::Corrupt,
+constexpr std::array<FaultKind, 7> kAllKinds = {FaultKind::Drop, FaultKind::Freeze, FaultKind::Swap, FaultKind::Corrupt,
                                                 FaultKind::Jump, FaultKind::Unplug, FaultKind::Nan};
-constexpr const char* form = "KIND:SENSOR:START_S:DURATION_S[:VALUE], as in drop:stereo:10:2:0.5";
+constexpr const char* kForm = "KIND:SENSOR:START_S:DURATION_S[:VALUE], as in drop:stereo:10:2:0.5";
 
 FaultKind parseKind(std::string_view word, const std::string& where) {
-  for (const FaultKind kind : all_kinds)
+  for (const FaultKind kind : kAllKinds)
     if (word == toString(kind)) return kind;
   throw UserError(where, "fault \"" + std::string(word) + "\"", faultList());
 }
@@ -51,7 +51,7 @@ const char* toString(FaultKind kind) {
 
 std::string faultList() {
   std::string list;
-  for (const FaultKind kind : all_kinds) list += (list.empty() ? "" : ", ") + std::string(toString(kind));
+  for (const FaultKind kind : kAllKinds) list += (list.empty() ? "" : ", ") + std::string(toString(kind));
   return list;
 }
 
@@ -60,14 +60,14 @@ Fault parseFault(const std::string& text, const std::string& option) {
   const std::vector<std::string_view> parts = urban_nav_core::splitAt(text, ':');
   Fault fault;
   fault.kind = parseKind(parts[0], where);
-  if (parts.size() < 4 || parts.size() > 5) throw UserError(where, "incomplete", form);
+  if (parts.size() < 4 || parts.size() > 5) throw UserError(where, "incomplete", kForm);
   fault.sensor = parseSensor(std::string(parts[1]), where);
   fault.start = within(parts[2], "start", 0.0, 1e6, where);
   fault.duration = within(parts[3], "duration", 0.0, 1e6, where);
   if (parts.size() == 5) {
     if (isShare(fault.kind)) fault.value = within(parts[4], "share", 0.0, 1.0, where);
     else if (fault.kind == FaultKind::Jump) fault.value = within(parts[4], "jump", -1e6, 1e6, where);
-    else throw UserError(where, std::string(toString(fault.kind)) + " takes no value", form);
+    else throw UserError(where, std::string(toString(fault.kind)) + " takes no value", kForm);
   }
   return fault;
 }

@@ -14,7 +14,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double default_drop = 0.3, default_corrupt = 0.3, default_jump = 10.0;
+constexpr double kDefaultDrop = 0.3, kDefaultCorrupt = 0.3, kDefaultJump = 10.0;
 
 struct Origin {
   std::optional<Sensor> operator()(const StereoMeasurement&) const { return Sensor::Stereo; }
@@ -51,9 +51,9 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
     case FaultKind::Swap:
       if (!swapSides(measurement)) freeze();
       return;
-    case FaultKind::Corrupt: return corrupt(fault.value.value_or(default_corrupt), hash(seed_, count_), measurement);
+    case FaultKind::Corrupt: return corrupt(fault.value.value_or(kDefaultCorrupt), hash(seed_, count_), measurement);
     case FaultKind::Jump:
-      return setStamp(toStamp(measurement) + std::llround(1e9 * fault.value.value_or(default_jump)), measurement);
+      return setStamp(toStamp(measurement) + std::llround(1e9 * fault.value.value_or(kDefaultJump)), measurement);
     case FaultKind::Nan: return blank(measurement);
   }
 }
@@ -69,7 +69,7 @@ std::optional<Measurement> FaultFilter::apply(Measurement measurement, StampNs t
     if (fault.sensor != *sensor || !fault.isActive(t)) continue;
     if (fault.kind == FaultKind::Unplug) return std::nullopt;
     if (fault.kind == FaultKind::Drop) {
-      if (toUniform(hash(seed_, count_, 1)) < fault.value.value_or(default_drop)) return std::nullopt;
+      if (toUniform(hash(seed_, count_, 1)) < fault.value.value_or(kDefaultDrop)) return std::nullopt;
       continue;
     }
     spoil(fault, stream, measurement);

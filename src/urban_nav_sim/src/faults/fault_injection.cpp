@@ -12,7 +12,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <typename Any>
 void set(StampNs stamp, Any& measurement) {
@@ -97,17 +97,17 @@ struct Blank {
     turn.scan.ranges.assign(turn.scan.ranges.size(), std::numeric_limits<float>::quiet_NaN());
   }
   void operator()(ImuMeasurement& imu) const {
-    imu.rate.setConstant(nan);
-    imu.specific_force.setConstant(nan);
-    imu.field.setConstant(nan);
+    imu.rate.setConstant(kNan);
+    imu.specific_force.setConstant(kNan);
+    imu.field.setConstant(kNan);
   }
   void operator()(WheelMeasurement& wheels) const {
-    wheels.T_odom_base = urban_nav_core::Pose(wheels.T_odom_base.q(), Eigen::Vector3d::Constant(nan));
-    wheels.speed = wheels.yaw_rate = nan;
+    wheels.T_odom_base = urban_nav_core::Pose(wheels.T_odom_base.q(), Eigen::Vector3d::Constant(kNan));
+    wheels.speed = wheels.yaw_rate = kNan;
   }
   void operator()(GpsMeasurement& gps) const {
-    gps.latitude = gps.longitude = gps.altitude = nan;
-    gps.velocity.setConstant(nan);
+    gps.latitude = gps.longitude = gps.altitude = kNan;
+    gps.velocity.setConstant(kNan);
   }
   void operator()(TruthMeasurement&) const {}
   void operator()(ViewTruth&) const {}

@@ -18,10 +18,10 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr double radius = 30.0;   // m
-constexpr float spacing = 0.05F;  // m
-constexpr double sunk = 0.3;  // m: walls go on below the ground; the land around a site is seen, and lies 0.15 m lower
-constexpr std::size_t row_bytes = 3 * sizeof(float) + 1;
+constexpr double kRadius = 30.0;   // m
+constexpr float kSpacing = 0.05F;  // m
+constexpr double kSunk = 0.3;  // m: walls go on below the ground; the land around a site is seen, and lies 0.15 m lower
+constexpr std::size_t kRowBytes = 3 * sizeof(float) + 1;
 
 /// Calls point(p, class) for each, always in the same order.
 template <typename Point>
@@ -33,10 +33,10 @@ void forEachPoint(const World& world, const RouteDistance& near, const Point& po
       const Vector3f &a = part.vertices[triangle[0]], &b = part.vertices[triangle[1]], &c = part.vertices[triangle[2]];
       const Vector3f low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
       if (!near.touches(low.head<2>(), high.head<2>())) continue;
-      sampleTriangle(a, b, c, spacing, [&](const Vector3f& w) {
+      sampleTriangle(a, b, c, kSpacing, [&](const Vector3f& w) {
         const Vector3f p = w[0] * a + w[1] * b + w[2] * c;
         if (!near.has(p.x(), p.y())) return;
-        if (world.ground && p.z() < world.ground(p.x(), p.y()) - sunk) return;
+        if (world.ground && p.z() < world.ground(p.x(), p.y()) - kSunk) return;
         if (holes) {
           const Vector2f at =
               w[0] * part.texture[triangle[0]] + w[1] * part.texture[triangle[1]] + w[2] * part.texture[triangle[2]];
@@ -80,7 +80,7 @@ void sampleTriangle(const Vector3f& a, const Vector3f& b, const Vector3f& c, flo
 }
 
 void writeCloud(const std::string& path, const World& world, const Motion& motion) {
-  const RouteDistance near(motion, radius);
+  const RouteDistance near(motion, kRadius);
   std::size_t count = 0;
   forEachPoint(world, near, [&count](const Vector3f&, SurfaceClass) { ++count; });
   urban_nav_core::AtomicFile file(path);
@@ -91,7 +91,7 @@ void writeCloud(const std::string& path, const World& world, const Motion& motio
         "6 foliage, 7 vehicle"}},
       count));
   forEachPoint(world, near, [&file](const Vector3f& p, SurfaceClass surface_class) {
-    std::array<char, row_bytes> row;
+    std::array<char, kRowBytes> row;
     std::memcpy(row.data(), p.data(), 3 * sizeof(float));
     row.back() = static_cast<char>(surface_class);
     file.write(std::string_view(row.data(), row.size()));

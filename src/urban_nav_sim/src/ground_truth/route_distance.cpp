@@ -9,24 +9,24 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr float cell = 0.5F;   // m
-constexpr double apart = 0.5;  // m, of the places whose surroundings are marked
-constexpr double look = 0.05;  // s
+constexpr float kRouteCell = 0.5F;  // m
+constexpr double kApart = 0.5;      // m, of the places whose surroundings are marked
+constexpr double kLook = 0.05;      // s
 
 /// Places along the way, some half a metre apart.
 std::vector<Eigen::Vector2d> samplePositions(const Motion& motion) {
   std::vector<Eigen::Vector2d> places;
-  const auto steps = static_cast<int>(std::ceil(motion.duration() / look));
+  const auto steps = static_cast<int>(std::ceil(motion.duration() / kLook));
   for (int i = 0; i <= steps; ++i) {
-    const Eigen::Vector2d here = motion.at(std::min(i * look, motion.duration())).T_world_base.t().head<2>();
-    if (places.empty() || (here - places.back()).norm() > apart || i == steps) places.push_back(here);
+    const Eigen::Vector2d here = motion.at(std::min(i * kLook, motion.duration())).T_world_base.t().head<2>();
+    if (places.empty() || (here - places.back()).norm() > kApart || i == steps) places.push_back(here);
   }
   return places;
 }
 
 }  // namespace
 
-int RouteDistance::cellIndex(float metres) { return static_cast<int>(std::floor(metres / cell)); }
+int RouteDistance::cellIndex(float metres) { return static_cast<int>(std::floor(metres / kRouteCell)); }
 
 RouteDistance::RouteDistance(const Motion& motion, double radius) {
   const std::vector<Eigen::Vector2d> places = samplePositions(motion);
@@ -46,7 +46,7 @@ void RouteDistance::mark(const Eigen::Vector2d& place, double radius) {
   const Eigen::Vector2f middle = place.cast<float>() - low_;
   const auto r = static_cast<float>(radius);
   for (int j = std::max(0, cellIndex(middle.y() - r)); j <= std::min(rows_ - 1, cellIndex(middle.y() + r)); ++j) {
-    const float dy = (static_cast<float>(j) + 0.5F) * cell - middle.y();
+    const float dy = (static_cast<float>(j) + 0.5F) * kRouteCell - middle.y();
     const float half = std::sqrt(std::max(0.0F, r * r - dy * dy));
     const int first = std::max(0, cellIndex(middle.x() - half)),
               last = std::min(columns_ - 1, cellIndex(middle.x() + half));

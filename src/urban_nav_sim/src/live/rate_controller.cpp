@@ -9,11 +9,11 @@ using urban_nav_core::StampNs;
 namespace {
 
 // A panorama may take half a second to render, which the frames after it make good.
-constexpr std::chrono::seconds max_lag{1};
-constexpr std::chrono::milliseconds between_marks{250};
-constexpr std::chrono::seconds remembered{5};
-constexpr double measurable = 1.0;  // s
-constexpr double slow = 0.95;       // of what was asked for
+constexpr std::chrono::seconds kMaxLag{1};
+constexpr std::chrono::milliseconds kBetweenMarks{250};
+constexpr std::chrono::seconds kRemembered{5};
+constexpr double kMeasurable = 1.0;  // s
+constexpr double kSlow = 0.95;       // of what was asked for
 
 double seconds(std::chrono::steady_clock::duration time) { return duration<double>(time).count(); }
 
@@ -24,7 +24,7 @@ RateController::Wall RateController::due(StampNs taken, Wall now) {
   if (!anchor_) anchor_ = {now, taken};
   const duration<double> since(1e-9 * static_cast<double>(taken - anchor_->taken) / rate_);
   const Wall due = anchor_->wall + std::chrono::duration_cast<std::chrono::steady_clock::duration>(since);
-  if (now - due <= max_lag) return due;
+  if (now - due <= kMaxLag) return due;
   slipped_ = true;
   anchor_ = {now, taken};
   return now;
@@ -36,21 +36,21 @@ void RateController::restart() {
 }
 
 void RateController::passed(StampNs taken, Wall now) {
-  if (!marks_.empty() && now - marks_.back().wall < between_marks) return;
+  if (!marks_.empty() && now - marks_.back().wall < kBetweenMarks) return;
   marks_.push_back({now, taken});
-  while (marks_.size() > 2 && now - marks_[1].wall >= remembered) marks_.pop_front();
+  while (marks_.size() > 2 && now - marks_[1].wall >= kRemembered) marks_.pop_front();
 }
 
 std::optional<double> RateController::factor() const {
   if (marks_.size() < 2) return std::nullopt;
   const double wall = seconds(marks_.back().wall - marks_.front().wall);
-  if (wall < measurable) return std::nullopt;
+  if (wall < kMeasurable) return std::nullopt;
   return 1e-9 * static_cast<double>(marks_.back().taken - marks_.front().taken) / wall;
 }
 
 bool RateController::isSlow() const {
   const std::optional<double> now = factor();
-  return slipped_ && now && *now < slow * rate_;
+  return slipped_ && now && *now < kSlow * rate_;
 }
 
 }  // namespace urban_nav_sim

@@ -19,12 +19,12 @@ const char* toString(Sensor sensor) {
 
 std::string sensorList() {
   std::string list;
-  for (const Sensor sensor : all_sensors) list += (list.empty() ? "" : ", ") + std::string(toString(sensor));
+  for (const Sensor sensor : kAllSensors) list += (list.empty() ? "" : ", ") + std::string(toString(sensor));
   return list;
 }
 
 Sensor parseSensor(const std::string& word, const std::string& where) {
-  for (const Sensor sensor : all_sensors)
+  for (const Sensor sensor : kAllSensors)
     if (word == toString(sensor)) return sensor;
   throw urban_nav_core::UserError(where, "sensor \"" + word + "\"", sensorList());
 }

@@ -15,10 +15,10 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr double half_baseline = 0.0600025;          // m
-constexpr double ladybug_height = 1.4;               // m
-constexpr double ladybug_radius = 0.04;              // m, of the ring of lenses
-constexpr double between_lenses = 2.0 * M_PI / 5.0;  // rad, clockwise seen from above
+constexpr double kHalfBaseline = 0.0600025;          // m
+constexpr double kLadybugHeight = 1.4;               // m
+constexpr double kLadybugRadius = 0.04;              // m, of the ring of lenses
+constexpr double kBetweenLenses = 2.0 * M_PI / 5.0;  // rad, clockwise seen from above
 
 /// Axes of an optical frame that looks along `yaw` (rad, from x to y) on the level.
 Matrix3d looking(double yaw) {
@@ -31,25 +31,25 @@ Matrix3d looking(double yaw) {
 
 std::map<std::string, Pose> sensorPlaces() {
   std::map<std::string, Pose> places;
-  places[frames::stereo_left] = Pose(looking(0.0), Vector3d(0.1, half_baseline, 1.1));
-  places[frames::stereo_right] = Pose(looking(0.0), Vector3d(0.1, -half_baseline, 1.1));
+  places[frames::kStereoLeft] = Pose(looking(0.0), Vector3d(0.1, kHalfBaseline, 1.1));
+  places[frames::kStereoRight] = Pose(looking(0.0), Vector3d(0.1, -kHalfBaseline, 1.1));
   for (int i = 0; i < 5; ++i) {
-    const double yaw = -i * between_lenses;
+    const double yaw = -i * kBetweenLenses;
     places[frames::ladybugCamera(i)] =
-        Pose(looking(yaw), Vector3d(ladybug_radius * std::cos(yaw), ladybug_radius * std::sin(yaw), ladybug_height));
+        Pose(looking(yaw), Vector3d(kLadybugRadius * std::cos(yaw), kLadybugRadius * std::sin(yaw), kLadybugHeight));
   }
   // x along the middle beam, z forward: the scan planes stand upright and across the direction of travel.
   Matrix3d left, right;
   left << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   right << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  places[frames::laser_left] = Pose(left, Vector3d(-0.030, 0.270, 0.75));
-  places[frames::laser_right] = Pose(right, Vector3d(-0.030, -0.270, 0.75));
-  places[frames::imu] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, 0.50));
-  places[frames::gps] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(-0.15, 0.0, 1.30));
+  places[frames::kLaserLeft] = Pose(left, Vector3d(-0.030, 0.270, 0.75));
+  places[frames::kLaserRight] = Pose(right, Vector3d(-0.030, -0.270, 0.75));
+  places[frames::kImu] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, 0.50));
+  places[frames::kGps] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(-0.15, 0.0, 1.30));
   return places;
 }
 
-Pose ladybugPlace() { return Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, ladybug_height)); }
+Pose ladybugPlace() { return Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, kLadybugHeight)); }
 
 Pose sensorPose(const std::string& frame) { return sensorPlaces().at(frame); }
 

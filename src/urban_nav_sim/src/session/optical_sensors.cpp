@@ -52,12 +52,12 @@ class OpticalSensors::Implementation {
         views_(views),
         tracer_(world),
         sky_(world.day, noise.of("sky").bits(0)),
-        stereo_(tracer_, sky_, stereoImages(defects), sensorPose(frames::stereo_left), noise.of("stereo").bits(0),
+        stereo_(tracer_, sky_, stereoImages(defects), sensorPose(frames::kStereoLeft), noise.of("stereo").bits(0),
                 cameraDefects(defects, Sensor::Stereo)),
         ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0), cameraDefects(defects, Sensor::Ladybug)),
-        left_laser_(tracer_, sensorPose(frames::laser_left), noise.of("lasers").bits(0), frames::laser_left,
+        left_laser_(tracer_, sensorPose(frames::kLaserLeft), noise.of("lasers").bits(0), frames::kLaserLeft,
                     laserSettings(defects)),
-        right_laser_(tracer_, sensorPose(frames::laser_right), noise.of("lasers").bits(0), frames::laser_right,
+        right_laser_(tracer_, sensorPose(frames::kLaserRight), noise.of("lasers").bits(0), frames::kLaserRight,
                      laserSettings(defects)) {}
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
@@ -66,8 +66,8 @@ class OpticalSensors::Implementation {
     auto [left, right] = stereo_.take(motion_, t);
     std::vector<Measurement> measurements = {StereoMeasurement{stamp, std::move(left), std::move(right)}};
     if (views_.count(Sensor::Stereo) != 0) {
-      measurements.emplace_back(toViewTruth(stereo_.pictures()[0], frames::stereo_left, stamp));
-      measurements.emplace_back(toViewTruth(stereo_.pictures()[1], frames::stereo_right, stamp));
+      measurements.emplace_back(toViewTruth(stereo_.pictures()[0], frames::kStereoLeft, stamp));
+      measurements.emplace_back(toViewTruth(stereo_.pictures()[1], frames::kStereoRight, stamp));
     }
     return measurements;
   }
@@ -96,7 +96,7 @@ class OpticalSensors::Implementation {
         side, device.scan(motion_, t, stamp, static_cast<std::uint64_t>(k), is_viewed ? &beams : nullptr)}};
     if (is_viewed)
       measurements.emplace_back(
-          toViewTruth(beams, side == Side::Left ? frames::laser_left : frames::laser_right, stamp));
+          toViewTruth(beams, side == Side::Left ? frames::kLaserLeft : frames::kLaserRight, stamp));
     return measurements;
   }
 

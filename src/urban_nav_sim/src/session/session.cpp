@@ -26,8 +26,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr StampNs first_day = 1'225'719'873'000'000'000;  // of the New College set: 3 November 2008
-constexpr StampNs one_day = 86'400'000'000'000;
+constexpr StampNs kFirstDay = 1'225'719'873'000'000'000;  // of the New College set: 3 November 2008
+constexpr StampNs kOneDay = 86'400'000'000'000;
 
 bool seesTheWorld(Sensor sensor) {
   return sensor == Sensor::Stereo || sensor == Sensor::Ladybug || sensor == Sensor::Lasers;
@@ -69,7 +69,7 @@ class Session::Implementation {
         route_(makeRoute(options_)),
         world_(buildWorld(options_.world, options_.seed, options_.day)),
         motion_(simulateDrive(world_, route_, rideOptions(options_))),
-        begin_(first_day + (options_.day - 1) * one_day),
+        begin_(kFirstDay + (options_.day - 1) * kOneDay),
         noise_(Noise(options_.seed, "session").of(static_cast<std::uint64_t>(options_.day))),
         timeline_(options_.duration),
         faults_(options_.faults, options_.seed, begin_) {
@@ -96,7 +96,7 @@ class Session::Implementation {
   void writeTruth(const std::string& folder, double false_closures) const {
     writeTruthFiles(folder, *motion_, truthClock(), sensorClock(Sensor::Ladybug), false_closures, options_.seed);
     std::map<Sensor, ClockOptions> clocks;
-    for (const Sensor sensor : all_sensors) clocks[sensor] = clockErrors(sensor);
+    for (const Sensor sensor : kAllSensors) clocks[sensor] = clockErrors(sensor);
     writeClocks(folder + "/clocks.csv", clocks);
     writeCloud(folder + "/cloud.ply", world_, *motion_);
   }
@@ -117,7 +117,7 @@ class Session::Implementation {
   }
 
   void addImu() {
-    imu_.emplace(*motion_, sensorPose(urban_nav_core::frames::imu), imuOptions(options_.defects),
+    imu_.emplace(*motion_, sensorPose(urban_nav_core::frames::kImu), imuOptions(options_.defects),
                  sensorClock(Sensor::Imu), noise_.of("imu errors"));
     timeline_.add(sensorSchedule(Sensor::Imu),
                   [this](std::int64_t k) { return std::vector<Measurement>{imu_->at(k)}; });
@@ -131,7 +131,7 @@ class Session::Implementation {
   }
 
   void addGps() {
-    gps_.emplace(*motion_, sensorPose(urban_nav_core::frames::gps), gpsOptions(options_.defects),
+    gps_.emplace(*motion_, sensorPose(urban_nav_core::frames::kGps), gpsOptions(options_.defects),
                  sensorClock(Sensor::Gps), noise_.of("gps errors"));
     timeline_.add(sensorSchedule(Sensor::Gps),
                   [this](std::int64_t k) { return std::vector<Measurement>{gps_->at(k)}; });
@@ -184,7 +184,7 @@ std::map<std::string, Pose> Session::places() const {
   if (images == StereoImages::Rectified) return places;
   // Raw images are those of the cameras as they are mounted: camera_info's R turns them into the rectified pair.
   const std::array<Camera, 2> cameras = bumblebee(images);
-  const char* const frames[] = {urban_nav_core::frames::stereo_left, urban_nav_core::frames::stereo_right};
+  const char* const frames[] = {urban_nav_core::frames::kStereoLeft, urban_nav_core::frames::kStereoRight};
   for (std::size_t i = 0; i < cameras.size(); ++i)
     places.at(frames[i]) = places.at(frames[i]) * Pose(cameras[i].T_head_camera.R(), Eigen::Vector3d::Zero());
   return places;

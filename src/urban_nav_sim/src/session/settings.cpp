@@ -5,7 +5,7 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr double data_sheet_error = 0.035;  // m: data sheet of the LMS291
+constexpr double kDataSheetError = 0.035;  // m: data sheet of the LMS291
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Lms291::Settings laserSettings(const Defects& defects) {
   if (!defects.has(Sensor::Lasers, Defect::Steps)) settings.step = 0.0;
   settings.mixes = defects.has(Sensor::Lasers, Defect::Edges);
   settings.loses = defects.has(Sensor::Lasers, Defect::Losses);
-  if (defects.has(Sensor::Lasers, Defect::Offset)) settings.systematic_error = data_sheet_error;
+  if (defects.has(Sensor::Lasers, Defect::Offset)) settings.systematic_error = kDataSheetError;
   return settings;
 }
 

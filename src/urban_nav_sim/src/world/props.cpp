@@ -37,14 +37,14 @@ std::function<Pose(double)> toAndFro(const std::vector<Vector2d>& line, double s
 /// From one place to the other, and back underground, out of every sensor's view: for ends that are out of sight.
 std::function<Pose(double)> oneWay(const Vector2d& from, const Vector2d& to, double speed, double phase,
                                    const std::function<double(double, double)>& ground) {
-  constexpr double depth = 8.0;  // m
+  constexpr double kDepth = 8.0;  // m
   const double length = (to - from).norm();
   const Vector2d along = (to - from) / length;
   return [=](double t) {
     const double s = std::fmod(speed * t + 2.0 * length * phase, 2.0 * length);
     const bool back = s > length;
     const Vector2d p = from + (back ? 2.0 * length - s : s) * along;
-    return poseAt({p.x(), p.y(), ground(p.x(), p.y()) - (back ? depth : 0.0)}, std::atan2(along.y(), along.x()));
+    return poseAt({p.x(), p.y(), ground(p.x(), p.y()) - (back ? kDepth : 0.0)}, std::atan2(along.y(), along.x()));
   };
 }
 

@@ -63,13 +63,13 @@ TEST(Edges, OfASurfaceLieWhereTheyAreToAFractionOfAPixel) {
 }
 
 TEST(Edges, OfAShadowToo) {
-  constexpr double off_the_ground = 0.002;  // m: from there rays go to the sun, which is 45 degrees up
+  constexpr double kOffTheGround = 0.002;  // m: from there rays go to the sun, which is 45 degrees up
   World world = emptyWorld();
   // A screen high above the camera, in the sun's way; its shadow begins 20 m further to the right, and leans as it
   // does.
   world.parts.push_back(quad(kWall, {-20.0F, -4.0F, 20.0F}, {10, 0, 0}, {0.8F, 8, 0}));
   expectEdge(
-      fromAbove(world), [](double y) { return 0.1 * (y + 4.0) - off_the_ground; }, 0.26, 0.02);
+      fromAbove(world), [](double y) { return 0.1 * (y + 4.0) - kOffTheGround; }, 0.26, 0.02);
 }
 
 }  // namespace

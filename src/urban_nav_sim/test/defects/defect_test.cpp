@@ -14,7 +14,7 @@ TEST(Defects, SensorsHaveTheUsualOnes) {
   EXPECT_TRUE(defects.has(Sensor::Gps, Defect::Gaps));
   EXPECT_FALSE(defects.has(Sensor::Stereo, Defect::Lens));
   EXPECT_FALSE(defects.has(Sensor::Lasers, Defect::Offset));
-  for (const Sensor sensor : all_sensors) {
+  for (const Sensor sensor : kAllSensors) {
     EXPECT_TRUE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
     EXPECT_FALSE(defects.has(sensor, Defect::Clock)) << toString(sensor);
   }
@@ -35,10 +35,10 @@ TEST(Defects, AreSwitchedOneByOne) {
 TEST(Defects, AllStandsForSensorsAndForUsualDefects) {
   Defects defects;
   defects.switchOff("all:all");
-  for (const Sensor sensor : all_sensors) EXPECT_FALSE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
+  for (const Sensor sensor : kAllSensors) EXPECT_FALSE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
   EXPECT_FALSE(defects.has(Sensor::Lasers, Defect::Edges));
   defects.switchOn("all:clock");
-  for (const Sensor sensor : all_sensors) EXPECT_TRUE(defects.has(sensor, Defect::Clock)) << toString(sensor);
+  for (const Sensor sensor : kAllSensors) EXPECT_TRUE(defects.has(sensor, Defect::Clock)) << toString(sensor);
   defects.switchOn("stereo:all");
   EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Blur));
   EXPECT_FALSE(defects.has(Sensor::Stereo, Defect::Lens));  // a pair of another kind, not one with more errors
@@ -63,7 +63,7 @@ TEST(Defects, SaysWhatThereIs) {
   expectDefectError("sonar:noise", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
   expectDefectError("imu:blur", "imu:blur", "noise, bias, jitter, clock");
   expectDefectError("all:rust", "all:rust", "vignetting");
-  for (const Sensor sensor : all_sensors)
+  for (const Sensor sensor : kAllSensors)
     EXPECT_NE(defectHelp().find(toString(sensor)), std::string::npos) << toString(sensor);
 }
 

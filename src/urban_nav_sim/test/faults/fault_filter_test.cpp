@@ -9,9 +9,9 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr urban_nav_core::StampNs begin = 1'000'000'000'000;
+constexpr urban_nav_core::StampNs kBegin = 1'000'000'000'000;
 
-urban_nav_core::StampNs at(double t) { return begin + std::llround(1e9 * t); }
+urban_nav_core::StampNs at(double t) { return kBegin + std::llround(1e9 * t); }
 
 StereoMeasurement pairAt(double t) {
   const int grey = static_cast<int>(10.0 * t);
@@ -36,7 +36,7 @@ std::optional<Measurement> applied(FaultFilter& filter, const Measurement& measu
   return filter.apply(measurement, toStamp(measurement));
 }
 
-FaultFilter makeFilter(const std::string& fault) { return {{parseFault(fault)}, 7, begin}; }
+FaultFilter makeFilter(const std::string& fault) { return {{parseFault(fault)}, 7, kBegin}; }
 
 TEST(FaultFilter, LeavesOtherTimesAndSensorsAlone) {
   FaultFilter filter = makeFilter("unplug:stereo:1:1");

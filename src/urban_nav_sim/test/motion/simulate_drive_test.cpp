@@ -74,16 +74,16 @@ double distanceToLine(const Vector2d& p, const Route& route) {
 
 TEST(MakeRide, VelocitiesAndAccelerationsAreThoseOfThePose) {
   const auto motion = simulateDrive(hillyWorld(), loop(), optionsFor(40.0));
-  constexpr double h = 1e-4;
+  constexpr double kH = 1e-4;
   for (double t = -0.05; t < 40.05; t += 0.0917) {
-    const MotionState before = motion->at(t - h), now = motion->at(t), after = motion->at(t + h);
-    const Vector3d velocity = (after.T_world_base.t() - before.T_world_base.t()) / (2 * h);
+    const MotionState before = motion->at(t - kH), now = motion->at(t), after = motion->at(t + kH);
+    const Vector3d velocity = (after.T_world_base.t() - before.T_world_base.t()) / (2 * kH);
     EXPECT_LT((velocity - now.velocity_world).norm(), 1e-5) << t;
-    const Vector3d acceleration = (after.velocity_world - before.velocity_world) / (2 * h);
+    const Vector3d acceleration = (after.velocity_world - before.velocity_world) / (2 * kH);
     EXPECT_LT((acceleration - now.acceleration_world).norm(), 1e-3) << t;
     const auto turned = before.T_world_base.q().conjugate() * after.T_world_base.q();
-    EXPECT_LT((urban_nav_core::logSo3(turned) / (2 * h) - now.rate_base).norm(), 1e-5) << t;
-    const Vector3d change = (after.rate_base - before.rate_base) / (2 * h);
+    EXPECT_LT((urban_nav_core::logSo3(turned) / (2 * kH) - now.rate_base).norm(), 1e-5) << t;
+    const Vector3d change = (after.rate_base - before.rate_base) / (2 * kH);
     EXPECT_LT((change - now.rate_change_base).norm(), 1e-3) << t;
   }
 }

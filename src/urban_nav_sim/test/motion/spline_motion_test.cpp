@@ -26,11 +26,11 @@ SplineMotion tumbling() {
 
 TEST(SplineMotion, DerivativesAreThoseOfThePose) {
   const SplineMotion motion = tumbling();
-  constexpr double h = 1e-5;
+  constexpr double kH = 1e-5;
   for (double t = 0.0; t < 4.0; t += 0.0531) {
-    const MotionState before = motion.at(t - h), now = motion.at(t), after = motion.at(t + h);
+    const MotionState before = motion.at(t - kH), now = motion.at(t), after = motion.at(t + kH);
     const auto near = [&](const Vector3d& low, const Vector3d& high, const Vector3d& rate) {
-      return ((high - low) / (2 * h) - rate).norm() < 1e-5 * (10.0 + rate.norm());
+      return ((high - low) / (2 * kH) - rate).norm() < 1e-5 * (10.0 + rate.norm());
     };
     EXPECT_TRUE(near(before.T_world_base.t(), after.T_world_base.t(), now.velocity_world));
     EXPECT_TRUE(near(before.velocity_world, after.velocity_world, now.acceleration_world));

@@ -32,24 +32,24 @@ TEST(TimeSpline, StraightPolygonsStayStraight) {
 
 TEST(TimeSpline, DerivativesAreThoseOfTheValue) {
   const TimeSpline spline = wavy();
-  constexpr double h = 1e-4;
-  for (double t = spline.begin() + h; t < spline.end() - h; t += 0.0317) {
-    const auto low = spline.at(t - h), here = spline.at(t), high = spline.at(t + h);
-    EXPECT_LT(((high.value - low.value) / (2 * h) - here.rate).norm(), 2e-4 * (1.0 + here.rate.norm()));
-    EXPECT_LT(((high.rate - low.rate) / (2 * h) - here.change).norm(), 2e-4 * (1.0 + here.change.norm()));
+  constexpr double kH = 1e-4;
+  for (double t = spline.begin() + kH; t < spline.end() - kH; t += 0.0317) {
+    const auto low = spline.at(t - kH), here = spline.at(t), high = spline.at(t + kH);
+    EXPECT_LT(((high.value - low.value) / (2 * kH) - here.rate).norm(), 2e-4 * (1.0 + here.rate.norm()));
+    EXPECT_LT(((high.rate - low.rate) / (2 * kH) - here.change).norm(), 2e-4 * (1.0 + here.change.norm()));
   }
 }
 
 TEST(TimeSpline, FourthDerivativeIsContinuousAtTheJoints) {
   const TimeSpline spline = wavy();
-  constexpr double h = 2e-3;
+  constexpr double kH = 2e-3;
   // Second differences of `change` on either side of a joint; the fifth derivative bounds how much they may differ.
   const auto fourth = [&](double t) {
-    return Vector6((spline.at(t + h).change - 2.0 * spline.at(t).change + spline.at(t - h).change) / (h * h));
+    return Vector6((spline.at(t + kH).change - 2.0 * spline.at(t).change + spline.at(t - kH).change) / (kH * kH));
   };
   for (int i = 1; i < 30; ++i) {
     const double joint = spline.begin() + 0.1 * i;
-    const Vector6 before = fourth(joint - h), after = fourth(joint + h), far = fourth(joint + 0.05);
+    const Vector6 before = fourth(joint - kH), after = fourth(joint + kH), far = fourth(joint + 0.05);
     EXPECT_LT((after - before).norm(), 0.15 * (before.norm() + far.norm()) + 1e-3) << i;
   }
 }

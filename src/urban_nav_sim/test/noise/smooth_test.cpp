@@ -38,11 +38,11 @@ TEST(SmoothNoise, HasUnitVarianceInThePlane) {
 
 TEST(SmoothNoise, IsTwiceDifferentiableAcrossTheLattice) {
   const Noise noise(7, "joints");
-  constexpr double h = 1e-4;
+  constexpr double kH = 1e-4;
   const auto second = [&](double x, double y) {
-    return (smoothNoise(noise, x + h, y) - 2.0 * smoothNoise(noise, x, y) + smoothNoise(noise, x - h, y)) / (h * h);
+    return (smoothNoise(noise, x + kH, y) - 2.0 * smoothNoise(noise, x, y) + smoothNoise(noise, x - kH, y)) / (kH * kH);
   };
-  for (int i = -5; i < 5; ++i) EXPECT_NEAR(second(i - 2 * h, 0.3), second(i + 2 * h, 0.3), 0.01);
+  for (int i = -5; i < 5; ++i) EXPECT_NEAR(second(i - 2 * kH, 0.3), second(i + 2 * kH, 0.3), 0.01);
   for (int i = -5; i < 5; ++i) {
     EXPECT_NEAR(smoothNoise(noise, 0.3, i - 1e-9), smoothNoise(noise, 0.3, i + 1e-9), 1e-7);
     EXPECT_NEAR(smoothNoise(noise, i - 1e-9), smoothNoise(noise, i + 1e-9), 1e-7);

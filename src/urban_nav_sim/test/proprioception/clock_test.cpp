@@ -39,7 +39,7 @@ TEST(Clock, HasOffsetSkewAndJitter) {
 }
 
 TEST(Clock, StampsOfEverySensorIncrease) {
-  for (const Sensor sensor : all_sensors) {
+  for (const Sensor sensor : kAllSensors) {
     for (const ClockOptions& options : {correctedClock(sensor), uncorrectedClock(sensor, 7)}) {
       const Clock clock(kClockBegin, options, Noise(3, toString(sensor)));
       const Schedule schedule = sensorSchedule(sensor);

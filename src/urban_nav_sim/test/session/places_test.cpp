@@ -17,14 +17,14 @@ TEST(SensorPlaces, OfRawImagesAreTurnedIntoTheRectifiedOnesByTheirCalibration) {
   raw.defects.switchOn("stereo:lens");
   const Session of_rectified(rectified), of_raw(raw);
   const auto straight = of_rectified.places(), mounted = of_raw.places();
-  for (const auto& [frame, side] : {std::pair(frames::stereo_left, Side::Left), {frames::stereo_right, Side::Right}}) {
+  for (const auto& [frame, side] : {std::pair(frames::kStereoLeft, Side::Left), {frames::kStereoRight, Side::Right}}) {
     const Eigen::Matrix3d R_rectified_raw = of_raw.stereoInfo(side).R;
     EXPECT_LT((mounted.at(frame).R() * R_rectified_raw.transpose() - straight.at(frame).R()).norm(), 1e-12) << frame;
     EXPECT_GT((mounted.at(frame).R() - straight.at(frame).R()).norm(), 1e-3) << frame;
     EXPECT_EQ(mounted.at(frame).t(), straight.at(frame).t());
   }
   EXPECT_TRUE(of_rectified.stereoInfo(Side::Left).R.isZero() || of_rectified.stereoInfo(Side::Left).R.isIdentity());
-  EXPECT_EQ(mounted.at(frames::imu).t(), straight.at(frames::imu).t());
+  EXPECT_EQ(mounted.at(frames::kImu).t(), straight.at(frames::kImu).t());
 }
 
 }  // namespace

@@ -40,14 +40,14 @@ int findSystemError(sqlite3* handle) {
 }
 
 int toFlags(Connection::Mode mode) {
-  constexpr int common = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
+  constexpr int kCommon = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
   switch (mode) {
     case Connection::Mode::Read:
-    case Connection::Mode::ReadFrozen: return common | SQLITE_OPEN_READONLY;
-    case Connection::Mode::Write: return common | SQLITE_OPEN_READWRITE;
+    case Connection::Mode::ReadFrozen: return kCommon | SQLITE_OPEN_READONLY;
+    case Connection::Mode::Write: return kCommon | SQLITE_OPEN_READWRITE;
     case Connection::Mode::Create: break;
   }
-  return common | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  return kCommon | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct NamedColour {
 };
 
 // By the number of the class; apart in lightness as well, for readers who do not see red and green apart.
-constexpr std::array<NamedColour, scene_labeler::class_count> class_colours = {{{{110, 90, 140}, "violet"},
+constexpr std::array<NamedColour, scene_labeler::kClassCount> class_colours = {{{{110, 90, 140}, "violet"},
                                                                                 {{150, 220, 90}, "light green"},
                                                                                 {{190, 190, 190}, "light grey"},
                                                                                 {{200, 140, 60}, "brown"},

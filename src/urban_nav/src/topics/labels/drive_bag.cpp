@@ -47,7 +47,7 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
         topics.find(side == DriveSide::Left ? urban_nav_input::Role::LaserLeft : urban_nav_input::Role::LaserRight);
     const auto scan = topic ? recording.first<sensor_msgs::LaserScan>(topic->name) : nullptr;
     if (!scan) continue;
-    const auto T_base_laser = transforms.lookup(urban_nav_core::frames::base_link, scan->header.frame_id);
+    const auto T_base_laser = transforms.lookup(urban_nav_core::frames::kBaseLink, scan->header.frame_id);
     if (!T_base_laser) {
       console.warn(name + ": no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
                    " is not used");

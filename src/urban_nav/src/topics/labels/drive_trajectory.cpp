@@ -21,7 +21,7 @@ std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-/// Returns the transforms of base_link on /tf, to odom or, without these, to map.
+/// Returns the transforms of kBaseLink on /tf, to odom or, without these, to map.
 Trajectory readTransforms(const std::string& path) {
   urban_nav_input::Recording recording(path);
   urban_nav_input::RecordedMessages messages = recording.messages({"/tf", "tf"});
@@ -30,13 +30,13 @@ Trajectory readTransforms(const std::string& path) {
     const auto message = each->as<tf2_msgs::TFMessage>();
     if (!message) continue;
     for (const geometry_msgs::TransformStamped& transform : message->transforms) {
-      if (withoutSlash(transform.child_frame_id) != urban_nav_core::frames::base_link) continue;
+      if (withoutSlash(transform.child_frame_id) != urban_nav_core::frames::kBaseLink) continue;
       const auto pose = urban_nav_ros::toPose(transform.transform);
       const std::string parent = withoutSlash(transform.header.frame_id);
       if (!pose) continue;
-      if (parent == urban_nav_core::frames::odom)
+      if (parent == urban_nav_core::frames::kOdom)
         from_odom.append(urban_nav_ros::toStampNs(transform.header.stamp), *pose);
-      else if (parent == urban_nav_core::frames::map)
+      else if (parent == urban_nav_core::frames::kMap)
         from_map.append(urban_nav_ros::toStampNs(transform.header.stamp), *pose);
     }
   }

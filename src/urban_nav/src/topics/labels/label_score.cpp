@@ -10,7 +10,7 @@
 
 namespace urban_nav {
 
-using scene_labeler::class_count;
+using scene_labeler::kClassCount;
 using scene_labeler::SceneClass;
 
 namespace {
@@ -20,7 +20,7 @@ double shareOrZero(std::size_t part, std::size_t whole) {
 }
 
 const char* nameAt(std::size_t index) {
-  return toString(index < class_count ? static_cast<SceneClass>(index) : SceneClass::None);
+  return toString(index < kClassCount ? static_cast<SceneClass>(index) : SceneClass::None);
 }
 
 std::string percentText(double share) { return urban_nav_core::printNumber(std::round(1000.0 * share) / 10.0) + " %"; }
@@ -28,7 +28,7 @@ std::string percentText(double share) { return urban_nav_core::printNumber(std::
 }  // namespace
 
 void LabelScore::add(const scene_labeler::SceneLabels& labels, const std::vector<SceneClass>& truth) {
-  std::array<std::set<std::uint32_t>, class_count> patches;
+  std::array<std::set<std::uint32_t>, kClassCount> patches;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i] == SceneClass::None) continue;
     const SceneClass expected = one_wall_ ? withOneWall(truth[i]) : truth[i];
@@ -37,7 +37,7 @@ void LabelScore::add(const scene_labeler::SceneLabels& labels, const std::vector
     const std::size_t column = answer == SceneClass::None ? none_index : toIndex(answer);
     ++confusion_[toIndex(expected)][column];
     if (labels.unsure[i] == 0) ++sure_confusion_[toIndex(expected)][column];
-    if (labels.patches[i] != scene_labeler::no_patch) patches[toIndex(expected)].insert(labels.patches[i]);
+    if (labels.patches[i] != scene_labeler::kNoPatch) patches[toIndex(expected)].insert(labels.patches[i]);
     if (answer == SceneClass::None) continue;
     const auto stated = static_cast<double>(labels.probability(i));
     Bin& bin = bins_[std::min<std::size_t>(9, static_cast<std::size_t>(10.0 * stated))];
@@ -45,7 +45,7 @@ void LabelScore::add(const scene_labeler::SceneLabels& labels, const std::vector
     bin.right += answer == expected ? 1U : 0U;
     bin.stated += stated;
   }
-  for (std::size_t k = 0; k < class_count; ++k) patches_[k] += patches[k].size();
+  for (std::size_t k = 0; k < kClassCount; ++k) patches_[k] += patches[k].size();
 }
 
 std::size_t LabelScore::truthCount(std::size_t of_class) const {
@@ -64,13 +64,13 @@ LabelScore::Pair LabelScore::pairAt(std::size_t of_class) const {
 
 double LabelScore::accuracy() const {
   std::size_t hits = 0;
-  for (std::size_t k = 0; k < class_count; ++k) hits += confusion_[k][k];
+  for (std::size_t k = 0; k < kClassCount; ++k) hits += confusion_[k][k];
   return shareOrZero(hits, points_);
 }
 
 double LabelScore::meanF1() const {
   double sum = 0.0, classes = 0.0;
-  for (std::size_t k = 0; k < class_count; ++k) {
+  for (std::size_t k = 0; k < kClassCount; ++k) {
     if (truthCount(k) == 0) continue;
     sum += pairAt(k).f1;
     classes += 1.0;
@@ -89,7 +89,7 @@ double LabelScore::calibrationError() const {
 
 Json LabelScore::toJson(const Confusion& confusion) {
   Json names = Json::array(), rows = Json::array();
-  for (std::size_t k = 0; k <= class_count; ++k) names.append(nameAt(k));
+  for (std::size_t k = 0; k <= kClassCount; ++k) names.append(nameAt(k));
   for (const auto& answers : confusion) {
     Json row = Json::array();
     for (const std::size_t count : answers) row.append(count);
@@ -103,7 +103,7 @@ void LabelScore::addTo(Json& json) const {
   json["accuracy"] = accuracy();
   json["f1_mean"] = meanF1();
   json["classes"] = Json::object();
-  for (std::size_t k = 0; k < class_count; ++k) {
+  for (std::size_t k = 0; k < kClassCount; ++k) {
     if (truthCount(k) == 0) continue;
     const Pair pair = pairAt(k);
     json["classes"][nameAt(k)] = Json::object({{"points", truthCount(k)},
@@ -130,7 +130,7 @@ void LabelScore::addTo(Json& json) const {
 std::string LabelScore::print() const {
   std::string text = std::to_string(points_) + " points: accuracy " + percentText(accuracy()) + ", mean F1 " +
                      percentText(meanF1()) + ", calibration error " + percentText(calibrationError()) + "\n";
-  for (std::size_t k = 0; k < class_count; ++k) {
+  for (std::size_t k = 0; k < kClassCount; ++k) {
     if (truthCount(k) == 0) continue;
     const Pair pair = pairAt(k);
     text += std::string(nameAt(k)) + ": " + std::to_string(truthCount(k)) + " points, precision " +

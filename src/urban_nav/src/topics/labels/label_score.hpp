@@ -30,7 +30,7 @@ class LabelScore {
   std::string print() const;
 
  private:
-  static constexpr std::size_t none_index = scene_labeler::class_count;
+  static constexpr std::size_t none_index = scene_labeler::kClassCount;
   struct Bin {
     std::size_t points = 0, right = 0;
     double stated = 0.0;
@@ -44,10 +44,10 @@ class LabelScore {
   bool one_wall_;
   std::size_t points_ = 0;
   /// Number of answers by truth and answer; none_index: no answer.
-  using Confusion = std::array<std::array<std::size_t, scene_labeler::class_count + 1>, scene_labeler::class_count>;
+  using Confusion = std::array<std::array<std::size_t, scene_labeler::kClassCount + 1>, scene_labeler::kClassCount>;
   static Json toJson(const Confusion& confusion);
   Confusion confusion_{}, sure_confusion_{};  // of all answers, and of those that are not unsure
-  std::array<std::size_t, scene_labeler::class_count> patches_{};
+  std::array<std::size_t, scene_labeler::kClassCount> patches_{};
   std::array<Bin, 10> bins_{};
 };
 

@@ -57,7 +57,7 @@ LabelTeaching::LabelTeaching(const Arguments& arguments) {
 
 std::string LabelTeaching::device(const LabelSources& sources) const {
   std::string device;
-  if (!sources.bags.empty()) device = sources.scenes.empty() ? scene_labeler::lms291_device : "several";
+  if (!sources.bags.empty()) device = sources.scenes.empty() ? scene_labeler::kLms291Device : "several";
   if (!base_ || (sources.bags.empty() && sources.scenes.empty())) return base_ ? base_->device : device;
   return device == base_->device ? device : "several";
 }

@@ -45,7 +45,7 @@ urban_nav_core::PlyLayout labelLayout() {
   layout.properties.push_back({"label_probability", PlyType::Float});
   layout.properties.push_back({"unsure", PlyType::UChar});
   std::string classes = "label";
-  for (std::size_t k = 0; k < scene_labeler::class_count; ++k)
+  for (std::size_t k = 0; k < scene_labeler::kClassCount; ++k)
     classes += " " + std::to_string(k) + " " + toString(static_cast<SceneClass>(k)) + ",";
   layout.comments.push_back(classes + " 255 none");
   return layout;
@@ -116,7 +116,7 @@ std::optional<std::vector<PointLabel>> storedMapLabels(urban_nav_store::Store& s
   std::vector<PointLabel> labels(points);
   for (std::size_t i = 0; i < points; ++i) {
     const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes[label_bytes * i + k]); };
-    const bool is_class = byte(0) < scene_labeler::class_count;
+    const bool is_class = byte(0) < scene_labeler::kClassCount;
     labels[i] = {is_class ? static_cast<SceneClass>(byte(0)) : SceneClass::None, byte(1), byte(2) != 0};
   }
   return labels;

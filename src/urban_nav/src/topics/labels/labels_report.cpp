@@ -11,7 +11,7 @@
 
 namespace urban_nav {
 
-using scene_labeler::class_count;
+using scene_labeler::kClassCount;
 using scene_labeler::SceneClass;
 
 namespace {
@@ -22,10 +22,10 @@ double labelShare(std::size_t part, std::size_t all) {
   return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
-std::array<ClassExtent, class_count> extentsOverMaps(const LabelsRun& run) {
-  std::array<ClassExtent, class_count> all;
+std::array<ClassExtent, kClassCount> extentsOverMaps(const LabelsRun& run) {
+  std::array<ClassExtent, kClassCount> all;
   for (const LabelledMap& map : run.maps)
-    for (std::size_t k = 0; k < class_count; ++k) {
+    for (std::size_t k = 0; k < kClassCount; ++k) {
       all[k].points += map.extents[k].points;
       all[k].area += map.extents[k].area;
       all[k].length += map.extents[k].length;
@@ -45,7 +45,7 @@ std::string rounded(double value, double steps) {
 PageTable classesTable(const LabelsRun& run) {
   PageTable table{"What the map shows", {"class", "points", "area, m2", "length, m", "mean probability"}, {}, ""};
   const auto extents = extentsOverMaps(run);
-  for (std::size_t k = 0; k < class_count; ++k) {
+  for (std::size_t k = 0; k < kClassCount; ++k) {
     if (extents[k].points == 0) continue;
     table.rows.push_back({toString(static_cast<SceneClass>(k)), std::to_string(extents[k].points),
                           urban_nav_core::formatNumber(extents[k].area),
@@ -105,7 +105,7 @@ Section labelsSection(const LabelsRun& run) {
 std::string printLabelsCsv(const LabelsRun& run) {
   std::string text = "class,points,area_m2,length_m,probability_mean\n";
   const auto extents = extentsOverMaps(run);
-  for (std::size_t k = 0; k < class_count; ++k) {
+  for (std::size_t k = 0; k < kClassCount; ++k) {
     if (extents[k].points == 0) continue;
     text += std::string(toString(static_cast<SceneClass>(k))) + "," + std::to_string(extents[k].points) + "," +
             rounded(extents[k].area, 100.0) + "," + rounded(extents[k].length, 100.0) + "," +

@@ -120,9 +120,9 @@ class ExtentMeter {
     squares_[k].insert(urban_nav_registration::toKey({cell.x, cell.y, 0}));
   }
 
-  std::array<ClassExtent, scene_labeler::class_count> finish() {
+  std::array<ClassExtent, scene_labeler::kClassCount> finish() {
     constexpr double edge = 1.0 / static_cast<double>(extent_per_m);
-    for (std::size_t k = 0; k < scene_labeler::class_count; ++k) {
+    for (std::size_t k = 0; k < scene_labeler::kClassCount; ++k) {
       const auto label = static_cast<SceneClass>(k);
       const bool is_ground = label == SceneClass::Grass || label == SceneClass::Paved || label == SceneClass::DirtPath;
       const bool is_wall = withOneWall(label) == SceneClass::Wall;
@@ -134,9 +134,9 @@ class ExtentMeter {
 
  private:
   using CellTable = urban_nav_registration::CellTable;
-  std::vector<CellTable> cubes_{scene_labeler::class_count, CellTable(64)};
-  std::vector<CellTable> squares_{scene_labeler::class_count, CellTable(64)};
-  std::array<ClassExtent, scene_labeler::class_count> extents_{};
+  std::vector<CellTable> cubes_{scene_labeler::kClassCount, CellTable(64)};
+  std::vector<CellTable> squares_{scene_labeler::kClassCount, CellTable(64)};
+  std::array<ClassExtent, scene_labeler::kClassCount> extents_{};
 };
 
 /// Shows the classes in the view of the map that stage lasers made.
@@ -144,7 +144,7 @@ std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
   urban_nav_core::EvenThinning<unsigned char> kinds(most_shown_points);
   for (const PointLabel& label : labels) kinds.add(static_cast<unsigned char>(label.label));
   std::vector<std::array<int, 3>> colours;
-  for (std::size_t k = 0; k < scene_labeler::class_count; ++k) {
+  for (std::size_t k = 0; k < scene_labeler::kClassCount; ++k) {
     const ClassColour colour = classColour(static_cast<SceneClass>(k));
     colours.push_back({colour.red, colour.green, colour.blue});
   }

@@ -30,7 +30,7 @@ struct LabelledMap {
   std::size_t upside_down = 0;       ///< images whose camera seems to be mounted upside down
   std::size_t in_new_place = 0;      ///< images of a kind of place that the model was not trained in
   std::size_t class_images = 0;      ///< images of which a class image of another source was used
-  std::array<ClassExtent, scene_labeler::class_count> extents;
+  std::array<ClassExtent, scene_labeler::kClassCount> extents;
   std::vector<PagePicture> pictures;
   std::string layer;  ///< markup of the classes in the view of the map; empty without points
 };

@@ -64,7 +64,7 @@ MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>&
 
 std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
   if (point.laser == 255) return std::nullopt;  // of dense stereo
-  const char* frame = point.laser == 0 ? urban_nav_core::frames::laser_left : urban_nav_core::frames::laser_right;
+  const char* frame = point.laser == 0 ? urban_nav_core::frames::kLaserLeft : urban_nav_core::frames::kLaserRight;
   for (std::size_t s = 0; s < mapped.sessions.size(); ++s) {
     const auto T_map_base = mapped.trajectories[s]->at(point.stamp, kLongestPoseGap);
     if (!T_map_base) continue;

@@ -82,7 +82,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
   reading.finish(static_cast<std::int64_t>(search.views()));
   urban_nav_localization::Localiser localiser(parameters);
   CloudLooks clouds(parameters, map, frozen, own, id, run, console);
-  const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::stereo_left);
+  const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::kStereoLeft);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
   std::vector<double> ms;
   std::size_t known = 0;
@@ -92,7 +92,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
     if (i > 0 && std::binary_search(views.begin(), views.end(), frame.stamp)) {
       const Clock::time_point begin = Clock::now();
       ++made.looks;
-      if (const auto stored = own.keyframes().get(id, urban_nav_core::frames::stereo_left, frame.stamp))
+      if (const auto stored = own.keyframes().get(id, urban_nav_core::frames::kStereoLeft, frame.stamp))
         made.sightings += search.query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
       ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     }

@@ -17,7 +17,7 @@ class KeyframesPass final : public SessionPass {
                 context.sessions[start.session].info.camera, context.options.threads == 1) {
     if (start.checkpoint)
       writer_.resume(*context.sessions[start.session].odometry,
-                     store_.keyframes().stamps(id_, urban_nav_core::frames::stereo_left));
+                     store_.keyframes().stamps(id_, urban_nav_core::frames::kStereoLeft));
   }
 
   void process(PassItem& item) override {
@@ -31,7 +31,7 @@ class KeyframesPass final : public SessionPass {
 
  private:
   void put(const urban_nav_store::StoredKeyframe& keyframe) {
-    store_.keyframes().put(id_, urban_nav_core::frames::stereo_left, keyframe);
+    store_.keyframes().put(id_, urban_nav_core::frames::kStereoLeft, keyframe);
   }
   void writeAll() {
     while (const auto keyframe = writer_.next()) put(*keyframe);

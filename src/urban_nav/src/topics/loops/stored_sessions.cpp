@@ -18,7 +18,7 @@ loop_metric::StoredPlaceData::Sessions storedSessions(
     its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryChain(*session.run));
     its.has_camera = false;
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
-      if (camera && property.name == urban_nav_registration::calibration_property)
+      if (camera && property.name == urban_nav_registration::kCalibrationProperty)
         its.conversion = urban_nav_registration::findConversion(property.value, *camera, its.has_camera);
     its.lasers = urban_nav_registration::storedLasers(store, session.id);
   }

@@ -46,7 +46,7 @@ PlaceWriter::PlaceWriter(std::shared_ptr<const LoadedPlaceModel> model, const fa
     : model_(std::move(model)),
       describer_(std::make_shared<fabmap_node::PlaceDescriber>(
           model_->model, fabmap_node::featureOptions(parameters),
-          kind == Kind::Place ? fabmap_node::MatcherOptions().look_features : fabmap_node::keyframe_look_features)),
+          kind == Kind::Place ? fabmap_node::MatcherOptions().look_features : fabmap_node::kKeyframeLookFeatures)),
       session_(std::move(session)),
       kind_(kind),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {}

@@ -37,14 +37,14 @@ class MapExportTest : public ::testing::Test {
     store_.sessions().put(urban_nav_store::Session{kExportSession, "wall", "", "", 1, true});
     Eigen::Matrix3d R;
     R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-    store_.sessions().put(kExportSession, urban_nav_store::Extrinsic{urban_nav_core::frames::laser_left,
+    store_.sessions().put(kExportSession, urban_nav_store::Extrinsic{urban_nav_core::frames::kLaserLeft,
                                                                      Pose(R, Vector3d(0.0, 0.0, 1.0))});
     for (int i = 0; i <= 160; ++i) {
       urban_nav_store::Node node;
       node.stamp = kExportStart + i * 50'000'000LL;
       node.T_odom_base = Pose(R.Identity(), Vector3d(0.05 * i, 0.0, 0.0));
       store_.graph().put(kExportSession, node);
-      if (i > 0 && i < 160) store_.scans().put(kExportSession, urban_nav_core::frames::laser_left, scan(node.stamp));
+      if (i > 0 && i < 160) store_.scans().put(kExportSession, urban_nav_core::frames::kLaserLeft, scan(node.stamp));
     }
     store_.commit();
   }

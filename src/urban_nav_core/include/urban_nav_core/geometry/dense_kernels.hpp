@@ -10,7 +10,7 @@ namespace urban_nav_core::kernels {
 /// bits do not depend on that choice.
 ///
 /// A strip of 8 rows and `depth` columns is packed as depth groups of 8 numbers; strips follow one another.
-constexpr int strip = 8;
+constexpr int kStrip = 8;
 
 struct InstructionSet {
   const char* name;

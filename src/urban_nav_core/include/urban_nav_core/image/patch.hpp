@@ -21,18 +21,18 @@ namespace urban_nav_core {
 /// enters linearly and cannot pull the minimum to the phase where interpolation smooths most. All functions are pure;
 /// positions are in px of the image handed in.
 
-inline constexpr int patch_radius = 5;  ///< the window is 11 x 11, Gaussian-weighted
-inline constexpr int patch_size = 2 * patch_radius + 1;
-inline constexpr int patch_stride = 12;  ///< rows padded to whole vectors; the padding has no weight
-using PatchGrid = std::array<float, patch_size * patch_stride>;
+inline constexpr int kPatchRadius = 5;  ///< the window is 11 x 11, Gaussian-weighted
+inline constexpr int kPatchSize = 2 * kPatchRadius + 1;
+inline constexpr int kPatchStride = 12;  ///< rows padded to whole vectors; the padding has no weight
+using PatchGrid = std::array<float, kPatchSize * kPatchStride>;
 
 /// Pixels around a corner as they were when it was first seen; wider than the window, so that they can be turned and
 /// scaled.
 struct PatchSource {
-  static constexpr int radius = 11;
-  static constexpr int size = 2 * radius + 1;
-  static constexpr int stride = 24;
-  std::array<std::uint8_t, size * stride> pixels{};
+  static constexpr int kRadius = 11;
+  static constexpr int kSize = 2 * kRadius + 1;
+  static constexpr int kStride = 24;
+  std::array<std::uint8_t, kSize * kStride> pixels{};
 };
 
 /// Empty if (u, v) is nearer than 8 px to the border; beyond the border the last pixel is repeated.
@@ -40,9 +40,9 @@ std::optional<PatchSource> cutSource(const ImageView& image, int u, int v);
 
 /// The most that a source is to be blurred by, px^2 along each axis: of details of a pixel little is left then, and
 /// where that seems to stand depends on how exactly the camera blurs.
-inline constexpr double largest_blur = 1.0;
+inline constexpr double kLargestBlur = 1.0;
 /// The source as a camera would see it that is less sharp by a Gaussian of this variance (px^2 of the source along rows
-/// and columns, 0 ... largest_blur).
+/// and columns, 0 ... kLargestBlur).
 PatchSource blurred(const PatchSource& source, const Eigen::Vector2d& variance);
 
 /// How the pixels around a place move into another view: what is p from the middle of the source stands at A p / (1 +
@@ -69,9 +69,9 @@ struct alignas(16) PatchTemplate {
   double energy = 0.0;          ///< weighted variance, grey levels^2
 };
 
-inline constexpr double largest_bend = 0.05;  ///< 1/px: a quarter larger or smaller at the window's border
+inline constexpr double kLargestBend = 0.05;  ///< 1/px: a quarter larger or smaller at the window's border
 /// Fills `made` with the source warped. False if it has no texture in some direction, or the warp is degenerate (scale
-/// outside 0.4 ... 2.5, perspective of more than largest_bend); `made` is then of no use.
+/// outside 0.4 ... 2.5, perspective of more than kLargestBend); `made` is then of no use.
 bool warpTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplate& made);
 
 /// Where `other`, a template of the same size, seems to stand in `patch`, px: by how much what it has more or less of
@@ -118,8 +118,8 @@ void seeSlant(const ImageView& image, const PatchSource& source, const PatchTemp
 
 /// 8 columns (-4 ... 3) by 9 rows (-4 ... 4) of grey levels, mean removed.
 struct alignas(16) SadPatch {
-  static constexpr int columns = 8, rows = 9;
-  std::array<std::int16_t, columns * rows> value{};
+  static constexpr int kColumns = 8, kRows = 9;
+  std::array<std::int16_t, kColumns * kRows> value{};
 };
 SadPatch sadPatch(const PatchTemplate& patch);
 /// (u, v) as for meanRemovedSad.

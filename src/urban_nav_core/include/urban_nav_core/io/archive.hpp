@@ -75,10 +75,10 @@ class Archive {
     } else if constexpr (std::is_integral_v<T>) {
       auto number = static_cast<std::int64_t>(value);
       using Limits = std::numeric_limits<T>;
-      constexpr T part = sizeof(T) < 4 ? 1 : 2;
-      constexpr bool wide = sizeof(T) == sizeof(std::int64_t) && !std::is_signed_v<T>;
-      integer(number, static_cast<std::int64_t>(Limits::min() / part),
-              static_cast<std::int64_t>(Limits::max() / (wide ? 2 * part : part)));
+      constexpr T kPart = sizeof(T) < 4 ? 1 : 2;
+      constexpr bool kWide = sizeof(T) == sizeof(std::int64_t) && !std::is_signed_v<T>;
+      integer(number, static_cast<std::int64_t>(Limits::min() / kPart),
+              static_cast<std::int64_t>(Limits::max() / (kWide ? 2 * kPart : kPart)));
       value = static_cast<T>(number);
     } else if constexpr (std::is_floating_point_v<T>) {
       numbers(&value, 1);

@@ -7,9 +7,9 @@ namespace urban_nav_core {
 
 /// Largest step back in time, ns, that is a late message. A larger one starts a new session: the recording was
 /// restarted or the clock was set.
-constexpr StampNs max_step_back = 1'000'000'000;
+constexpr StampNs kMaxStepBack = 1'000'000'000;
 
-/// Returns whether `stamp` is more than max_step_back before `newest`.
-constexpr bool jumpsBack(StampNs stamp, StampNs newest) { return stamp < newest - max_step_back; }
+/// Returns whether `stamp` is more than kMaxStepBack before `newest`.
+constexpr bool jumpsBack(StampNs stamp, StampNs newest) { return stamp < newest - kMaxStepBack; }
 
 }  // namespace urban_nav_core

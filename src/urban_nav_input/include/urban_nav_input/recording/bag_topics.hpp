@@ -35,8 +35,8 @@ enum class Role {
 };
 const char* toString(Role role);
 
-constexpr std::size_t panorama_cameras = 5;
-/// Return the roles of a camera of the panoramic head, 0 ... panorama_cameras - 1.
+constexpr std::size_t kPanoramaCameras = 5;
+/// Return the roles of a camera of the panoramic head, 0 ... kPanoramaCameras - 1.
 Role panoramaRole(std::size_t camera);
 Role panoramaInfoRole(std::size_t camera);
 

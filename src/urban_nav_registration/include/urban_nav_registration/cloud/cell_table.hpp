@@ -39,16 +39,16 @@ inline std::uint64_t keyBeside(std::uint64_t key, const Cell& offset) {
 /// reads.
 class CellTable {
  public:
-  static constexpr std::uint32_t none = 0xffffffffU;
+  static constexpr std::uint32_t kNone = 0xffffffffU;
 
   explicit CellTable(std::size_t expected) { rehash(expected); }
 
   std::size_t size() const { return size_; }
-  /// The number of a cell, or `none`.
+  /// The number of a cell, or `kNone`.
   std::uint32_t find(std::uint64_t key) const {
     for (std::size_t at = findSlot(key);; at = (at + 1) & mask_) {
       if (slots_[at].key == key) return slots_[at].number;
-      if (slots_[at].key == 0) return none;
+      if (slots_[at].key == 0) return kNone;
     }
   }
   /// The number of a cell, a new one if it has none.
@@ -65,7 +65,7 @@ class CellTable {
  private:
   struct Slot {
     std::uint64_t key = 0;
-    std::uint32_t number = none;
+    std::uint32_t number = kNone;
   };
 
   std::size_t findSlot(std::uint64_t key) const {

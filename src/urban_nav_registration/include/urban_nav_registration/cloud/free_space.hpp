@@ -21,8 +21,8 @@ class FreeSpace {
   bool isFree(const Eigen::Vector3f& point) const;
 
  private:
-  /// Index of the cube; `none` outside the grid.
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  /// Index of the cube; `kNone` outside the grid.
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::size_t findCube(const Eigen::Vector3f& point) const;
   void mark(std::size_t cube);
 

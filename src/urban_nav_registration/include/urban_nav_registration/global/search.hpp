@@ -21,9 +21,9 @@ struct SearchResolution {
   std::size_t most;  ///< pieces of the source
 };
 /// Within the convergence basin of the alignment: 2 deg are half a metre at 15 m, the median distance of surfaces.
-constexpr SearchResolution fine_resolution{0.5, 180, 1200};
+constexpr SearchResolution kFineResolution{0.5, 180, 1200};
 /// Thirty times faster, for the detection of alternatives.
-constexpr SearchResolution coarse_resolution{1.0, 72, 300};
+constexpr SearchResolution kCoarseResolution{1.0, 72, 300};
 
 /// Vertical surfaces of a cloud (walls, trunks, cars), seen from above: the input of a search.
 struct VerticalStructure {

@@ -19,6 +19,6 @@ std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& word
 /// round differently.
 bool isSameCalibration(const std::string& words, const std::string& others);
 /// Name of the session property that holds the fingerprint in a store.
-constexpr const char* calibration_property = "camera";
+constexpr const char* kCalibrationProperty = "camera";
 
 }  // namespace urban_nav_registration

@@ -10,7 +10,7 @@
 namespace urban_nav_registration {
 
 /// Name under which the left camera's keyframes stand in a store.
-constexpr const char* keyframe_camera = urban_nav_core::frames::stereo_left;
+constexpr const char* kKeyframeCamera = urban_nav_core::frames::kStereoLeft;
 
 /// Converts a keyframe to its row in a store. The session is not part of the row.
 urban_nav_store::StoredKeyframe toStoredKeyframe(const Keyframe& keyframe);

@@ -14,14 +14,14 @@ namespace urban_nav_registration {
 ///
 /// Own code because OpenCV 4.2 as distributions build it has none, and 4.6's takes ten times as long over a scale space
 /// of its own; here gradients are those of a 16x16 grid read from the pyramid that alignment needs anyway.
-inline constexpr int descriptor_size = 128;
-using Descriptors = Eigen::Matrix<float, descriptor_size, Eigen::Dynamic>;  ///< one a column
+inline constexpr int kDescriptorSize = 128;
+using Descriptors = Eigen::Matrix<float, kDescriptorSize, Eigen::Dynamic>;  ///< one a column
 
-inline constexpr double least_window_px = 20.0;  ///< of level 0: a grid of less than a pixel a step sees nothing more
+inline constexpr double kLeastWindowPx = 20.0;  ///< of level 0: a grid of less than a pixel a step sees nothing more
 
-/// `centre`, `window` (side, >= least_window_px): px of level 0. All zero where there is no contrast. What lies outside
+/// `centre`, `window` (side, >= kLeastWindowPx): px of level 0. All zero where there is no contrast. What lies outside
 /// the image is its border.
-Eigen::Matrix<float, descriptor_size, 1> describe(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector2d& centre,
+Eigen::Matrix<float, kDescriptorSize, 1> describe(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector2d& centre,
                                                   double window);
 
 /// Columns of `a` and `b` that are each other's nearest, clearly nearer than the second nearest on both sides. In the

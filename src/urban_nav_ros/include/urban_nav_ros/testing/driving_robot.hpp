@@ -21,33 +21,33 @@ namespace urban_nav_ros::testing {
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 
-constexpr StampNs start = 1'225'719'873'000'000'000, epoch = 1'000'000'000'000;
-constexpr int lap = 24;  // frames around the room
+constexpr StampNs kStart = 1'225'719'873'000'000'000, kEpoch = 1'000'000'000'000;
+constexpr int kLap = 24;  // frames around the room
 
 /// Around a textured room, with a frame each 0.8 s and 0.6 m.
 inline urban_nav_core::testing::RenderedSequence room() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
   options.rate = 1.25;
-  options.first_stamp = start;
-  return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, lap / options.rate), options);
+  options.first_stamp = kStart;
+  return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, kLap / options.rate), options);
 }
 /// The same on another day: a little beside, in dimmer light.
 inline urban_nav_core::testing::RenderedSequence roomOfAnotherDay() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
   options.rate = 1.25;
-  options.first_stamp = start + 86'400'000'000'000;
+  options.first_stamp = kStart + 86'400'000'000'000;
   options.seed = 2;
   options.gain = [](double) { return 0.8; };
-  return RenderedSequence(texturedRoom(), loop(2.9, 1.4, 1.15, lap / options.rate), options);
+  return RenderedSequence(texturedRoom(), loop(2.9, 1.4, 1.15, kLap / options.rate), options);
 }
 /// Somewhere else.
 inline urban_nav_core::testing::RenderedSequence street() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
   options.rate = 1.25;
-  options.first_stamp = start + 86'400'000'000'000;
+  options.first_stamp = kStart + 86'400'000'000'000;
   return RenderedSequence(texturedStreet(), drive(0.75, 1.2), options);
 }
 
@@ -65,7 +65,7 @@ class DrivingRobot : public StereoListener {
 
   /// Each is later than the one before.
   void beginSession() { ++session_; }
-  StampNs toStamp(int frame) const { return sequence_.stamp(frame) + session_ * epoch; }
+  StampNs toStamp(int frame) const { return sequence_.stamp(frame) + session_ * kEpoch; }
   Pose T_world_base(int frame) const { return sequence_.T_world_camera(frame) * T_base_left().inverse(); }
   urban_nav_core::StereoCamera camera() const { return makeCamera(sequence_.options().camera); }
   const urban_nav_core::testing::StereoFrame& frame(int i) { return sequence_.frame(i); }

@@ -15,12 +15,12 @@
 
 namespace urban_nav_ros::testing {
 
-constexpr double period = 0.1, speed = 1.0;              // s, m/s
-constexpr double half_way = 12.0, aside = 1.0;           // m
-constexpr double turn = 3.14159265358979323846 * aside;  // m
-constexpr int frames = static_cast<int>((4.0 * half_way + turn) / (speed * period));
-constexpr int drift_frame = static_cast<int>((2.0 * half_way + 0.5 * turn) / (speed * period));  // in the turn
-constexpr double drift_sigma = 0.1;                                                              // m, rad
+constexpr double kPeriod = 0.1, kSpeed = 1.0;              // s, m/s
+constexpr double kHalfWay = 12.0, kAside = 1.0;            // m
+constexpr double kTurn = 3.14159265358979323846 * kAside;  // m
+constexpr int kFrames = static_cast<int>((4.0 * kHalfWay + kTurn) / (kSpeed * kPeriod));
+constexpr int kDriftFrame = static_cast<int>((2.0 * kHalfWay + 0.5 * kTurn) / (kSpeed * kPeriod));  // in the turn
+constexpr double kDriftSigma = 0.1;                                                                 // m, rad
 
 /// A robot of the class Robot, but without a camera, in a courtyard: along it, half a turn, and back two metres beside.
 /// Its lasers look ahead to the left and back to the right, so that both ways see the same fronts across. Odometry errs
@@ -38,18 +38,18 @@ class ScanningRobot : public Robot {
   bool scanning() const { return scanning_; }
 
   static StampNs toStamp(int frame) {
-    return start + 100 * epoch + static_cast<StampNs>(std::llround(1e9 * period * frame));
+    return kStart + 100 * kEpoch + static_cast<StampNs>(std::llround(1e9 * kPeriod * frame));
   }
   static Pose T_world_base(int frame) {
-    const double way = speed * period * frame, straight = 2.0 * half_way;
-    if (way < straight) return at(way - half_way, -aside, 0.0);
-    const double angle = std::min((way - straight) / aside, 3.14159265358979323846);
-    if (way < straight + turn) return at(half_way + aside * std::sin(angle), -aside * std::cos(angle), angle);
-    return at(half_way - (way - straight - turn), aside, angle);
+    const double way = kSpeed * kPeriod * frame, straight = 2.0 * kHalfWay;
+    if (way < straight) return at(way - kHalfWay, -kAside, 0.0);
+    const double angle = std::min((way - straight) / kAside, 3.14159265358979323846);
+    if (way < straight + kTurn) return at(kHalfWay + kAside * std::sin(angle), -kAside * std::cos(angle), angle);
+    return at(kHalfWay - (way - straight - kTurn), kAside, angle);
   }
   /// The moment at `x` on the way there, and on the way back.
-  static int there(double x) { return static_cast<int>(std::lround((half_way + x) / (speed * period))); }
-  static int back(double x) { return static_cast<int>(std::lround((3.0 * half_way + turn - x) / (speed * period))); }
+  static int there(double x) { return static_cast<int>(std::lround((kHalfWay + x) / (kSpeed * kPeriod))); }
+  static int back(double x) { return static_cast<int>(std::lround((3.0 * kHalfWay + kTurn - x) / (kSpeed * kPeriod))); }
 
   static Pose drift() {
     urban_nav_core::Vector6d d;
@@ -58,7 +58,7 @@ class ScanningRobot : public Robot {
   }
   static Pose stepTo(int frame) {
     const Pose T = T_world_base(frame - 1).inverse() * T_world_base(frame);
-    return frame == drift_frame ? T * drift() : T;
+    return frame == kDriftFrame ? T * drift() : T;
   }
   /// Frames from ... to - 1, and the steps between them.
   void drive(int from, int to) {
@@ -66,7 +66,7 @@ class ScanningRobot : public Robot {
       if (i > first_) T_odom_base_ = T_odom_base_ * stepTo(i);
       else first_ = i;
       this->beAt(toStamp(i), T_odom_base_);
-      if (i > first_) this->step(toStamp(i - 1), toStamp(i), stepTo(i), i == drift_frame ? drift_sigma : 5e-4);
+      if (i > first_) this->step(toStamp(i - 1), toStamp(i), stepTo(i), i == kDriftFrame ? kDriftSigma : 5e-4);
     }
   }
   void scan(int from, int to) {
@@ -124,7 +124,7 @@ class ScanningRobot : public Robot {
   ros::Publisher right_ = this->template advertise<sensor_msgs::LaserScan>("laser_right/scan");
   ros::Publisher tf_static_ = this->template advertise<tf2_msgs::TFMessage>("/tf_static", true);
   Pose T_odom_base_;
-  int first_ = frames;
+  int first_ = kFrames;
   bool scanning_ = false;
 };
 

@@ -22,20 +22,20 @@ class StereoListener : public Listener {
  public:
   using Listener::Listener;
 
-  /// The place of the left optical frame in base_link.
+  /// The place of the left optical frame in kBaseLink.
   void place(const urban_nav_core::Pose& T_base_left) {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(
-        toStaticTransform(urban_nav_core::frames::base_link, urban_nav_core::frames::stereo_left, T_base_left));
+        toStaticTransform(urban_nav_core::frames::kBaseLink, urban_nav_core::frames::kStereoLeft, T_base_left));
     tf_static_.publish(message);
   }
 
   /// The pair, or one side of it, with its camera_info. `stamp`: instead of the frame's own.
   void show(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera,
             urban_nav_core::StampNs stamp, bool left = true, bool right = true) {
-    if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, urban_nav_core::frames::stereo_left);
+    if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, urban_nav_core::frames::kStereoLeft);
     if (right)
-      publish(right_, right_info_, frame.right, rightInfo(camera), stamp, urban_nav_core::frames::stereo_right);
+      publish(right_, right_info_, frame.right, rightInfo(camera), stamp, urban_nav_core::frames::kStereoRight);
   }
 
  private:
