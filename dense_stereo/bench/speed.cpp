@@ -16,7 +16,7 @@
 using urban_nav_core::testing::threadMs;
 
 int main(int argc, char** argv) {
-  constexpr int runs = 15;
+  constexpr int kRuns = 15;
   cv::setNumThreads(1);
   urban_nav_core::testing::BenchTable table({"method", "median, ms", "least, ms"}, argc, argv);
   const char* data = std::getenv("URBAN_NAV_DATA");
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   cv::resize(pairs.front().right, right, {512, 384});
   for (const auto& peer : dense_stereo::bench::allPeers()) {
     std::vector<double> times;
-    for (int i = 0; i <= runs; ++i) {
+    for (int i = 0; i <= kRuns; ++i) {
       const double begin = threadMs();
       peer->match(left, right, 64);
       if (i > 0) times.push_back(threadMs() - begin);

@@ -16,7 +16,7 @@ using urban_nav_ros::StereoSessions;
 
 namespace {
 
-constexpr double image_timeout = 1.0;  // s
+constexpr double kImageTimeout = 1.0;  // s
 
 }  // namespace
 
@@ -70,7 +70,7 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
                                [this](const auto& why) { stereo_->end(why); },
                                [this](const auto& fault) { refuse(fault); }});
   urban_nav_ros::TopicOptions options;
-  options.timeout = image_timeout;
+  options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
   subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::MotionTopic::None);
   if (!nodelet_.gravity) return;

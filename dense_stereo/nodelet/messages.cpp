@@ -17,12 +17,12 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr float disparity_step = 0.05F;  // px, about the sub-pixel accuracy
+constexpr float kDisparityStep = 0.05F;  // px, about the sub-pixel accuracy
 
 /// Disparity in px without the offset between the principal points; negative where invalid or not in front.
 float plainDisparity(const DisparityImage& image, std::size_t at, float offset) {
   const float disparity = image.disparity[at];
-  return disparity < 0.0F ? DisparityImage::invalid : disparity - offset;
+  return disparity < 0.0F ? DisparityImage::kInvalid : disparity - offset;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ stereo_msgs::DisparityImage toDisparityMessage(const DisparityImage& image, cons
   message.T = static_cast<float>(camera.baseline);
   message.min_disparity = 0.0F;
   message.max_disparity = static_cast<float>(disparities - 1);
-  message.delta_d = disparity_step;
+  message.delta_d = kDisparityStep;
   message.valid_window.width = static_cast<std::uint32_t>(image.width);
   message.valid_window.height = static_cast<std::uint32_t>(image.height);
   message.image.width = message.valid_window.width;
@@ -46,7 +46,7 @@ stereo_msgs::DisparityImage toDisparityMessage(const DisparityImage& image, cons
   const auto offset = static_cast<float>(camera.disparity_offset);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float disparity = plainDisparity(image, i, offset);
-    values[i] = disparity < 0.0F ? DisparityImage::invalid : disparity;
+    values[i] = disparity < 0.0F ? DisparityImage::kInvalid : disparity;
   }
   message.image.data.resize(values.size() * sizeof(float));
   std::memcpy(message.image.data.data(), values.data(), message.image.data.size());

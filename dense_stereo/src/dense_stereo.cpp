@@ -21,11 +21,11 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr double little = 0.1;               // share of the pixels
-constexpr double matched_if_swapped = 0.25;  // share of the pixels
-constexpr double well_matched = 0.5;         // share of the pixels
-constexpr double largest_row_offset = 0.5;   // px
-constexpr double equal_exposure = 0.05;      // relative: no more than scenes differ by between two views
+constexpr double kLittle = 0.1;             // share of the pixels
+constexpr double kMatchedIfSwapped = 0.25;  // share of the pixels
+constexpr double kWellMatched = 0.5;        // share of the pixels
+constexpr double kLargestRowOffset = 0.5;   // px
+constexpr double kEqualExposure = 0.05;     // relative: no more than scenes differ by between two views
 
 std::unique_ptr<Matcher> makeOwnMatcher(const Parameters& parameters) {
   requireOwnMethod(parameters);
@@ -35,9 +35,9 @@ std::unique_ptr<Matcher> makeOwnMatcher(const Parameters& parameters) {
 }  // namespace
 
 const char* toString(Reason reason) {
-  static constexpr const char* names[] = {"none",    "image_missing", "sizes_differ",     "no_contrast",
-                                          "swapped", "rows_disagree", "exposure_differs", "little_matched"};
-  return names[static_cast<std::size_t>(reason)];
+  static constexpr const char* kNames[] = {"none",    "image_missing", "sizes_differ",     "no_contrast",
+                                           "swapped", "rows_disagree", "exposure_differs", "little_matched"};
+  return kNames[static_cast<std::size_t>(reason)];
 }
 
 class DenseStereo::Implementation {
@@ -48,12 +48,12 @@ class DenseStereo::Implementation {
   const StereoResult& process(const urban_nav_core::StereoPair& pair) {
     PairCheck check = checkPair(pair);
     // Images of different scenes look exchanged by chance; exchanged ones match once they are put right.
-    if (check.reason == Reason::Swapped && matchShare({pair.stamp, pair.right, pair.left}) < matched_if_swapped)
+    if (check.reason == Reason::Swapped && matchShare({pair.stamp, pair.right, pair.left}) < kMatchedIfSwapped)
       check = checkPair(pair, false);
     begin(pair.left, check);
     if (!check.usable) return result_;
     copy(pair.left, 1.0, 0.0, left_);
-    const bool compensate = std::abs(check.exposure - 1.0) > equal_exposure;
+    const bool compensate = std::abs(check.exposure - 1.0) > kEqualExposure;
     copy(pair.right, compensate ? check.exposure : 1.0, compensate ? check.offset : 0.0, right_);
     matcher_->match({left_, right_}, result_.image);
     count();
@@ -77,7 +77,7 @@ class DenseStereo::Implementation {
     image.width = std::max(left.width, 0);
     image.height = std::max(left.height, 0);
     const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    image.disparity.assign(pixels, DisparityImage::invalid);
+    image.disparity.assign(pixels, DisparityImage::kInvalid);
     image.variance.assign(pixels, 0.0F);
     result_.status.health = check.usable ? check.reason == Reason::None ? Health::Ok : Health::Degraded : Health::Lost;
     result_.status.reason = static_cast<int>(check.reason);
@@ -105,7 +105,7 @@ class DenseStereo::Implementation {
     const DisparityImage& image = result_.image;
     const auto valid = std::count_if(image.disparity.begin(), image.disparity.end(), [](float d) { return d >= 0.0F; });
     result_.answered = static_cast<double>(valid) / static_cast<double>(image.disparity.size());
-    if (result_.answered >= little || result_.status.health != Health::Ok) return;
+    if (result_.answered >= kLittle || result_.status.health != Health::Ok) return;
     char text[80];
     std::snprintf(text, sizeof text, "%.1f %% of the pixels matched", 100.0 * result_.answered);
     result_.status = {Health::Degraded, static_cast<int>(Reason::LittleMatched), text};
@@ -114,12 +114,12 @@ class DenseStereo::Implementation {
   /// Rectified images agree to a few tenths of a row; beyond half a row disparities are wrong at slanted edges,
   /// beyond two little is matched.
   void checkRows() {
-    if (result_.answered > well_matched) {
+    if (result_.answered > kWellMatched) {
       result_.row_offset = matchedRowOffset(left_, right_, result_.image).value_or(0.0);
     } else {
       result_.row_offset = searchedRowOffset(left_, right_, disparities_).value_or(0);
     }
-    if (std::abs(result_.row_offset) < largest_row_offset) return;
+    if (std::abs(result_.row_offset) < kLargestRowOffset) return;
     char text[100];
     std::snprintf(text, sizeof text, "rows disagree: the right image shows everything %.1f px %s than the left one",
                   std::abs(result_.row_offset), result_.row_offset > 0.0 ? "lower" : "higher");

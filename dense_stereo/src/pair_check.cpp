@@ -14,8 +14,8 @@ using urban_nav_core::ImageView;
 namespace {
 
 // Below this an 8-bit image holds nothing above its own noise.
-constexpr double least_contrast = 2.0;  // grey levels
-constexpr double exposure_warning = 1.25;
+constexpr double kLeastContrast = 2.0;  // grey levels
+constexpr double kExposureWarning = 1.25;
 
 struct Brightness {
   double mean = 0.0, deviation = 0.0;  // grey levels
@@ -48,7 +48,7 @@ PairCheck checkPair(const urban_nav_core::StereoPair& pair, bool may_be_swapped)
   if (pair.left.width != pair.right.width || pair.left.height != pair.right.height)
     return refuse(Reason::SizesDiffer, "left image " + toSize(pair.left) + ", right image " + toSize(pair.right));
   const Brightness left = measureBrightness(pair.left), right = measureBrightness(pair.right);
-  if (std::min(left.deviation, right.deviation) < least_contrast)
+  if (std::min(left.deviation, right.deviation) < kLeastContrast)
     return refuse(Reason::NoContrast,
                   std::string(left.deviation < right.deviation ? "left" : "right") + " image without contrast");
   if (may_be_swapped && urban_nav_core::looksExchanged(pair.left, pair.right))
@@ -57,7 +57,7 @@ PairCheck checkPair(const urban_nav_core::StereoPair& pair, bool may_be_swapped)
   check.exposure = left.deviation / right.deviation;
   check.offset = left.mean - check.exposure * right.mean;
   const double ratio = (left.mean + 1.0) / (right.mean + 1.0);
-  if (ratio > exposure_warning || ratio < 1.0 / exposure_warning) {
+  if (ratio > kExposureWarning || ratio < 1.0 / kExposureWarning) {
     char text[80];
     std::snprintf(text, sizeof text, "left image %.2f times as bright as the right one", ratio);
     check.reason = Reason::ExposureDiffers;

@@ -10,21 +10,21 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr int grid = 12;         // blocks along each side of the image
-constexpr int block_radius = 4;  // px
-constexpr int farthest = 8;      // rows
-constexpr int least_blocks = 20;
-constexpr int least_slope = 8;  // grey levels for two rows
+constexpr int kGrid = 12;        // blocks along each side of the image
+constexpr int kBlockRadius = 4;  // px
+constexpr int kFarthest = 8;     // rows
+constexpr int kLeastBlocks = 20;
+constexpr int kLeastSlope = 8;  // grey levels for two rows
 
-using Block = std::array<int, (2 * block_radius + 1) * (2 * block_radius + 1)>;
+using Block = std::array<int, (2 * kBlockRadius + 1) * (2 * kBlockRadius + 1)>;
 
 /// The pixels around (u, v), their mean removed.
 Block blockAt(const Padded<std::uint8_t>& image, int u, int v) {
   Block block{};
   int sum = 0;
   std::size_t i = 0;
-  for (int dv = -block_radius; dv <= block_radius; ++dv)
-    for (int du = -block_radius; du <= block_radius; ++du) sum += block[i++] = image.row(v + dv)[u + du];
+  for (int dv = -kBlockRadius; dv <= kBlockRadius; ++dv)
+    for (int du = -kBlockRadius; du <= kBlockRadius; ++du) sum += block[i++] = image.row(v + dv)[u + du];
   const int mean = sum / static_cast<int>(block.size());
   for (int& pixel : block) pixel -= mean;
   return block;
@@ -39,8 +39,8 @@ int computeDistance(const Block& a, const Block& b) {
 /// Texture across the rows, without which no row is better than its neighbours.
 int rowTexture(const Padded<std::uint8_t>& image, int u, int v) {
   int sum = 0;
-  for (int dv = -block_radius; dv <= block_radius; ++dv)
-    for (int du = -block_radius; du <= block_radius; ++du)
+  for (int dv = -kBlockRadius; dv <= kBlockRadius; ++dv)
+    for (int du = -kBlockRadius; du <= kBlockRadius; ++du)
       sum += std::abs(image.row(v + dv + 1)[u + du] - image.row(v + dv - 1)[u + du]);
   return sum;
 }
@@ -48,17 +48,17 @@ int rowTexture(const Padded<std::uint8_t>& image, int u, int v) {
 /// The row in which a block is matched best, relative to its own; `farthest + 1` if none is clearly best.
 int bestRow(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, int u, int v, int disparities) {
   const Block block = blockAt(left, u, v);
-  std::array<int, 2 * farthest + 1> costs{};
-  for (int k = -farthest; k <= farthest; ++k) {
-    int& cost = costs[static_cast<std::size_t>(k + farthest)];
+  std::array<int, 2 * kFarthest + 1> costs{};
+  for (int k = -kFarthest; k <= kFarthest; ++k) {
+    int& cost = costs[static_cast<std::size_t>(k + kFarthest)];
     cost = 1 << 30;
-    for (int d = 0; d < disparities && u - d >= block_radius; ++d)
+    for (int d = 0; d < disparities && u - d >= kBlockRadius; ++d)
       cost = std::min(cost, computeDistance(block, blockAt(right, u - d, v + k)));
   }
   const auto best = std::min_element(costs.begin(), costs.end());
-  const int row = static_cast<int>(best - costs.begin()) - farthest;
-  for (int k = -farthest; k <= farthest; ++k)
-    if (std::abs(k - row) > 1 && 4 * costs[static_cast<std::size_t>(k + farthest)] < 5 * *best) return farthest + 1;
+  const int row = static_cast<int>(best - costs.begin()) - kFarthest;
+  for (int k = -kFarthest; k <= kFarthest; ++k)
+    if (std::abs(k - row) > 1 && 4 * costs[static_cast<std::size_t>(k + kFarthest)] < 5 * *best) return kFarthest + 1;
   return row;
 }
 
@@ -75,7 +75,7 @@ std::optional<double> matchedRowOffset(const Padded<std::uint8_t>& left, const P
       const int slope = right.row(v + 1)[column] - right.row(v - 1)[column];
       const int difference = left.row(v)[u] - right.row(v)[column];
       // Where the images differ by more than the slope explains, they show different things.
-      if (std::abs(slope) < least_slope || std::abs(difference) > std::abs(slope)) continue;
+      if (std::abs(slope) < kLeastSlope || std::abs(difference) > std::abs(slope)) continue;
       moment += 2 * slope * difference;
       information += slope * slope;
       ++count;
@@ -86,22 +86,22 @@ std::optional<double> matchedRowOffset(const Padded<std::uint8_t>& left, const P
 
 std::optional<int> searchedRowOffset(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right,
                                      int disparities) {
-  std::array<int, 2 * farthest + 1> votes{};
+  std::array<int, 2 * kFarthest + 1> votes{};
   int all = 0;
-  const int margin = farthest + block_radius + 2;
-  for (int i = 0; i < grid; ++i)
-    for (int j = 0; j < grid; ++j) {
-      const int u = left.width() * (2 * j + 1) / (2 * grid), v = left.height() * (2 * i + 1) / (2 * grid);
+  const int margin = kFarthest + kBlockRadius + 2;
+  for (int i = 0; i < kGrid; ++i)
+    for (int j = 0; j < kGrid; ++j) {
+      const int u = left.width() * (2 * j + 1) / (2 * kGrid), v = left.height() * (2 * i + 1) / (2 * kGrid);
       if (v < margin || v >= left.height() - margin || u < margin || u >= left.width() - margin) continue;
-      if (rowTexture(left, u, v) < 81 * least_slope) continue;
+      if (rowTexture(left, u, v) < 81 * kLeastSlope) continue;
       const int row = bestRow(left, right, u, v, disparities);
-      if (row > farthest) continue;
-      ++votes[static_cast<std::size_t>(row + farthest)];
+      if (row > kFarthest) continue;
+      ++votes[static_cast<std::size_t>(row + kFarthest)];
       ++all;
     }
   const auto most = std::max_element(votes.begin(), votes.end());
-  if (all < least_blocks || 2 * *most < all) return std::nullopt;
-  return static_cast<int>(most - votes.begin()) - farthest;
+  if (all < kLeastBlocks || 2 * *most < all) return std::nullopt;
+  return static_cast<int>(most - votes.begin()) - kFarthest;
 }
 
 }  // namespace dense_stereo

@@ -27,8 +27,8 @@ using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-constexpr std::array<std::size_t, 3> checkpoints = {50, 100, 200};
-const std::array<const char*, 3> motions = {"wander", "turns", "loop"};
+constexpr std::array<std::size_t, 3> kCheckpoints = {50, 100, 200};
+const std::array<const char*, 3> kMotions = {"wander", "turns", "loop"};
 
 struct Mean {
   double sum = 0.0, translation = 0.0, rotation = 0.0;
@@ -58,12 +58,12 @@ struct Score {
 // Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends
 // (RelativePose::drift_covariance).
 PoseWithCovariance composed(const Run& run) {
-  constexpr std::size_t first = 51, last = 150;
+  constexpr std::size_t kFirst = 51, kLast = 150;
   PoseWithCovariance sum;
   sum.covariance.setZero();
-  for (std::size_t i = first; i <= last; ++i) {
+  for (std::size_t i = kFirst; i <= kLast; ++i) {
     urban_nav_core::Matrix6d covariance = run.drift_covariance[i];
-    if (i == first || i == last) covariance += 0.5 * run.relative_covariance[i];
+    if (i == kFirst || i == kLast) covariance += 0.5 * run.relative_covariance[i];
     sum = compose(sum, PoseWithCovariance{run.settled[i - 1].inverse() * run.settled[i], covariance});
   }
   return sum;
@@ -77,8 +77,8 @@ void addSteps(Mean& steps, const Sequence& sequence, const Run& run) {
 }
 
 void addRun(Score& score, const Sequence& sequence, const Run& run) {
-  for (std::size_t c = 0; c < checkpoints.size(); ++c)
-    score.at[c].add(sequence.truth[checkpoints[c]], {run.now[checkpoints[c]], run.now_covariance[checkpoints[c]]});
+  for (std::size_t c = 0; c < kCheckpoints.size(); ++c)
+    score.at[c].add(sequence.truth[kCheckpoints[c]], {run.now[kCheckpoints[c]], run.now_covariance[kCheckpoints[c]]});
   score.composed.add(sequence.truth[50].inverse() * sequence.truth[150], composed(run));
   addSteps(score.steps, sequence, run);
   score.error_m += distanceBetween(sequence.truth.back(), run.now.back());
@@ -104,11 +104,11 @@ int main(int argc, char** argv) try {
                     "T_i,i+100 composed", "one step", "error at 200"},
                    argc, argv);
   // By calibration and noise: of each motion, and of all.
-  std::vector<std::array<Score, motions.size() + 1>> scores(2 * noises.size());
+  std::vector<std::array<Score, kMotions.size() + 1>> scores(2 * noises.size());
   for (int r = 0; r < runs; ++r) {
-    const std::size_t motion = static_cast<std::size_t>(r) % motions.size();
+    const std::size_t motion = static_cast<std::size_t>(r) % kMotions.size();
     RenderedOptions options;
-    options.motion = motions[motion];
+    options.motion = kMotions[motion];
     options.seed = static_cast<std::uint32_t>(r + 1);
     std::vector<double> exposures = noises;
     exposures.insert(exposures.end(), noises.begin(), noises.end());
@@ -127,13 +127,13 @@ int main(int argc, char** argv) try {
     }
   }
   for (std::size_t n = 0; n < scores.size(); ++n)
-    for (std::size_t m = 0; m <= motions.size(); ++m) {
+    for (std::size_t m = 0; m <= kMotions.size(); ++m) {
       const Score& s = scores[n][m];
       if (s.runs == 0) continue;
       const bool exact = n < noises.size();
-      table.add({exact ? "exact" : "drawn", cell(noises[n % noises.size()], 0), m < motions.size() ? motions[m] : "all",
-                 std::to_string(s.runs), s.at[0].text(), s.at[1].text(), s.at[2].text(),
-                 exact ? s.composed.text() : "-", s.steps.text(),
+      table.add({exact ? "exact" : "drawn", cell(noises[n % noises.size()], 0),
+                 m < kMotions.size() ? kMotions[m] : "all", std::to_string(s.runs), s.at[0].text(), s.at[1].text(),
+                 s.at[2].text(), exact ? s.composed.text() : "-", s.steps.text(),
                  cell(1000.0 * s.error_m / s.runs, 1) + " mm, " + cell(s.error_deg / s.runs, 3) + " deg"});
     }
   table.note(

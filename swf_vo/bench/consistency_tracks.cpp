@@ -22,8 +22,8 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::TrackMotion;
 using urban_nav_core::testing::Tracks;
 
-constexpr std::array<std::size_t, 3> checkpoints = {50, 100, 200};
-constexpr std::array<std::size_t, 5> lengths = {1, 10, 50, 100, 300};
+constexpr std::array<std::size_t, 3> kCheckpoints = {50, 100, 200};
+constexpr std::array<std::size_t, 5> kLengths = {1, 10, 50, 100, 300};
 
 double nees(const Pose& truth, const PoseWithCovariance& estimate) {
   const urban_nav_core::Vector6d e = urban_nav_core::boxMinus(truth, estimate.pose);
@@ -49,17 +49,17 @@ struct Mean {
 };
 
 struct Means {
-  std::array<Mean, checkpoints.size()> at;
+  std::array<Mean, kCheckpoints.size()> at;
   Mean settled;
-  std::array<Mean, lengths.size()> way, composed;
+  std::array<Mean, kLengths.size()> way, composed;
 };
 
 // The way from a settled pose to a later one as if its steps were independent, and as SettledPose says.
 void addWays(const Tracks& tracks, const std::vector<SettledPose>& settled, Means& means) {
-  for (std::size_t l = 0; l < lengths.size(); ++l)
-    for (std::size_t first = 50; first + lengths[l] + 10 < settled.size();
-         first += std::max<std::size_t>(10, lengths[l])) {
-      const std::size_t last = first + lengths[l];
+  for (std::size_t l = 0; l < kLengths.size(); ++l)
+    for (std::size_t first = 50; first + kLengths[l] + 10 < settled.size();
+         first += std::max<std::size_t>(10, kLengths[l])) {
+      const std::size_t last = first + kLengths[l];
       PoseWithCovariance way{Pose(), Matrix6d::Zero()}, composed = way;
       for (std::size_t i = first + 1; i <= last; ++i) {
         const SettledPose& step = settled[i];
@@ -94,8 +94,8 @@ Means measure(const Case& test, int runs) {
     run.first_information = diagonalInformation(1e-6, 1e-7);  // for all runs begin at the same pose
     while (!run.done()) {
       run.step();
-      for (std::size_t c = 0; c < checkpoints.size(); ++c)
-        if (run.at() == checkpoints[c]) means.at[c].add(nees(run.truth(), run.window.newest()));
+      for (std::size_t c = 0; c < kCheckpoints.size(); ++c)
+        if (run.at() == kCheckpoints[c]) means.at[c].add(nees(run.truth(), run.window.newest()));
     }
     means.settled.add(nees(tracks.frames[150].T_world_camera, run.settled[150].T_odom_camera));
     addWays(tracks, run.settled, means);
@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
     else if (std::string(argv[i]) == "-o") output = argv[i + 1];
   }
   std::vector<std::string> columns = {"motion, window", "pose at 50", "at 100", "at 200", "settled, 150"};
-  for (const std::size_t length : lengths)
+  for (const std::size_t length : kLengths)
     columns.push_back(length == 1 ? "one step" : std::to_string(length) + " steps");
   columns.push_back("100 steps as if independent");
   urban_nav_core::testing::BenchTable table(columns, argc, argv);

@@ -30,8 +30,8 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::Scene;
 
-constexpr std::array<double, 6> limits = {0.05, 0.1, 0.2, 0.4, 0.8, 10.0};
-constexpr double rough_px = 0.026;  // what a surface is beside a plane, added to the noise of the birth
+constexpr std::array<double, 6> kLimits = {0.05, 0.1, 0.2, 0.4, 0.8, 10.0};
+constexpr double kRoughPx = 0.026;  // what a surface is beside a plane, added to the noise of the birth
 
 /// Errors of mean u, v and disparity (px), with the variance that the template was born with (px^2).
 struct Error {
@@ -47,13 +47,13 @@ struct Point {
 };
 
 Eigen::Matrix2d toView(const Sequence& sequence, const Pose& T, const Point& point) {
-  constexpr double step = 1e-4;
+  constexpr double kStep = 1e-4;
   const auto pixel = [&](const Vector3d& p) {
     return sequence.camera.left.project(T.inverse() * p).value_or(Eigen::Vector2d::Zero());
   };
   Eigen::Matrix2d view;
-  view.col(0) = (pixel(point.p + step * point.a) - pixel(point.p)) / step;
-  view.col(1) = (pixel(point.p + step * point.b) - pixel(point.p)) / step;
+  view.col(0) = (pixel(point.p + kStep * point.a) - pixel(point.p)) / kStep;
+  view.col(1) = (pixel(point.p + kStep * point.b) - pixel(point.p)) / kStep;
   return view;
 }
 
@@ -102,7 +102,7 @@ void follow(const RenderedOptions& options, std::vector<Error>& errors) {
       point.a = T_world_first.q().inverse() * wall.a;
       point.b = T_world_first.q().inverse() * wall.b;
       point.born_as = toView(sequence, T, point);
-      point.birth = seen.information.inverse()(0, 0) + rough_px * rough_px;
+      point.birth = seen.information.inverse()(0, 0) + kRoughPx * kRoughPx;
       points[seen.landmark] = point;
       map[seen.landmark] = {seen.landmark, point.p.homogeneous()};
     }
@@ -148,9 +148,9 @@ Bin bin(const std::vector<Error>& errors, double low, double high) {
 }
 
 void addRows(BenchTable& table, double noise, const std::vector<Error>& errors) {
-  const Bin first = bin(errors, 0.0, limits[0]);
-  for (std::size_t i = 0; i < limits.size(); ++i) {
-    const Bin here = bin(errors, i == 0 ? 0.0 : limits[i - 1], limits[i]);
+  const Bin first = bin(errors, 0.0, kLimits[0]);
+  for (std::size_t i = 0; i < kLimits.size(); ++i) {
+    const Bin here = bin(errors, i == 0 ? 0.0 : kLimits[i - 1], kLimits[i]);
     if (here.count < 1000) continue;
     std::vector<std::string> row = {cell(noise, 0), cell(here.change, 2), std::to_string(here.count),
                                     cell(std::sqrt(here.birth), 3)};

@@ -21,13 +21,13 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::Recording;
 
-constexpr std::array<const char*, 14> faults = {
+constexpr std::array<const char*, 14> kFaults = {
     "black:1.5:1",       "freeze:1.5:1",  "drop:1.5:1",        "drop:1:10:0.3", "swap:1.5:1",
     "blur:1.5:1",        "blur:1.5:1:2",  "blur:0.5:3",        "noleft:1.5:1",  "overexpose:1.5:1",
     "corrupt:1.5:1:0.1", "corrupt:1.5:1", "corrupt:1.5:1:0.6", "equal:1.5:0.5"};
-constexpr const char* none = "black:1000:1";
-constexpr std::size_t piece_frames = 70;
-constexpr int room_frames = 80;
+constexpr const char* kNone = "black:1000:1";
+constexpr std::size_t kPieceFrames = 70;
+constexpr int kRoomFrames = 80;
 
 struct Outcome {
   double error = 0.0, nees = 0.0;
@@ -54,7 +54,7 @@ std::vector<Recording> street() {
   const std::string folder = urban_nav_core::testing::dataFolder("stereo/kitti_raw_0926_0005");
   if (!folder.empty())
     for (std::size_t first = 0; first <= 80; first += 20)
-      pieces.push_back(urban_nav_core::testing::readSequenceFolder(folder, first, piece_frames));
+      pieces.push_back(urban_nav_core::testing::readSequenceFolder(folder, first, kPieceFrames));
   return pieces;
 }
 
@@ -67,7 +67,7 @@ std::vector<Recording> rooms() {
       urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom({}, seed),
                                                          urban_nav_core::testing::namedMotion(motion, "room", seed),
                                                          options);
-      result.push_back(urban_nav_core::testing::record(sequence, room_frames));
+      result.push_back(urban_nav_core::testing::record(sequence, kRoomFrames));
     }
   return result;
 }
@@ -100,8 +100,8 @@ int main(int argc, char** argv) try {
                     "NEES at the end", "status not OK after, frames", "still lost at the end"},
                    argc, argv);
   const std::vector<Recording> pieces = street(), rendered = rooms();
-  const Sum usual_street = playAll(pieces, none), usual_rooms = playAll(rendered, none);
-  for (const char* fault : faults) {
+  const Sum usual_street = playAll(pieces, kNone), usual_rooms = playAll(rendered, kNone);
+  for (const char* fault : kFaults) {
     const Sum s = playAll(pieces, fault), r = playAll(rendered, fault);
     const auto share = [](int part, int whole) { return std::to_string(part) + " of " + std::to_string(whole); };
     table.add({fault, s.count == 0 ? "-" : cell(s.rms() / usual_street.rms(), 2), std::to_string(s.latest),

@@ -29,12 +29,12 @@ struct Method {
   bool deletion;
   const char* colour;
 };
-const Method methods[] = {{"batch", 0, false, "#bbbbbb"},
-                          {"filter, k = 10", 10, false, "#1f77b4"},
-                          {"filter, k = 1", 1, false, "#2ca02c"},
-                          {"deletion, k = 10", 10, true, "#ff7f0e"},
-                          {"deletion, k = 1", 1, true, "#d62728"}};
-const std::size_t steps[] = {1, 2, 5, 10, 20, 30, 50, 75, 100, 125, 150, 175, 199};
+const Method kMethods[] = {{"batch", 0, false, "#bbbbbb"},
+                           {"filter, k = 10", 10, false, "#1f77b4"},
+                           {"filter, k = 1", 1, false, "#2ca02c"},
+                           {"deletion, k = 10", 10, true, "#ff7f0e"},
+                           {"deletion, k = 1", 1, true, "#d62728"}};
+const std::size_t kSteps[] = {1, 2, 5, 10, 20, 30, 50, 75, 100, 125, 150, 175, 199};
 
 struct Errors {
   double pose = 0.0, map = 0.0;  // sums of squares, m^2
@@ -56,7 +56,7 @@ TrackOptions scene(bool standing, std::uint64_t seed, int frames) {
 
 // What the wheels say, with the noise that is claimed of them: a centimetre and half a degree a step.
 ProcessInput wheels(const Tracks& tracks, std::size_t i, std::uint64_t& dice) {
-  constexpr double translation = 0.01, rotation = 0.01;
+  constexpr double kTranslation = 0.01, kRotation = 0.01;
   ProcessInput u;
   urban_nav_core::Vector6d noise;
   for (int c = 0; c < 6; ++c) {
@@ -64,11 +64,11 @@ ProcessInput wheels(const Tracks& tracks, std::size_t i, std::uint64_t& dice) {
     for (int n = 0; n < 12; ++n)
       sum += static_cast<double>((dice = dice * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) /
              9007199254740992.0;
-    noise[c] = sum * (c < 3 ? translation : rotation);
+    noise[c] = sum * (c < 3 ? kTranslation : kRotation);
   }
   const Pose moved = tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera;
   u.T_from_to = urban_nav_core::boxPlus(moved, noise);
-  u.information = diagonalInformation(translation, rotation);
+  u.information = diagonalInformation(kTranslation, kRotation);
   return u;
 }
 
@@ -104,7 +104,7 @@ void run(const Method& method, const Tracks& tracks, std::uint64_t seed, Curve& 
     for (const auto& sighting : tracks.frames[i].sightings)
       window.observe({sighting.landmark, static_cast<FrameId>(i), sighting.z, pixelInformation(tracks.sigma_px)});
     bool wanted = false;
-    for (const std::size_t step : steps) wanted = wanted || step == i;
+    for (const std::size_t step : kSteps) wanted = wanted || step == i;
     // The batch has nothing to hand on, so it is solved where it is looked at, and now and then so that it starts near.
     if (method.size > 0 || wanted || i % 10 == 0) window.update();
     if (wanted) measure(window, tracks, i, curve[i]);
@@ -117,7 +117,7 @@ double value(const Errors& errors, bool map) { return map ? errors.map / errors.
 // One panel, both axes logarithmic.
 void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const std::string& title, double left,
            double top) {
-  constexpr double width = 330.0, height = 240.0;
+  constexpr double kWidth = 330.0, kHeight = 240.0;
   double low = 1e300, high = 0.0;
   for (const Curve& curve : curves)
     for (const auto& [step, errors] : curve) {
@@ -126,19 +126,19 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
     }
   const double bottom = std::floor(std::log10(low)), ceiling = std::ceil(std::log10(high));
   const double most = std::log10(200.0);
-  const auto x = [&](double step) { return left + width * std::log10(step) / most; };
-  const auto y = [&](double v) { return top + height * (ceiling - std::log10(v)) / (ceiling - bottom); };
-  out << "<rect x='" << left << "' y='" << top << "' width='" << width << "' height='" << height
+  const auto x = [&](double step) { return left + kWidth * std::log10(step) / most; };
+  const auto y = [&](double v) { return top + kHeight * (ceiling - std::log10(v)) / (ceiling - bottom); };
+  out << "<rect x='" << left << "' y='" << top << "' width='" << kWidth << "' height='" << kHeight
       << "' fill='none' stroke='#888'/>\n";
-  out << "<text x='" << left + width / 2 << "' y='" << top - 8 << "' text-anchor='middle'>" << title << "</text>\n";
+  out << "<text x='" << left + kWidth / 2 << "' y='" << top - 8 << "' text-anchor='middle'>" << title << "</text>\n";
   for (int decade = static_cast<int>(bottom); decade <= static_cast<int>(ceiling); ++decade)
     out << "<text x='" << left - 6 << "' y='" << y(std::pow(10.0, decade)) + 4 << "' text-anchor='end'>1e" << decade
         << "</text>\n";
   for (const int step : {1, 10, 100})
-    out << "<text x='" << x(step) << "' y='" << top + height + 16 << "' text-anchor='middle'>" << step << "</text>\n";
+    out << "<text x='" << x(step) << "' y='" << top + kHeight + 16 << "' text-anchor='middle'>" << step << "</text>\n";
   for (std::size_t m = 0; m < curves.size(); ++m) {
     // The batch lies broad beneath those that meet it.
-    out << "<polyline fill='none' stroke-width='" << (m == 0 ? 8 : 2) << "' stroke='" << methods[m].colour
+    out << "<polyline fill='none' stroke-width='" << (m == 0 ? 8 : 2) << "' stroke='" << kMethods[m].colour
         << "' points='";
     for (const auto& [step, errors] : curves[m])
       out << x(static_cast<double>(step)) << ',' << y(value(errors, map)) << ' ';
@@ -165,14 +165,14 @@ int main(int argc, char** argv) {
   plot
       << "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='700' font-family='sans-serif' font-size='12'>\n<rect width='860' height='700' fill='white'/>\n";
   for (const bool standing : {true, false}) {
-    std::vector<Curve> curves(std::size(methods));
+    std::vector<Curve> curves(std::size(kMethods));
     for (int r = 0; r < runs; ++r) {
       const std::uint64_t seed = static_cast<std::uint64_t>(1000 + r);
       const Tracks tracks = simulateTracks(scene(standing, seed, frames));
-      for (std::size_t m = 0; m < curves.size(); ++m) run(methods[m], tracks, seed, curves[m]);
+      for (std::size_t m = 0; m < curves.size(); ++m) run(kMethods[m], tracks, seed, curves[m]);
     }
     for (std::size_t m = 0; m < curves.size(); ++m) {
-      std::vector<std::string> row = {standing ? "standing" : "moving", methods[m].name};
+      std::vector<std::string> row = {standing ? "standing" : "moving", kMethods[m].name};
       for (const bool map : {true, false})
         for (const std::size_t step : {10U, 50U, 199U})
           row.push_back(curves[m].count(step) > 0 ? cell(1e6 * value(curves[m][step], map), 3) : "");
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
     panel(plot, curves, false, std::string(standing ? "standing" : "moving") + ": position, m² over steps", 480.0, top);
   }
   double at = 60.0;
-  for (const Method& method : methods) {
+  for (const Method& method : kMethods) {
     plot << "<line x1='" << at << "' y1='670' x2='" << at + 24 << "' y2='670' stroke-width='3' stroke='"
          << method.colour << "'/><text x='" << at + 30 << "' y='674'>" << method.name << "</text>\n";
     at += 150.0;

@@ -30,7 +30,7 @@ using urban_nav_core::Vector6d;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-constexpr std::array<std::size_t, 5> lags = {10, 50, 100, 200, 400};
+constexpr std::array<std::size_t, 5> kLags = {10, 50, 100, 200, 400};
 
 // Of the translation (m^2) and of the rotation (rad^2).
 struct Sums {
@@ -40,7 +40,7 @@ struct Sums {
 
 struct Pool {
   int sequences = 0;
-  std::array<Sums, lags.size()> at;
+  std::array<Sums, kLags.size()> at;
 };
 
 /// How T_{i,j} goes with the disparity offset, 1/px: two runs with constants.
@@ -49,15 +49,15 @@ class PerOffset {
   PerOffset(Sequence sequence, swf_vo::Parameters parameters) {
     parameters.disparity_offset = 0.0;
     at_zero_ = run(sequence, parameters).settled;
-    sequence.camera.disparity_offset += difference_px;
+    sequence.camera.disparity_offset += kDifferencePx;
     beside_ = run(sequence, parameters).settled;
   }
   Vector6d operator()(std::size_t i, std::size_t j) const {
-    return boxMinus(beside_[i].inverse() * beside_[j], at_zero_[i].inverse() * at_zero_[j]) / difference_px;
+    return boxMinus(beside_[i].inverse() * beside_[j], at_zero_[i].inverse() * at_zero_[j]) / kDifferencePx;
   }
 
  private:
-  static constexpr double difference_px = 0.1;
+  static constexpr double kDifferencePx = 0.1;
   std::vector<Pose> at_zero_, beside_;
 };
 
@@ -65,18 +65,18 @@ class PerOffset {
 void add(Pool& pool, const Sequence& sequence, const Run& run, const PerOffset* per_offset, double rig_scale = 0.0) {
   const urban_nav_core::OdometryChain chain = makeChain(sequence, run);
   ++pool.sequences;
-  for (std::size_t l = 0; l < lags.size(); ++l)
-    for (std::size_t i = 0; i + lags[l] < run.settled.size(); i += 5) {
-      const auto way = chain.between(sequence.stamps[i], sequence.stamps[i + lags[l]]);
+  for (std::size_t l = 0; l < kLags.size(); ++l)
+    for (std::size_t i = 0; i + kLags[l] < run.settled.size(); i += 5) {
+      const auto way = chain.between(sequence.stamps[i], sequence.stamps[i + kLags[l]]);
       if (!way) continue;
       Matrix6d covariance = way->covariance;
       if (per_offset != nullptr) {
-        const Vector6d off = run.statistics[i + lags[l]].disparity_offset_sigma_px * (*per_offset)(i, i + lags[l]);
+        const Vector6d off = run.statistics[i + kLags[l]].disparity_offset_sigma_px * (*per_offset)(i, i + kLags[l]);
         covariance += off * off.transpose();
         const Vector3d path = rig_scale * way->pose.t();
         covariance.topLeftCorner<3, 3>() += path * path.transpose();
       }
-      const Vector6d e = boxMinus(sequence.truth[i].inverse() * sequence.truth[i + lags[l]], way->pose);
+      const Vector6d e = boxMinus(sequence.truth[i].inverse() * sequence.truth[i + kLags[l]], way->pose);
       Sums& sums = pool.at[l];
       for (std::size_t part = 0; part < 2; ++part) {
         const Eigen::Index at = 3 * static_cast<Eigen::Index>(part);
@@ -134,7 +134,7 @@ int main(int argc, char** argv) try {
     add(pool[2], sequence, robust, &per_offset, 0.01 * parameters.rig_scale);
   }
   std::vector<std::string> columns = {"sequences", "number", "of", "covariance"};
-  for (const std::size_t lag : lags) columns.push_back(std::to_string(lag) + " frames");
+  for (const std::size_t lag : kLags) columns.push_back(std::to_string(lag) + " frames");
   BenchTable table(columns, argc, argv);
   for (const auto& [name, pool] : pools)
     for (const std::size_t part : {0U, 1U})

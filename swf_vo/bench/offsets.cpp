@@ -21,7 +21,7 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::quantile;
 
-constexpr double wrong_px = 0.2;  // what the calibration says of the disparities, which are exact
+constexpr double kWrongPx = 0.2;  // what the calibration says of the disparities, which are exact
 
 double medianScale(const std::vector<swf_vo::Statistics>& found) {
   std::vector<double> scales;
@@ -39,10 +39,10 @@ void add(BenchTable& table, const std::string& name, const Run& run, const std::
 
 void addRendered(BenchTable& table, const RenderedOptions& options) {
   std::vector<Sequence> sequences = renderedAt({options.noise, options.noise}, options);
-  sequences[1].camera.disparity_offset = wrong_px;
+  sequences[1].camera.disparity_offset = kWrongPx;
   const std::vector<Run> runs = runTogether(sequences, swf_vo::Parameters());
   add(table, options.scene + ", rendered", runs[0], "0");
-  add(table, options.scene + ", rendered; assumed " + cell(wrong_px, 1) + " px", runs[1], "0");
+  add(table, options.scene + ", rendered; assumed " + cell(kWrongPx, 1) + " px", runs[1], "0");
 }
 
 }  // namespace

@@ -261,8 +261,8 @@ ProcessInput constantVelocity(const std::vector<Pose>& before, double seconds) {
     return u;
   }
   u.T_from_to = before[n - 2].inverse() * before[n - 1];
-  constexpr double acceleration = 3.0, angular = 1.0;
-  u.information = diagonalInformation(acceleration * seconds * seconds, angular * seconds * seconds);
+  constexpr double kAcceleration = 3.0, kAngular = 1.0;
+  u.information = diagonalInformation(kAcceleration * seconds * seconds, kAngular * seconds * seconds);
   return u;
 }
 

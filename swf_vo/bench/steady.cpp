@@ -21,9 +21,9 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::threadMs;
 
-constexpr std::size_t drawn_frames = 200;
-constexpr std::size_t block = 900;  // frames of one row
-constexpr std::int64_t period_ns = 50000000;
+constexpr std::size_t kDrawnFrames = 200;
+constexpr std::size_t kBlock = 900;  // frames of one row
+constexpr std::int64_t kPeriodNs = 50000000;
 
 double residentMb() {
   std::ifstream file("/proc/self/statm");
@@ -54,8 +54,8 @@ int main(int argc, char** argv) try {
   }
   RenderedOptions room;
   room.motion = "loop";
-  room.frames = drawn_frames;
-  const Sequence sequence = folder.empty() ? rendered(room) : kittiFolder(folder, drawn_frames);
+  room.frames = kDrawnFrames;
+  const Sequence sequence = folder.empty() ? rendered(room) : kittiFolder(folder, kDrawnFrames);
   std::vector<cv::Mat> left(sequence.stamps.size()), right(sequence.stamps.size());
   for (std::size_t i = 0; i < left.size(); ++i) sequence.read(i, left[i], right[i]);
 
@@ -64,19 +64,19 @@ int main(int argc, char** argv) try {
       argv);
   SwfVo filter(Parameters(), sequence.camera, urban_nav_core::Pose());
   std::vector<double> ms;
-  ms.reserve(block);
+  ms.reserve(kBlock);
   double features = 0.0, landmarks = 0.0;
   std::size_t next = 100;
   for (std::size_t i = 0; i < frames; ++i) {
     const std::size_t at = forthAndBack(i, left.size());
     const double start = threadMs();
-    const Frame& frame = filter.process({static_cast<std::int64_t>(i) * period_ns, view(left[at]), view(right[at])});
+    const Frame& frame = filter.process({static_cast<std::int64_t>(i) * kPeriodNs, view(left[at]), view(right[at])});
     const double took = threadMs() - start;
     if (i < next) continue;
     ms.push_back(took);
     features += frame.statistics.features;
     landmarks += frame.statistics.landmarks_in_prior;
-    if (ms.size() < block && i + 1 < frames) continue;
+    if (ms.size() < kBlock && i + 1 < frames) continue;
     const double count = static_cast<double>(ms.size());
     table.add({std::to_string(next) + " to " + std::to_string(i + 1), cell(quantile(ms, 0.5), 2),
                cell(quantile(ms, 0.99), 2), cell(features / count, 0), cell(landmarks / count, 0),
@@ -84,7 +84,7 @@ int main(int argc, char** argv) try {
     ms.clear();
     features = landmarks = 0.0;
     next = next < 1000 ? 4100 : next + 5000;
-    if (next + block > frames && i + 1 < frames) next = frames - block;
+    if (next + kBlock > frames && i + 1 < frames) next = frames - kBlock;
   }
   return show(table, output);
 } catch (const std::exception& error) {

@@ -23,8 +23,8 @@ using urban_nav_core::StampNs;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-constexpr double deg = M_PI / 180.0;
-constexpr StampNs calm_after = 1'750'000'000;  // ns: from there on the vehicle is at rest, and the rates are the bias
+constexpr double kDeg = M_PI / 180.0;
+constexpr StampNs kCalmAfter = 1'750'000'000;  // ns: from there on the vehicle is at rest, and the rates are the bias
 
 struct Eye {
   CsvTable files;
@@ -72,7 +72,7 @@ std::vector<double> turned(const std::string& imu, const std::vector<StampNs>& s
   Eigen::Vector3d bias = Eigen::Vector3d::Zero(), angle = Eigen::Vector3d::Zero();
   int count = 0;
   for (std::size_t row = 0; row < table.rows(); ++row)
-    if (table.integer(row, 0) > stamps.front() + calm_after) bias += rate(row), ++count;
+    if (table.integer(row, 0) > stamps.front() + kCalmAfter) bias += rate(row), ++count;
   bias /= std::max(1, count);
   std::vector<double> angles;
   std::size_t row = 0;
@@ -80,7 +80,7 @@ std::vector<double> turned(const std::string& imu, const std::vector<StampNs>& s
   for (const StampNs stamp : stamps) {
     for (; row + 1 < table.rows() && table.integer(row, 0) < stamp; ++row)
       angle += 1e-9 * static_cast<double>(table.integer(row + 1, 0) - table.integer(row, 0)) * (rate(row) - bias);
-    angles.push_back(angle.norm() / deg);
+    angles.push_back(angle.norm() / kDeg);
   }
   return angles;
 }
@@ -88,13 +88,13 @@ std::vector<double> turned(const std::string& imu, const std::vector<StampNs>& s
 void add(BenchTable& table, const char* who, const std::vector<Pose>& poses, const std::vector<double>& gyroscope) {
   double most = 0.0, apart = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double angle = angleBetween(poses.front(), poses[i]) / deg;
+    const double angle = angleBetween(poses.front(), poses[i]) / kDeg;
     most = std::max(most, angle);
     apart = std::max(apart, std::abs(angle - gyroscope[i]));
     squares += std::pow(distanceBetween(poses.front(), poses[i]), 2);
   }
   table.add({who, cell(1000.0 * std::sqrt(squares / static_cast<double>(poses.size())), 2), cell(most, 3),
-             cell(angleBetween(poses.front(), poses.back()) / deg, 3), cell(apart, 3)});
+             cell(angleBetween(poses.front(), poses.back()) / kDeg, 3), cell(apart, 3)});
 }
 
 }  // namespace

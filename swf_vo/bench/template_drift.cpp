@@ -34,11 +34,11 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::quantile;
 
-constexpr std::array<std::size_t, 4> gaps = {10, 25, 50, 100};
-constexpr std::size_t half = 2;      // frames on either side of a mean
-constexpr double farthest = 1000.0;  // m: beyond, nothing has moved enough to show a landmark's place
-constexpr int fitting_steps = 6;
-constexpr double usual_residual = 3.0;  // standard deviations; Huber
+constexpr std::array<std::size_t, 4> kGaps = {10, 25, 50, 100};
+constexpr std::size_t kHalf = 2;      // frames on either side of a mean
+constexpr double kFarthest = 1000.0;  // m: beyond, nothing has moved enough to show a landmark's place
+constexpr int kFittingSteps = 6;
+constexpr double kUsualResidual = 3.0;  // standard deviations; Huber
 
 /// A measurement of a landmark at a true pose.
 struct Sighting {
@@ -162,7 +162,7 @@ class Follower {
   void end(LandmarkId id) {
     const auto at = alive_.find(id);
     if (at == alive_.end()) return;
-    if (at->second.seen.size() > gaps.front() + 4 * half) lives_.push_back(std::move(at->second));
+    if (at->second.seen.size() > kGaps.front() + 4 * kHalf) lives_.push_back(std::move(at->second));
     alive_.erase(at);
   }
 
@@ -174,13 +174,13 @@ class Follower {
 
 /// Distances from its best place (u, v, disparity, px), in each frame; empty where there is none.
 std::vector<Vector3d> residualsAtBestPlace(const StereoCamera& camera, Life& life) {
-  for (int step = 0; step < fitting_steps; ++step) {
+  for (int step = 0; step < kFittingSteps; ++step) {
     Matrix3d H = Matrix3d::Zero();
     Vector3d b = Vector3d::Zero();
     for (const Sighting& seen : life.seen) {
       const Matrix3d J = jacobian(camera, life, seen.T_camera_odom);
       const Vector3d r = seen.z - predict(camera, life.T_odom_birth, life.place, seen.T_camera_odom);
-      const double huber = std::min(1.0, usual_residual / r.cwiseQuotient(seen.sigma).norm());
+      const double huber = std::min(1.0, kUsualResidual / r.cwiseQuotient(seen.sigma).norm());
       const Matrix3d W = huber * seen.sigma.cwiseAbs2().cwiseInverse().asDiagonal();
       H += J.transpose() * W * J;
       b += J.transpose() * W * r;
@@ -188,7 +188,7 @@ std::vector<Vector3d> residualsAtBestPlace(const StereoCamera& camera, Life& lif
     life.place += H.ldlt().solve(b);
   }
   std::vector<Vector3d> residuals;
-  if (!life.place.allFinite() || !(life.place.z() > 1.0 / farthest)) return residuals;
+  if (!life.place.allFinite() || !(life.place.z() > 1.0 / kFarthest)) return residuals;
   for (const Sighting& seen : life.seen)
     residuals.push_back(seen.z - predict(camera, life.T_odom_birth, life.place, seen.T_camera_odom));
   return residuals;
@@ -202,17 +202,17 @@ struct Moved {
 
 void add(const std::vector<Vector3d>& residuals, const Life& life, std::size_t gap, std::vector<Moved>& moved) {
   const std::size_t apart = std::max<std::size_t>(5, gap / 5);
-  for (std::size_t i = gaps.front(); i + gap + half < residuals.size(); i += apart) {
+  for (std::size_t i = kGaps.front(); i + gap + kHalf < residuals.size(); i += apart) {
     const std::size_t j = i + gap;
     if (10 * (life.seen[j].frame - life.seen[i].frame) > 11 * gap) continue;
     std::array<Vector3d, 2> mean = {Vector3d::Zero(), Vector3d::Zero()};
     Vector3d scatter = Vector3d::Zero();
-    constexpr double count = 2 * half + 1;
+    constexpr double kCount = 2 * kHalf + 1;
     for (std::size_t side = 0; side < 2; ++side) {
       const std::size_t middle = side == 0 ? i : j;
-      for (std::size_t k = middle - half; k <= middle + half; ++k) mean[side] += residuals[k] / count;
-      for (std::size_t k = middle - half; k <= middle + half; ++k)
-        scatter += (residuals[k] - mean[side]).cwiseAbs2() / (count * (count - 1.0));
+      for (std::size_t k = middle - kHalf; k <= middle + kHalf; ++k) mean[side] += residuals[k] / kCount;
+      for (std::size_t k = middle - kHalf; k <= middle + kHalf; ++k)
+        scatter += (residuals[k] - mean[side]).cwiseAbs2() / (kCount * (kCount - 1.0));
     }
     const Vector3d squared = (mean[1] - mean[0]).cwiseAbs2();
     const Sighting &from = life.seen[i], &to = life.seen[j];
@@ -251,7 +251,7 @@ void addRow(const std::string& name, std::size_t landmarks, std::size_t gap, std
 
 int main(int argc, char** argv) try {
   const FoldersAndOutput asked = foldersAndOutput(argc, argv);
-  std::map<std::string, std::array<std::vector<Moved>, gaps.size()>> pools;
+  std::map<std::string, std::array<std::vector<Moved>, kGaps.size()>> pools;
   std::map<std::string, std::size_t> landmarks;
   for (const std::string& folder : asked.folders) {
     Sequence sequence = kittiFolder(folder);
@@ -260,14 +260,14 @@ int main(int argc, char** argv) try {
     for (Life& life : Follower(std::move(sequence)).run()) {
       const std::vector<Vector3d> residuals = residualsAtBestPlace(camera, life);
       landmarks[name] += residuals.empty() ? 0 : 1;
-      for (std::size_t g = 0; g < gaps.size(); ++g) add(residuals, life, gaps[g], pools[name][g]);
+      for (std::size_t g = 0; g < kGaps.size(); ++g) add(residuals, life, kGaps[g], pools[name][g]);
     }
   }
   BenchTable table({"sequences", "landmarks", "frames apart", "u, px", "v, px", "disparity, px", "allowed for, px",
                     "squared, over what is allowed for: best quarter", "second", "third", "worst quarter"},
                    argc, argv);
   for (const auto& [name, pool] : pools)
-    for (std::size_t g = 0; g < gaps.size(); ++g) addRow(name, landmarks[name], gaps[g], pool[g], table);
+    for (std::size_t g = 0; g < kGaps.size(); ++g) addRow(name, landmarks[name], kGaps[g], pool[g], table);
   table.note(
       "Landmarks seen in 19 frames and more. How far they have moved from one mean of five frames to another, rms; "
       "quarters by the standard deviation of their alignment; 1 is right.");

@@ -21,24 +21,24 @@ using urban_nav_core::Vector6d;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-constexpr std::array<int, 3> windows = {1, 10, 25};
-constexpr std::size_t usual = 1;  // of `windows`
-constexpr std::array<std::size_t, 3> lags = {10, 50, 200};
+constexpr std::array<int, 3> kWindows = {1, 10, 25};
+constexpr std::size_t kUsual = 1;  // of `kWindows`
+constexpr std::array<std::size_t, 3> kLags = {10, 50, 200};
 
 // Sums of squares: of the translation (m^2) and of the rotation (rad^2).
 struct Sums {
   std::array<double, 2> error = {}, stated = {};
   int count = 0;
 };
-using Pool = std::array<std::array<Sums, lags.size()>, windows.size()>;
+using Pool = std::array<std::array<Sums, kLags.size()>, kWindows.size()>;
 
-void add(const Sequence& sequence, const Run& run, std::array<Sums, lags.size()>& at) {
+void add(const Sequence& sequence, const Run& run, std::array<Sums, kLags.size()>& at) {
   const urban_nav_core::OdometryChain chain = makeChain(sequence, run);
-  for (std::size_t l = 0; l < lags.size(); ++l)
-    for (std::size_t i = 0; i + lags[l] < run.settled.size(); i += 5) {
-      const auto way = chain.between(sequence.stamps[i], sequence.stamps[i + lags[l]]);
+  for (std::size_t l = 0; l < kLags.size(); ++l)
+    for (std::size_t i = 0; i + kLags[l] < run.settled.size(); i += 5) {
+      const auto way = chain.between(sequence.stamps[i], sequence.stamps[i + kLags[l]]);
       if (!way) continue;
-      const Vector6d e = boxMinus(sequence.truth[i].inverse() * sequence.truth[i + lags[l]], way->pose);
+      const Vector6d e = boxMinus(sequence.truth[i].inverse() * sequence.truth[i + kLags[l]], way->pose);
       for (const Eigen::Index part : {0, 1}) {
         at[l].error[static_cast<std::size_t>(part)] += e.segment<3>(3 * part).squaredNorm();
         at[l].stated[static_cast<std::size_t>(part)] += way->covariance.block<3, 3>(3 * part, 3 * part).trace();
@@ -61,17 +61,17 @@ int main(int argc, char** argv) try {
   for (const std::string& folder : asked.folders) {
     const Sequence sequence = kittiFolder(folder);
     Pool& pool = pools[poolName(sequence.name)];
-    for (std::size_t w = 0; w < windows.size(); ++w)
-      add(sequence, run(sequence, parametersFrom({"swf_vo.window=" + std::to_string(windows[w])})), pool[w]);
+    for (std::size_t w = 0; w < kWindows.size(); ++w)
+      add(sequence, run(sequence, parametersFrom({"swf_vo.window=" + std::to_string(kWindows[w])})), pool[w]);
   }
   std::vector<std::string> columns = {"sequences", "of", "window"};
-  for (const std::size_t lag : lags) columns.push_back(std::to_string(lag) + " frames");
+  for (const std::size_t lag : kLags) columns.push_back(std::to_string(lag) + " frames");
   BenchTable table(columns, argc, argv);
   for (const auto& [name, pool] : pools)
     for (const std::size_t part : {0U, 1U})
-      for (std::size_t w = 0; w < windows.size(); ++w) {
-        std::vector<std::string> row = {name, part == 0 ? "translation" : "rotation", std::to_string(windows[w])};
-        for (std::size_t l = 0; l < lags.size(); ++l) row.push_back(describe(pool[w][l], pool[usual][l], part));
+      for (std::size_t w = 0; w < kWindows.size(); ++w) {
+        std::vector<std::string> row = {name, part == 0 ? "translation" : "rotation", std::to_string(kWindows[w])};
+        for (std::size_t l = 0; l < kLags.size(); ++l) row.push_back(describe(pool[w][l], pool[kUsual][l], part));
         table.add(row);
       }
   table.note("Standard deviations stated, over those with a window of 10. In brackets the errors, rms.");

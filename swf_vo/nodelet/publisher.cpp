@@ -20,8 +20,8 @@ using urban_nav_ros::toRosTime;
 namespace {
 
 // For display: a point per half metre, and no more of them than a viewer draws with ease.
-constexpr double path_spacing = 0.5;  // m
-constexpr std::size_t path_points = 4000;
+constexpr double kPathSpacing = 0.5;  // m
+constexpr std::size_t kPathPoints = 4000;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void Publisher::startSession(const Frames& frames, double near_disparity_px) {
 void Publisher::publish(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms) {
   if (frame.accepted) {
     publishOdometry(frame);
-    if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, path_spacing, path_points, drawn_path_))
+    if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, kPathSpacing, kPathPoints, drawn_path_))
       path_.publish(drawn_path_);
     publishLandmarks(frame);
     publishTracks(frame, pair.left);

@@ -16,7 +16,7 @@ using urban_nav_ros::StereoSessions;
 namespace {
 
 // s; the slowest cameras that odometry can use have 5 Hz.
-constexpr double image_timeout = 1.0;
+constexpr double kImageTimeout = 1.0;
 
 }  // namespace
 
@@ -76,7 +76,7 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
       StereoSessions::Listener{[this](const auto& camera) { begin(camera); }, [this](auto& pair) { process(pair); },  //
                                [this](const auto& why) { end(why); }, [this](const auto& fault) { refuse(fault); }});
   urban_nav_ros::TopicOptions options;
-  options.timeout = image_timeout;
+  options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
   subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::toMotionTopic(nodelet_.motion_input));
 }

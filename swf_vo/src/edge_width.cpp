@@ -12,9 +12,9 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr int edge_column_step = 4, edge_row_step = 4;
-constexpr int edge_reach = 3;      // px: over which the slope of an edge is taken
-constexpr int steepest_part = 50;  // one in so many places: edges, even where most of the scene is smooth
+constexpr int kEdgeColumnStep = 4, kEdgeRowStep = 4;
+constexpr int kEdgeReach = 3;      // px: over which the slope of an edge is taken
+constexpr int kSteepestPart = 50;  // one in so many places: edges, even where most of the scene is smooth
 
 /// Places by how much the image rises over `reach` pixels there, and the squared change of its slope.
 struct Rises {
@@ -29,10 +29,10 @@ struct Rises {
   }
 
   double variance(std::int64_t places) const {
-    std::int64_t wanted = places / steepest_part + 1;
+    std::int64_t wanted = places / kSteepestPart + 1;
     double slopes = 0.0, curved = 0.0;
     for (std::size_t rise = count.size() - 1; rise > 0 && wanted > 0; --rise) {
-      const double r = static_cast<double>(rise) / edge_reach;
+      const double r = static_cast<double>(rise) / kEdgeReach;
       slopes += static_cast<double>(count[rise]) * r * r;
       curved += static_cast<double>(bends[rise]);
       wanted -= count[rise];
@@ -41,17 +41,17 @@ struct Rises {
   }
 };
 
-constexpr double noticed = 1.0;        // px^2
-constexpr double scenes_differ = 2.0;  // times
+constexpr double kNoticed = 1.0;       // px^2
+constexpr double kScenesDiffer = 2.0;  // times
 
 }  // namespace
 
 Eigen::Vector2d edgeVariance(const ImageView& image) {
   Rises across, down;
   std::int64_t places = 0;
-  for (int v = 0; v + edge_reach < image.height; v += edge_row_step) {
+  for (int v = 0; v + kEdgeReach < image.height; v += kEdgeRowStep) {
     const std::uint8_t *p = image.row(v), *q = image.row(v + 1), *r = image.row(v + 2), *s = image.row(v + 3);
-    for (int u = 0; u + edge_reach < image.width; u += edge_column_step, ++places) {
+    for (int u = 0; u + kEdgeReach < image.width; u += kEdgeColumnStep, ++places) {
       across.add(p[u], p[u + 1], p[u + 2], p[u + 3]);
       down.add(p[u], q[u], r[u], s[u]);
     }
@@ -62,7 +62,7 @@ Eigen::Vector2d edgeVariance(const ImageView& image) {
 Eigen::Vector2d widening(const Eigen::Vector2d& edges, const Eigen::Vector2d& others) {
   Eigen::Vector2d more = Eigen::Vector2d::Zero();
   for (int i = 0; i < 2; ++i)
-    if (edges[i] > std::max(scenes_differ * others[i], others[i] + noticed)) more[i] = edges[i] - others[i];
+    if (edges[i] > std::max(kScenesDiffer * others[i], others[i] + kNoticed)) more[i] = edges[i] - others[i];
   return more;
 }
 

@@ -31,15 +31,15 @@ Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
 }
 
 // Pictures and clouds show what is near enough to mean something.
-constexpr double far_away = 200.0;  // m
+constexpr double kFarAway = 200.0;  // m
 
 // Landmarks whose first frame is remembered, before those that have left are forgotten.
-constexpr std::size_t largest_memory = 16384;
+constexpr std::size_t kLargestMemory = 16384;
 
 }  // namespace
 
 Output::Output(const Pose& T_base_camera) : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {
-  born_.reserve(largest_memory);
+  born_.reserve(kLargestMemory);
   frame_.features.reserve(1024);
   frame_.landmarks.reserve(1024);
   frame_.settled.reserve(4);
@@ -63,7 +63,7 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
     if (!(w > 0.0)) continue;
     const Eigen::Vector3d p_odom = point.p_odom.head<3>() / w;
     const double depth = (T_camera_odom * p_odom).z();
-    if (depth > 0.0 && depth < far_away) frame_.landmarks.push_back({point.landmark, p_odom, 0.0F});
+    if (depth > 0.0 && depth < kFarAway) frame_.landmarks.push_back({point.landmark, p_odom, 0.0F});
   }
   if (seen == nullptr) return;
   double ages = 0.0;
@@ -75,7 +75,7 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
     }
   }
   // A landmark that no frame will ask for again: ids grow, so the dead gather at the front.
-  if (born_.size() + 1024 > largest_memory) {
+  if (born_.size() + 1024 > kLargestMemory) {
     const auto& map = window.map();
     born_.erase(std::remove_if(born_.begin(), born_.end(),
                                [&](const auto& entry) {
@@ -94,8 +94,8 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
 
 Velocity Output::velocity(FrameId frame, StampNs stamp, bool lost, const Window& window, const ProcessInput& u) const {
   Velocity velocity;
-  velocity.covariance.diagonal() << Eigen::Vector3d::Constant(unknown_speed * unknown_speed),
-      Eigen::Vector3d::Constant(unknown_angular_speed * unknown_angular_speed);
+  velocity.covariance.diagonal() << Eigen::Vector3d::Constant(kUnknownSpeed * kUnknownSpeed),
+      Eigen::Vector3d::Constant(kUnknownAngularSpeed * kUnknownAngularSpeed);
   if (waiting_.empty()) return velocity;
   const double seconds = urban_nav_core::secondsBetween(waiting_.back().stamp, stamp);
   const Pose last = window.hasPose(frame - 1) ? window.pose(frame - 1) : last_T_odom_camera_;

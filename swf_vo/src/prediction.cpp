@@ -23,9 +23,9 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // Good images in which nothing is found where the velocity says, so many times in a row: the velocity is wrong.
-constexpr int patience = 3;
+constexpr int kPatience = 3;
 // After a pause of that length a velocity says nothing: the motion is unknown, and none is made up.
-constexpr double velocity_holds = 5.0;  // s
+constexpr double kVelocityHolds = 5.0;  // s
 
 Matrix6d fromSigmas(double translation, double rotation) {
   Vector6d diagonal;
@@ -75,16 +75,16 @@ Prediction::Prediction(const Parameters& parameters, const Pose& T_base_camera)
 ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& inputs) const {
   ProcessInput u;
   const double steps = 1.0 + unmeasured_;
-  const bool known = known_ && seconds < velocity_holds;
+  const bool known = known_ && seconds < kVelocityHolds;
   u.T_from_to = known ? expSe3(fadedVelocity() * seconds) : Pose();
   // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as
   // uncertain as one.
-  const double speed = unknown_speed * std::sqrt(2.0 * steps - 1.0) * seconds,
-               angular_speed = unknown_angular_speed * std::sqrt(2.0 * steps - 1.0) * seconds;
+  const double speed = kUnknownSpeed * std::sqrt(2.0 * steps - 1.0) * seconds,
+               angular_speed = kUnknownAngularSpeed * std::sqrt(2.0 * steps - 1.0) * seconds;
   const double drift = steps * seconds * seconds;
   u.information =
       known ? fromSigmas(std::min(acceleration_ * drift, speed), std::min(angular_acceleration_ * drift, angular_speed))
-            : fromSigmas(unknown_speed * seconds, unknown_angular_speed * seconds);
+            : fromSigmas(kUnknownSpeed * seconds, kUnknownAngularSpeed * seconds);
   const Measured measured = together(inputs);
   if (measured.count == 0) return u;
   const Pose motion = expSe3(logSe3(measured.T_from_to) * (seconds / measured.seconds));
@@ -101,7 +101,7 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
 void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured, bool blind, bool smoothed) {
   const bool reckoned = unmeasured_ > 0 && !smoothed;
   unmeasured_ = measured ? 0 : unmeasured_ + 1;
-  if (!measured && !blind && unmeasured_ >= patience) known_ = false;
+  if (!measured && !blind && unmeasured_ >= kPatience) known_ = false;
   if (!measured || !(seconds > 0.0) || (reckoned && known_)) return;
   const Vector6d velocity = logSe3(T_last_camera) / seconds;
   if (known_ && !reckoned) {

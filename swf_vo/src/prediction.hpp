@@ -12,8 +12,8 @@
 namespace swf_vo {
 
 /// Standard deviation of a velocity of which nothing is known: a walking or slowly driving robot, or a car at 15 m/s.
-constexpr double unknown_speed = 10.0;         // m/s
-constexpr double unknown_angular_speed = 1.0;  // rad/s
+constexpr double kUnknownSpeed = 10.0;        // m/s
+constexpr double kUnknownAngularSpeed = 1.0;  // rad/s
 
 /// The input of the process model (eq. 1) from what is known: constant velocity, and where there is one, a measured u.
 ///

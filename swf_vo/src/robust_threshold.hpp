@@ -10,14 +10,14 @@ namespace swf_vo {
 /// one value. Overwrites the values.
 template <typename Iterator>
 double robustThreshold(Iterator begin, Iterator end) {
-  constexpr double gate = 4.0;
-  constexpr double deviation = 1.4826;  // standard deviation of a Gaussian over its median deviation
+  constexpr double kGate = 4.0;
+  constexpr double kDeviation = 1.4826;  // standard deviation of a Gaussian over its median deviation
   const Iterator middle = begin + (end - begin) / 2;
   std::nth_element(begin, middle, end);
   const double median = *middle;
   std::transform(begin, end, begin, [median](double value) { return std::abs(value - median); });
   std::nth_element(begin, middle, end);
-  return median + gate * deviation * *middle;
+  return median + kGate * kDeviation * *middle;
 }
 
 }  // namespace swf_vo

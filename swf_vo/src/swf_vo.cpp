@@ -27,16 +27,16 @@ using urban_nav_core::UserError;
 namespace {
 
 // The first pose is the origin by definition: held to a micrometre and a microradian.
-constexpr double origin_sigma = 1e-6;
+constexpr double kOriginSigma = 1e-6;
 // More than this many usual periods between two frames: something is missing.
-constexpr double gap_periods = 1.7;
+constexpr double kGapPeriods = 1.7;
 // After more frames than a landmark may be missed in, as many are missing as a spell of darkness has.
-constexpr double astray_periods = 3.5;
+constexpr double kAstrayPeriods = 3.5;
 // Landmarks in the window for each that is followed: most live for a few frames, and the window for ten.
-constexpr int landmarks_per_feature = 4;
+constexpr int kLandmarksPerFeature = 4;
 
-constexpr const char* state_name = "swf_vo";
-constexpr std::uint32_t state_version = 5;  // one more whenever what is archived becomes other bytes
+constexpr const char* kStateName = "swf_vo";
+constexpr std::uint32_t kStateVersion = 5;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
@@ -52,7 +52,7 @@ WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& ca
   options.tolerance = 1e-3;
   options.rig_scale = 0.01 * parameters.rig_scale;
   options.robust_drift = parameters.robust_covariance;
-  options.landmarks = landmarks_per_feature * featuresIn(camera, parameters.features);
+  options.landmarks = kLandmarksPerFeature * featuresIn(camera, parameters.features);
   return options;
 }
 
@@ -136,7 +136,7 @@ class SwfVo::Implementation {
     Evidence evidence;
     evidence.first = !started_;
     const double periods = takeTime(pair.stamp);
-    evidence.gap = periods > gap_periods;
+    evidence.gap = periods > kGapPeriods;
     const CorruptRowRepair::Repaired repaired = row_repair_.repair(pair);
     evidence.corrupted = repaired.corrupted;
     evidence.image = images_.look(repaired.pair, doubtful_);
@@ -148,7 +148,7 @@ class SwfVo::Implementation {
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
       seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
-                                 {periods > astray_periods, translationSigma(u), seconds_}, evidence.image.edges);
+                                 {periods > kAstrayPeriods, translationSigma(u), seconds_}, evidence.image.edges);
       evidence.localised = seen->localised;
       evidence.tracked = static_cast<int>(seen->tracked.size());
       evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
@@ -166,7 +166,7 @@ class SwfVo::Implementation {
     const bool adrift = started_ && trusted && isAdrift(*seen);
     if (started_ && !trusted && seen != nullptr && seen->turned) u = turned(u, last, *seen);
     // Too long a time to predict over: from metres away no residual would lead to where the images say.
-    if (started_ && trusted && periods > astray_periods) u.T_from_start = last.inverse() * seen->T_odom_camera;
+    if (started_ && trusted && periods > kAstrayPeriods) u.T_from_start = last.inverse() * seen->T_odom_camera;
     takeStep(u, adrift && !blurred ? seen : nullptr);
     if (seen != nullptr && (trusted || !started_) && !(adrift && blurred)) remember(*seen);
     if (seen != nullptr) observe(*seen, trusted);
@@ -191,7 +191,7 @@ class SwfVo::Implementation {
     urban_nav_core::Archive archive;
     agree(archive, parameters_, camera_, T_odom_first_camera_);
     this->archive(archive);
-    return urban_nav_core::seal(state_name, state_version, archive.take());
+    return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
   }
 
   void archive(urban_nav_core::Archive& archive) {
@@ -230,7 +230,7 @@ class SwfVo::Implementation {
   // in itself and carries what is not known of its place.
   void takeStep(const ProcessInput& u, const FrontEndResult* adrift) {
     if (!started_) {
-      window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
+      window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (kOriginSigma * kOriginSigma));
     } else if (adrift != nullptr) {
       // Its landmarks begin with this frame, from where they say that it is.
       window_.restart(frame_, {window_.newest().pose.inverse() * adrift->T_odom_camera, u.information});
@@ -294,7 +294,7 @@ SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pos
 SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera,
              std::string_view state)
     : SwfVo(parameters, camera, T_base_camera) {
-  urban_nav_core::Archive archive(urban_nav_core::unseal(state_name, state_version, state), "state of swf_vo");
+  urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), "state of swf_vo");
   agree(archive, parameters, camera, T_base_camera);
   implementation_->archive(archive);
   archive.finish();

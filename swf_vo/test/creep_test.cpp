@@ -16,8 +16,8 @@ using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::Motion;
 using urban_nav_core::testing::RoomSize;
 
-constexpr int standing_frames = 10, creeping_frames = 50;  // frames at 20 Hz
-constexpr double speed = 0.02;                             // m/s
+constexpr int kStandingFrames = 10, kCreepingFrames = 50;  // frames at 20 Hz
+constexpr double kSpeed = 0.02;                            // m/s
 
 struct Start {
   const char* name;
@@ -33,18 +33,18 @@ TEST_P(Creep, TheFirstFiveCentimetresAreRightToATenth) {
   const Start& start = GetParam();
   const Pose first = lookingAlong({-RoomSize().freeX(), 0.3, 1.1}, start.yaw);
   const Motion motion = [&](double t) {
-    const double way = speed * std::max(0.0, t - standing_frames / 20.0);
+    const double way = kSpeed * std::max(0.0, t - kStandingFrames / 20.0);
     return first * Pose(Eigen::Quaterniond::Identity(), way * start.direction);
   };
-  const Recording room = inTheRoom(motion, start.noise, standing_frames + creeping_frames + 1);
+  const Recording room = inTheRoom(motion, start.noise, kStandingFrames + kCreepingFrames + 1);
   SwfVo filter(Parameters(), room.camera, Pose());
   double last = 0.0;
   Vector3d stood = Vector3d::Zero(), went = Vector3d::Zero();
-  for (int i = 0; i <= standing_frames + creeping_frames; ++i) {
+  for (int i = 0; i <= kStandingFrames + kCreepingFrames; ++i) {
     const Pose now = filter.process(room.frames[static_cast<std::size_t>(i)].pair()).T_odom_base.pose;
-    if (i == standing_frames) stood = now.t();
+    if (i == kStandingFrames) stood = now.t();
     went = now.t() - stood;
-    if (i > standing_frames) {
+    if (i > kStandingFrames) {
       EXPECT_NEAR(went.dot(start.direction) - last, 0.001, 0.002) << "a jump at " << i;
     }
     last = went.dot(start.direction);

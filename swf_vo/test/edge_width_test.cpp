@@ -14,7 +14,7 @@ namespace {
 
 using urban_nav_core::ImageView;
 
-constexpr int edge_image_width = 400, edge_image_height = 300;
+constexpr int kEdgeImageWidth = 400, kEdgeImageHeight = 300;
 
 /// Edges of all contrasts every `apart` pixels along both axes, as a lens of this blur shows them.
 std::vector<std::uint8_t> edges(double sigma_x, double sigma_y, double contrast = 100.0, double noise = 1.0,
@@ -25,16 +25,16 @@ std::vector<std::uint8_t> edges(double sigma_x, double sigma_y, double contrast 
     const double phase = x / apart - std::floor(x / apart) - 0.5;
     return 0.5 * std::erf(phase * apart / (std::sqrt(2.0) * sigma)) - phase;
   };
-  std::vector<std::uint8_t> pixels(edge_image_width * edge_image_height);
-  for (int v = 0; v < edge_image_height; ++v)
-    for (int u = 0; u < edge_image_width; ++u)
-      pixels[static_cast<std::size_t>(v * edge_image_width + u)] = static_cast<std::uint8_t>(std::clamp(
+  std::vector<std::uint8_t> pixels(kEdgeImageWidth * kEdgeImageHeight);
+  for (int v = 0; v < kEdgeImageHeight; ++v)
+    for (int u = 0; u < kEdgeImageWidth; ++u)
+      pixels[static_cast<std::size_t>(v * kEdgeImageWidth + u)] = static_cast<std::uint8_t>(std::clamp(
           128.0 + contrast * (edge(u + 0.3 * v, sigma_x) + edge(v + 0.3 * u, sigma_y)) + grey(seed), 0.0, 255.0));
   return pixels;
 }
 
 Eigen::Vector2d of(const std::vector<std::uint8_t>& pixels) {
-  return edgeVariance({pixels.data(), edge_image_width, edge_image_height, edge_image_width});
+  return edgeVariance({pixels.data(), kEdgeImageWidth, kEdgeImageHeight, kEdgeImageWidth});
 }
 
 // Straight edges all alike are where it says the most: their steepest places do not bend at all.
@@ -56,7 +56,7 @@ TEST(EdgeVariance, KnowsNothingOfContrastAndOfHowMuchIsSmooth) {
 }
 
 TEST(EdgeVariance, OfAnImageWithoutContrastIsNothing) {
-  const std::vector<std::uint8_t> flat(edge_image_width * edge_image_height, 90);
+  const std::vector<std::uint8_t> flat(kEdgeImageWidth * kEdgeImageHeight, 90);
   EXPECT_TRUE(of(flat).isZero());
   EXPECT_TRUE(edgeVariance({flat.data(), 2, 2, 2}).isZero());
 }

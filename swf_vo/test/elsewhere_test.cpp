@@ -36,18 +36,18 @@ StereoFrame pastePiece(const StereoFrame& before, StereoFrame frame) {
 }
 
 TEST(Elsewhere, IsNotTakenForThePlaceOfBefore) {
-  constexpr std::size_t before = 15, after = 5;
-  constexpr StampNs gap = 1'500'000'000, period = 50'000'000;
+  constexpr std::size_t kBefore = 15, kAfter = 5;
+  constexpr StampNs kGap = 1'500'000'000, kPeriod = 50'000'000;
   int trials = 0;
   for (const char* motion : {"loop", "wander", "turns"}) {
     const Recording& room = inTheRoom(motion, 1.0, 80);
-    for (std::size_t first = 0; first + before + after < room.frames.size(); first += 5) {
+    for (std::size_t first = 0; first + kBefore + kAfter < room.frames.size(); first += 5) {
       SwfVo filter(Parameters(), room.camera, urban_nav_core::Pose());
-      for (std::size_t i = 0; i < before; ++i) filter.process(room.frames[first + i].pair());
-      StampNs stamp = room.frames[first + before - 1].stamp + gap;
-      for (std::size_t i = 0; i < after; ++i, stamp += period) {
+      for (std::size_t i = 0; i < kBefore; ++i) filter.process(room.frames[first + i].pair());
+      StampNs stamp = room.frames[first + kBefore - 1].stamp + kGap;
+      for (std::size_t i = 0; i < kAfter; ++i, stamp += kPeriod) {
         StereoFrame other = elsewhere(room.frames[room.frames.size() - 1 - first - i]);
-        if (first % 10 == 5) other = pastePiece(room.frames[first + before - 1], other);
+        if (first % 10 == 5) other = pastePiece(room.frames[first + kBefore - 1], other);
         other.stamp = stamp;
         const Frame& frame = filter.process(other.pair());
         expectProper(frame);

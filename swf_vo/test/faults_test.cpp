@@ -110,13 +110,13 @@ TEST(GapOnWheels, IsCrossed) {
   for (const char* motion : {"loop", "wander", "turns"}) {
     SCOPED_TRACE(motion);
     const Recording& room = inTheRoom(motion, 1.0, 80);
-    constexpr double sigma = 0.02;  // m, rad
+    constexpr double kSigma = 0.02;  // m, rad
     const auto wheels = [&](std::size_t from, std::size_t to) {
       urban_nav_core::MotionInput input;
       input.from = room.frames[from].stamp, input.to = room.frames[to].stamp;
-      const Vector6d off = 1.5 * sigma * (Vector6d() << 1.0, -1.0, 1.0, 1.0, -1.0, 1.0).finished();
+      const Vector6d off = 1.5 * kSigma * (Vector6d() << 1.0, -1.0, 1.0, 1.0, -1.0, 1.0).finished();
       input.T_from_to = boxPlus(room.truth[from].inverse() * room.truth[to], off * (to - from > 1 ? 1.0 : 0.0));
-      input.information = urban_nav_core::Matrix6d::Identity() / (sigma * sigma);
+      input.information = urban_nav_core::Matrix6d::Identity() / (kSigma * kSigma);
       return std::vector<urban_nav_core::MotionInput>{input};
     };
     Frame last;
@@ -137,7 +137,7 @@ class FaultsInTheRoom : public ::testing::TestWithParam<Trouble> {};
 
 // One end point is a throw of dice: three of them, root mean square.
 TEST_P(FaultsInTheRoom, AreNamedWithinTwoFramesAndOvercome) {
-  constexpr int count = 3;
+  constexpr int kCount = 3;
   double squares = 0.0, usual = 0.0, nees = 0.0;
   for (const char* motion : {"loop", "wander", "turns"}) {
     SCOPED_TRACE(motion);
@@ -148,7 +148,7 @@ TEST_P(FaultsInTheRoom, AreNamedWithinTwoFramesAndOvercome) {
     usual += std::pow(undisturbedError(motion), 2);
     nees += urban_nav_core::nees(outcome.truth, outcome.last.T_odom_base).value();
   }
-  EXPECT_LT(nees, chiSquareQuantile(0.99, 6.0 * count));
+  EXPECT_LT(nees, chiSquareQuantile(0.99, 6.0 * kCount));
   EXPECT_LT(std::sqrt(squares), 2.0 * std::sqrt(usual));
 }
 

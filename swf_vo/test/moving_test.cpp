@@ -21,9 +21,9 @@ using urban_nav_core::testing::SequenceOptions;
 using urban_nav_core::testing::straight;
 using urban_nav_core::testing::texturedRoom;
 
-constexpr double ahead = 2.5, van_width = 1.5, van_height = 1.7,
-                 depth = 1.0;  // m, of the van's rear from the camera at the start
-constexpr int moving_frames = 45;
+constexpr double kAhead = 2.5, kVanWidth = 1.5, kVanHeight = 1.7,
+                 kDepth = 1.0;  // m, of the van's rear from the camera at the start
+constexpr int kMovingFrames = 45;
 
 struct Drive {
   const char* name;
@@ -36,8 +36,8 @@ class Van : public ::testing::TestWithParam<Drive> {};
 // Features on the van's rear, as a share of all.
 double shareOnTheVan(const Frame& frame, double distance) {
   const auto camera = roomCamera();
-  const double half = camera.fx * 0.5 * van_width / distance,
-               top = camera.cy - camera.fy * (van_height - 1.1) / distance;
+  const double half = camera.fx * 0.5 * kVanWidth / distance,
+               top = camera.cy - camera.fy * (kVanHeight - 1.1) / distance;
   const auto on = std::count_if(frame.features.begin(), frame.features.end(), [&](const Feature& feature) {
     return std::abs(feature.pixel.x() - camera.cx) < half && feature.pixel.y() > top;
   });
@@ -51,8 +51,8 @@ TEST_P(Van, DoesNotCarryTheEstimateAway) {
   const Scene room = texturedRoom();
   const auto scene = [&](double t) {
     Scene now = room;
-    const Vector3d rear = start.t() + Vector3d(ahead + 0.5 * depth + GetParam().way(t, own(t)), 0.0, -1.1);
-    now.addBox(Pose(Eigen::Quaterniond::Identity(), rear), {depth, van_width, van_height},
+    const Vector3d rear = start.t() + Vector3d(kAhead + 0.5 * kDepth + GetParam().way(t, own(t)), 0.0, -1.1);
+    now.addBox(Pose(Eigen::Quaterniond::Identity(), rear), {kDepth, kVanWidth, kVanHeight},
                room.rectangles.back().texture, 1.0);
     return now;
   };
@@ -61,12 +61,12 @@ TEST_P(Van, DoesNotCarryTheEstimateAway) {
   options.noise = 2.0;
   RenderedSequence sequence(scene, motion, options);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
-  for (int i = 0; i < moving_frames; ++i) {
+  for (int i = 0; i < kMovingFrames; ++i) {
     const Frame& now = filter.process(sequence.frame(i).pair());
     expectProper(now);
     const double t = sequence.time(i), gone = own(t);
     if (i == 20) {
-      EXPECT_GT(shareOnTheVan(now, ahead - gone), 0.3) << "else the test says little";
+      EXPECT_GT(shareOnTheVan(now, kAhead - gone), 0.3) << "else the test says little";
     }
     const double off = distanceBetween(now.T_odom_base.pose, start.inverse() * motion(t));
     EXPECT_LT(off, 0.005 + 0.01 * gone) << i;

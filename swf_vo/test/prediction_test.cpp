@@ -17,7 +17,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
-constexpr std::int64_t ms = 1000000;
+constexpr std::int64_t kMs = 1000000;
 
 Vector6d twist(double vx, double vy, double vz, double wx, double wy, double wz) {
   Vector6d v;
@@ -90,7 +90,7 @@ TEST(Prediction, TakesAGoodInputInsteadOfTheVelocity) {
   Prediction prediction(Parameters(), T_base_camera);
   prediction.learn(Pose(), 0.1, true);
   const Pose motion = expSe3(twist(0.1, 0.0, 0.0, 0.0, 0.0, 0.05));
-  const MotionInput input{0, 100 * ms, motion, 1e12 * Matrix6d::Identity()};
+  const MotionInput input{0, 100 * kMs, motion, 1e12 * Matrix6d::Identity()};
   EXPECT_TRUE(
       isApprox(prediction.step(0.1, {input}).T_from_to, T_base_camera.inverse() * motion * T_base_camera, 1e-6));
 }
@@ -102,7 +102,7 @@ TEST(Prediction, AGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
   information.bottomRightCorner<3, 3>() = 1e12 * Eigen::Matrix3d::Identity();
   std::vector<MotionInput> inputs;
   for (int i = 0; i < 10; ++i)
-    inputs.push_back({i * 10 * ms, (i + 1) * 10 * ms, expSe3(twist(0, 0, 0, 0, 0.01, 0)), information});
+    inputs.push_back({i * 10 * kMs, (i + 1) * 10 * kMs, expSe3(twist(0, 0, 0, 0, 0.01, 0)), information});
   const ProcessInput u = prediction.step(0.1, inputs);
   EXPECT_NEAR(logSe3(u.T_from_to)(4), 0.1, 1e-6);
   EXPECT_NEAR(u.T_from_to.t().z(), 0.1, 1e-3);

@@ -16,7 +16,7 @@ using urban_nav_core::testing::RenderedSequence;
 using urban_nav_core::testing::SequenceOptions;
 using urban_nav_core::testing::texturedRoom;
 
-constexpr int rig_frames = 50;
+constexpr int kRigFrames = 50;
 
 /// The rendered room with a right camera that is turned about its optical axis, and late.
 RigConstants findRig(double roll_rad, double delay_s) {
@@ -35,7 +35,7 @@ RigConstants findRig(double roll_rad, double delay_s) {
   parameters.shutter_delay = 5.0;  // two seconds of a slow camera say less than the usual prior
   SwfVo filter(parameters, stereoCamera(), Pose());
   RigConstants found;
-  for (int i = 0; i < rig_frames; ++i) {
+  for (int i = 0; i < kRigFrames; ++i) {
     const auto &pair_left = left.frame(i), &pair_right = right.frame(i);
     found = filter.process({left.stamp(i), pair_left.pair().left, pair_right.pair().right}).rig;
   }
@@ -51,19 +51,19 @@ TEST(Rig, AGoodOneIsFoundGood) {
 }
 
 TEST(Rig, ARolledCameraIsFound) {
-  constexpr double roll = 0.2 * M_PI / 180.0;
-  const RigConstants found = findRig(roll, 0.0);
-  EXPECT_NEAR(found.roll_rad, roll, 0.1 * roll);
-  EXPECT_LT(std::abs(found.roll_rad - roll), 5.0 * found.roll_sigma_rad);
+  constexpr double kRoll = 0.2 * M_PI / 180.0;
+  const RigConstants found = findRig(kRoll, 0.0);
+  EXPECT_NEAR(found.roll_rad, kRoll, 0.1 * kRoll);
+  EXPECT_LT(std::abs(found.roll_rad - kRoll), 5.0 * found.roll_sigma_rad);
 }
 
 // Of one camera and one room: what else errs is the same in both.
 TEST(Rig, ALateShutterIsToldFromAnEarlyOne) {
-  constexpr double delay = 4e-3;
-  const RigConstants late = findRig(0.0, delay), early = findRig(0.0, -delay);
-  EXPECT_NEAR(late.delay_s - early.delay_s, 2.0 * delay, 0.6 * delay);
-  EXPECT_LT(std::abs(late.delay_s - delay), 4.0 * late.delay_sigma_s);
-  EXPECT_LT(std::abs(early.delay_s + delay), 4.0 * early.delay_sigma_s);
+  constexpr double kDelay = 4e-3;
+  const RigConstants late = findRig(0.0, kDelay), early = findRig(0.0, -kDelay);
+  EXPECT_NEAR(late.delay_s - early.delay_s, 2.0 * kDelay, 0.6 * kDelay);
+  EXPECT_LT(std::abs(late.delay_s - kDelay), 4.0 * late.delay_sigma_s);
+  EXPECT_LT(std::abs(early.delay_s + kDelay), 4.0 * early.delay_sigma_s);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using urban_nav_core::Pose;
 
-constexpr double degree = M_PI / 180.0;
+constexpr double kDegree = M_PI / 180.0;
 
 struct Shaking {
   double step_deg;  ///< largest angle between two frames
@@ -19,14 +19,14 @@ struct Shaking {
 class Shaken : public ::testing::TestWithParam<Shaking> {};
 
 TEST_P(Shaken, EndsWithinAPerCentOfThePath) {
-  constexpr double rate = 5.0, hz = 0.7;
+  constexpr double kRate = 5.0, kHz = 0.7;
   urban_nav_core::testing::SequenceOptions options;
   options.camera = roomCamera();
-  options.rate = rate;
+  options.rate = kRate;
   options.exposure = GetParam().exposure;
-  const double angle = GetParam().step_deg * degree * rate / (2.0 * M_PI * hz);
+  const double angle = GetParam().step_deg * kDegree * kRate / (2.0 * M_PI * kHz);
   urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom(),
-                                                     urban_nav_core::testing::shake({0.0, 0.0, 1.1}, 0.15, angle, hz),
+                                                     urban_nav_core::testing::shake({0.0, 0.0, 1.1}, 0.15, angle, kHz),
                                                      options);
   const Recording recording = record(sequence, 50);
   SwfVo filter(Parameters(), recording.camera, Pose());

@@ -19,15 +19,15 @@ using urban_nav_core::testing::RenderedSequence;
 using urban_nav_core::testing::SequenceOptions;
 using urban_nav_core::testing::texturedRoom;
 
-constexpr int shimmer_frames = 60, cell = 12;  // px
-constexpr double amplitude = 0.2;              // px, standard deviation
+constexpr int kShimmerFrames = 60, kCell = 12;  // px
+constexpr double kAmplitude = 0.2;              // px, standard deviation
 
 /// A field of displacements that are alike within a patch, and not further away.
 void shimmer(const ImageView& image, cv::RNG& random, cv::Mat& moved) {
   const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                       static_cast<std::size_t>(image.stride));
-  cv::Mat coarse(image.height / cell + 1, image.width / cell + 1, CV_32FC2), field;
-  random.fill(coarse, cv::RNG::NORMAL, 0.0, amplitude);
+  cv::Mat coarse(image.height / kCell + 1, image.width / kCell + 1, CV_32FC2), field;
+  random.fill(coarse, cv::RNG::NORMAL, 0.0, kAmplitude);
   cv::resize(coarse, field, whole.size(), 0, 0, cv::INTER_CUBIC);
   for (int v = 0; v < field.rows; ++v)
     for (int u = 0; u < field.cols; ++u)
@@ -37,8 +37,8 @@ void shimmer(const ImageView& image, cv::RNG& random, cv::Mat& moved) {
 
 TEST(Shimmer, IsInTheCovariance) {
   double nees = 0.0;
-  constexpr int rooms = 2;
-  for (int room = 1; room <= rooms; ++room) {
+  constexpr int kRooms = 2;
+  for (int room = 1; room <= kRooms; ++room) {
     const auto seed = static_cast<std::uint32_t>(room);
     const auto motion = namedMotion("wander", "room", seed);
     SequenceOptions options;
@@ -49,7 +49,7 @@ TEST(Shimmer, IsInTheCovariance) {
     cv::RNG random(seed);
     cv::Mat left, right;
     double sum = 0.0;
-    for (int i = 0; i < shimmer_frames; ++i) {
+    for (int i = 0; i < kShimmerFrames; ++i) {
       const StereoPair pair = sequence.frame(i).pair();
       shimmer(pair.left, random, left);
       shimmer(pair.right, random, right);
@@ -61,7 +61,7 @@ TEST(Shimmer, IsInTheCovariance) {
       if (i < 20) continue;
       sum += urban_nav_core::nees(motion(0.0).inverse() * motion(sequence.time(i)), frame.T_odom_base).value_or(1e9);
     }
-    nees += sum / (shimmer_frames - 20) / rooms;
+    nees += sum / (kShimmerFrames - 20) / kRooms;
   }
   EXPECT_LT(nees, 10.0) << "6 were right";
 }

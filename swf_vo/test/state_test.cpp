@@ -30,7 +30,7 @@ std::string process(SwfVo& filter, const Step& step) { return toBytes(filter.pro
 /// Cuts a run everywhere in `cuts`, and has each part go on for some frames, one of them to the end.
 void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t>& cuts,
                     const Parameters& parameters = Parameters()) {
-  constexpr std::size_t longer_than_the_window = 14;
+  constexpr std::size_t kLongerThanTheWindow = 14;
   SwfVo whole(parameters, stereoCamera(), kPlace);
   std::vector<std::string> frames, states;
   for (const Step& step : some) {
@@ -48,7 +48,7 @@ void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t
     SwfVo part(parameters, stereoCamera(), kPlace, states[cut]);
     EXPECT_TRUE(part.state() == states[cut]);
     const bool to_the_end = cut == cuts[cuts.size() / 2];
-    const std::size_t end = to_the_end ? some.size() : std::min(some.size(), cut + longer_than_the_window);
+    const std::size_t end = to_the_end ? some.size() : std::min(some.size(), cut + kLongerThanTheWindow);
     for (std::size_t i = cut; i < end; ++i) {
       ASSERT_TRUE(process(part, some[i]) == frames[i]) << "frame " << i;
       if (i + 1 < states.size()) {

@@ -60,7 +60,7 @@ class OpenCvMethod : public Peer {
     for (int v = 0; v < left.rows; ++v)
       for (int u = 0; u < left.cols; ++u) {
         const float d = static_cast<float>(raw_.at<std::int16_t>(v, u)) / 16.0F;
-        image_.disparity[image_.index(u, v)] = d > 0.0F ? d : DisparityImage::invalid;
+        image_.disparity[image_.index(u, v)] = d > 0.0F ? d : DisparityImage::kInvalid;
       }
     return image_;
   }
@@ -135,7 +135,7 @@ std::vector<TruePair> middleburyPairs(const std::string& data) {
 
 std::vector<TruePair> simulatedPairs(const std::string& name, const std::string& folder, const std::string& truth,
                                      int step) {
-  constexpr float farthest = 47.0F;  // m
+  constexpr float kFarthest = 47.0F;  // m
   std::vector<TruePair> pairs;
   const auto left = sortedFiles(folder + "/image_0", ".png"), right = sortedFiles(folder + "/image_1", ".png");
   const auto depth = sortedFiles(truth + "/stereo_left_optical_frame", ".pfm");
@@ -155,7 +155,7 @@ std::vector<TruePair> simulatedPairs(const std::string& name, const std::string&
       for (int u = 0; u < z.cols; ++u) {
         const float near = z.at<float>(v, u);
         if (!std::isfinite(near)) pair.sky.at<std::uint8_t>(v, u) = 255;
-        if (!std::isfinite(near) || near > farthest) continue;
+        if (!std::isfinite(near) || near > kFarthest) continue;
         const float d = scale / near;
         const int column = static_cast<int>(std::lround(static_cast<float>(u) - d));
         for (int k = std::max(column - 1, 0); k <= std::min(column + 1, z.cols - 1); ++k)

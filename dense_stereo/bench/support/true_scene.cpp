@@ -17,10 +17,10 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double cell_size = 0.1, reach = 5.0;                   // m
-constexpr double obstacle = 0.1, anything = 0.05;                // m above the ground
-constexpr double planar = 0.03;                                  // m, rms of a plane
-constexpr std::size_t least_ground = 2000, least_obstacle = 60;  // px
+constexpr double kCellSize = 0.1, kReach = 5.0;                  // m
+constexpr double kObstacle = 0.1, kAnything = 0.05;              // m above the ground
+constexpr double kPlanar = 0.03;                                 // m, rms of a plane
+constexpr std::size_t kLeastGround = 2000, kLeastObstacle = 60;  // px
 
 std::vector<std::string> listFiles(const std::string& folder, const std::string& ending) {
   std::vector<std::string> files;
@@ -53,7 +53,7 @@ struct TrueView {
 
   std::optional<Eigen::Vector3d> pointAt(int u, int v) const {
     const auto z = static_cast<double>(depth.at<float>(v, u));
-    if (!std::isfinite(z) || z > reach) return std::nullopt;
+    if (!std::isfinite(z) || z > kReach) return std::nullopt;
     return Eigen::Vector3d((u - camera.left.cx) / camera.left.fx * z, (v - camera.left.cy) / camera.left.fy * z, z);
   }
   bool isGround(int u, int v) const {
@@ -76,16 +76,16 @@ std::optional<TrueScene::Plane> fitGround(const TrueView& view) {
     for (int u = 0; u < view.depth.cols; ++u) {
       if (!view.isGround(u, v)) continue;
       const auto p = view.pointAt(u, v);
-      if (!p || p->norm() > reach) continue;
+      if (!p || p->norm() > kReach) continue;
       mean += *p;
       moment += *p * p->transpose();
       ++count;
     }
-  if (count < least_ground) return std::nullopt;
+  if (count < kLeastGround) return std::nullopt;
   mean /= static_cast<double>(count);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moment / static_cast<double>(count) -
                                                             mean * mean.transpose());
-  if (axes.eigenvalues()(0) > planar * planar) return std::nullopt;
+  if (axes.eigenvalues()(0) > kPlanar * kPlanar) return std::nullopt;
   Eigen::Vector3d up = axes.eigenvectors().col(0);
   if (up.y() > 0.0) up = -up;
   return TrueScene::Plane{up, -up.dot(mean)};
@@ -122,10 +122,10 @@ void findTrueObstacles(const TrueView& view, TrueScene& scene) {
       if (!p) continue;
       const double height = scene.ground->above(*p);
       const GroundCell cell = scene.cellAt(*p);
-      if (std::abs(height) > anything)
+      if (std::abs(height) > kAnything)
         for (int dx = -2; dx <= 2; ++dx)
           for (int dy = -2; dy <= 2; ++dy) scene.occupied.insert({cell.first + dx, cell.second + dy});
-      if (height >= obstacle && height < 2.0 && p->z() >= 1.0 && p->norm() <= reach && view.isSeenByBoth(u, v))
+      if (height >= kObstacle && height < 2.0 && p->z() >= 1.0 && p->norm() <= kReach && view.isSeenByBoth(u, v))
         standing[cell].push_back(*p);
     }
   std::set<GroundCell> cells;
@@ -136,7 +136,7 @@ void findTrueObstacles(const TrueView& view, TrueScene& scene) {
     points.insert(points.end(), standing[cell].begin(), standing[cell].end());
   }
   for (auto& [group, each] : groups)
-    if (each.points.size() >= least_obstacle) scene.obstacles.push_back(std::move(each));
+    if (each.points.size() >= kLeastObstacle) scene.obstacles.push_back(std::move(each));
 }
 
 }  // namespace
@@ -155,8 +155,8 @@ bool TrueObstacle::isHitBy(const std::vector<ObstaclePoint>& found) const {
 GroundCell TrueScene::cellAt(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d forward = (Eigen::Vector3d::UnitZ() - ground->up.z() * ground->up).normalized();
   const Eigen::Vector3d right = forward.cross(ground->up);
-  return {static_cast<int>(std::floor(forward.dot(p) / cell_size)),
-          static_cast<int>(std::floor(right.dot(p) / cell_size))};
+  return {static_cast<int>(std::floor(forward.dot(p) / kCellSize)),
+          static_cast<int>(std::floor(right.dot(p) / kCellSize))};
 }
 
 int TrueScene::countFalse(const std::vector<ObstaclePoint>& found) const {

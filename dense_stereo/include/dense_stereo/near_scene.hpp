@@ -14,7 +14,7 @@ namespace dense_stereo {
 
 /// What one stereo pair shows of the robot's surroundings. Coordinates are those of the left optical frame.
 struct NearScene {
-  static constexpr int step = 2;  ///< px, between points in a row, and between rows with points
+  static constexpr int kStep = 2;  ///< px, between points in a row, and between rows with points
 
   StereoResult stereo;             ///< disparities of all pixels
   std::vector<DensePoint> points;  ///< within rangeLimit()

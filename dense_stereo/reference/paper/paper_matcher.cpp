@@ -12,10 +12,10 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr int lanes_of_words = 8;
-constexpr double least_rise = 0.06;  // of the second minimum above the first, relative: flatter curves are ambiguous
-constexpr float least_sigma_px = 0.12F;  // what parabolas through sums of absolute differences lock to whole pixels
-constexpr float sigma_per_flatness = 0.06F;
+constexpr int kLanesOfWords = 8;
+constexpr double kLeastRise = 0.06;     // of the second minimum above the first, relative: flatter curves are ambiguous
+constexpr float kLeastSigmaPx = 0.12F;  // what parabolas through sums of absolute differences lock to whole pixels
+constexpr float kSigmaPerFlatness = 0.06F;
 
 struct CurveMinimum {
   int disparity = 0, score = 0;
@@ -25,7 +25,7 @@ struct CurveMinimum {
 CurveMinimum findMinimum(const std::uint16_t* scores, int disparities) {
   CurveMinimum minimum;
   minimum.score = 65536;
-  for (int d = 0; d < disparities; d += lanes_of_words) {
+  for (int d = 0; d < disparities; d += kLanesOfWords) {
     const auto [score, at] = findLeast(Words::load(scores + d));
     if (score >= minimum.score) continue;
     minimum.score = score;
@@ -53,8 +53,8 @@ void PaperMatcher::match(const MatcherInput& input, DisparityImage& image) {
   components_.remove(whole_, parameters_.min_component);
   for (int v = 0; v < image.height; ++v)
     for (int u = 0; u < image.width; ++u) {
-      if (whole_.row(v)[u] != Winners::invalid) continue;
-      image.disparity[image.index(u, v)] = DisparityImage::invalid;
+      if (whole_.row(v)[u] != Winners::kInvalid) continue;
+      image.disparity[image.index(u, v)] = DisparityImage::kInvalid;
       image.variance[image.index(u, v)] = 0.0F;
     }
 }
@@ -63,19 +63,19 @@ void PaperMatcher::matchRow(const ScoreRow& row, int v, int disparities, Dispari
   std::uint8_t* whole = whole_.row(v);
   const auto largest = static_cast<float>(parameters_.max_sigma * parameters_.max_sigma);
   for (int u = 0; u < image.width; ++u) {
-    whole[u] = Winners::invalid;
+    whole[u] = Winners::kInvalid;
     const std::uint16_t* scores = row.scores + static_cast<std::ptrdiff_t>(u) * disparities;
     const CurveMinimum minimum = findMinimum(scores, disparities);
     const int d = minimum.disparity;
     if (d > u || std::abs(row.right_disparity[u - d] - d) > 1) continue;
-    if (minimum.rival < (1.0 + least_rise) * minimum.score) continue;
+    if (minimum.rival < (1.0 + kLeastRise) * minimum.score) continue;
     const bool is_inside = d > 0 && d + 1 < disparities && d + 1 <= u;
     const int before = is_inside ? scores[d - 1] : 0, after = is_inside ? scores[d + 1] : 0;
     const auto curvature = static_cast<float>(is_inside ? before + after - 2 * minimum.score : 0);
     if (curvature <= 0.0F) continue;
     const float flatness = static_cast<float>(minimum.score) / curvature;
-    const float sigma = sigma_per_flatness * flatness;
-    const float variance = least_sigma_px * least_sigma_px + sigma * sigma;
+    const float sigma = kSigmaPerFlatness * flatness;
+    const float variance = kLeastSigmaPx * kLeastSigmaPx + sigma * sigma;
     if (variance > largest) continue;
     whole[u] = static_cast<std::uint8_t>(d);
     const std::size_t at = image.index(u, v);

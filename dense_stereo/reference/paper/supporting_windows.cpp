@@ -10,8 +10,8 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr int word_lanes = 8;
-constexpr std::uint16_t outside = 65535;
+constexpr int kWordLanes = 8;
+constexpr std::uint16_t kOutside = 65535;
 
 }  // namespace
 
@@ -27,22 +27,22 @@ void SupportingWindows<V>::begin(const Padded<std::uint8_t>& left, const Padded<
     const std::size_t cells = static_cast<std::size_t>(width_) * static_cast<std::size_t>(disparities);
     reversed_.assign(static_cast<std::size_t>(width_ + disparities), 0);
     columns_.assign(cells, 0);
-    windows_.assign(cells * kept_rows, 0);
+    windows_.assign(cells * kKeptRows, 0);
     scores_.assign(cells, 0);
     right_cost_.assign(static_cast<std::size_t>(width_), 0);
     right_disparity_ = right_cost_;
   }
   summed_ = scored_ = 0;
   std::fill(columns_.begin(), columns_.end(), std::uint16_t{0});
-  for (int v = -radius; v <= radius; ++v) addRow(v, true);
+  for (int v = -kRadius; v <= kRadius; ++v) addRow(v, true);
 }
 
 template <typename V>
 ScoreRow SupportingWindows<V>::next() {
-  for (; summed_ < std::min(scored_ + radius + 1, height_); ++summed_) {
+  for (; summed_ < std::min(scored_ + kRadius + 1, height_); ++summed_) {
     if (summed_ > 0) {
-      addRow(summed_ + radius, true);
-      addRow(summed_ - radius - 1, false);
+      addRow(summed_ + kRadius, true);
+      addRow(summed_ - kRadius - 1, false);
     }
     sumAlong(summed_);
   }
@@ -61,7 +61,7 @@ void SupportingWindows<V>::addRow(int v, bool is_added) {
   for (int u = 0; u < width_; ++u) {
     const std::uint8_t* from = reversed_.data() + (width_ - 1 - u);
     std::uint16_t* column = columns_.data() + static_cast<std::ptrdiff_t>(u) * disparities_;
-    for (int d = 0; d < disparities_; d += word_lanes) {
+    for (int d = 0; d < disparities_; d += kWordLanes) {
       const V sum = V::load(column + d), difference = V::differences(left[u], from + d);
       (is_added ? sum + difference : sum - difference).store(column + d);
     }
@@ -70,7 +70,7 @@ void SupportingWindows<V>::addRow(int v, bool is_added) {
 
 template <typename V>
 const std::uint16_t* SupportingWindows<V>::computeSums(int v) const {
-  const std::size_t row = static_cast<std::size_t>(std::clamp(v, 0, height_ - 1) % kept_rows);
+  const std::size_t row = static_cast<std::size_t>(std::clamp(v, 0, height_ - 1) % kKeptRows);
   return windows_.data() + row * static_cast<std::size_t>(width_) * static_cast<std::size_t>(disparities_);
 }
 
@@ -81,29 +81,29 @@ void SupportingWindows<V>::sumAlong(int v) {
   const auto column = [this](int u) {
     return columns_.data() + static_cast<std::ptrdiff_t>(std::clamp(u, 0, width_ - 1)) * disparities_;
   };
-  for (int d = 0; d < disparities_; d += word_lanes) {
+  for (int d = 0; d < disparities_; d += kWordLanes) {
     V sum = V::splat(0);
-    for (int u = -radius; u <= radius; ++u) sum = sum + V::load(column(u) + d);
+    for (int u = -kRadius; u <= kRadius; ++u) sum = sum + V::load(column(u) + d);
     sum.store(sums + d);
   }
   for (int u = 1; u < width_; ++u) {
-    const std::uint16_t* added = column(u + radius);
-    const std::uint16_t* removed = column(u - radius - 1);
+    const std::uint16_t* added = column(u + kRadius);
+    const std::uint16_t* removed = column(u - kRadius - 1);
     std::uint16_t* sum = sums + static_cast<std::ptrdiff_t>(u) * disparities_;
-    for (int d = 0; d < disparities_; d += word_lanes)
+    for (int d = 0; d < disparities_; d += kWordLanes)
       (V::load(sum - disparities_ + d) + V::load(added + d) - V::load(removed + d)).store(sum + d);
   }
 }
 
 template <typename V>
 void SupportingWindows<V>::scoreRow(int v) {
-  const std::uint16_t* rows[3] = {computeSums(v - radius), computeSums(v), computeSums(v + radius)};
+  const std::uint16_t* rows[3] = {computeSums(v - kRadius), computeSums(v), computeSums(v + kRadius)};
   for (int u = 0; u < width_; ++u) {
-    const std::ptrdiff_t before = static_cast<std::ptrdiff_t>(std::max(u - radius, 0)) * disparities_;
-    const std::ptrdiff_t after = static_cast<std::ptrdiff_t>(std::min(u + radius, width_ - 1)) * disparities_;
+    const std::ptrdiff_t before = static_cast<std::ptrdiff_t>(std::max(u - kRadius, 0)) * disparities_;
+    const std::ptrdiff_t after = static_cast<std::ptrdiff_t>(std::min(u + kRadius, width_ - 1)) * disparities_;
     const std::ptrdiff_t here = static_cast<std::ptrdiff_t>(u) * disparities_;
     std::uint16_t* score = scores_.data() + here;
-    for (int d = 0; d < disparities_; d += word_lanes) {
+    for (int d = 0; d < disparities_; d += kWordLanes) {
       const V a = V::load(rows[0] + before + d), b = V::load(rows[0] + after + d);
       const V c = V::load(rows[2] + before + d), e = V::load(rows[2] + after + d);
       const V low = smaller(a, b), other_low = smaller(c, e);
@@ -111,13 +111,13 @@ void SupportingWindows<V>::scoreRow(int v) {
       const V second = smaller(larger(low, other_low), smaller(larger(a, b), larger(c, e)));
       (V::load(rows[1] + here + d) + best + second).store(score + d);
     }
-    for (int d = u + 1; d < disparities_; ++d) score[d] = outside;
+    for (int d = u + 1; d < disparities_; ++d) score[d] = kOutside;
   }
 }
 
 template <typename V>
 void SupportingWindows<V>::findRightWinners() {
-  std::fill(right_cost_.begin(), right_cost_.end(), outside);
+  std::fill(right_cost_.begin(), right_cost_.end(), kOutside);
   std::fill(right_disparity_.begin(), right_disparity_.end(), std::uint16_t{0});
   for (int u = 0; u < width_; ++u) {
     const std::uint16_t* score = scores_.data() + static_cast<std::ptrdiff_t>(u) * disparities_;

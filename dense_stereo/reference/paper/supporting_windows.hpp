@@ -28,8 +28,8 @@ class SupportingWindows {
   ScoreRow next();
 
  private:
-  static constexpr int radius = 5;                  ///< px, of the windows
-  static constexpr int kept_rows = 2 * radius + 1;  ///< of window sums
+  static constexpr int kRadius = 5;                  ///< px, of the windows
+  static constexpr int kKeptRows = 2 * kRadius + 1;  ///< of window sums
 
   void addRow(int v, bool is_added);
   void sumAlong(int v);

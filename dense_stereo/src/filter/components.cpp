@@ -9,7 +9,7 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr std::int32_t no_label = -1;
+constexpr std::int32_t kNoLabel = -1;
 
 bool areConnected(std::uint8_t a, std::uint8_t b) { return static_cast<unsigned>(a - b + 1) <= 2U; }
 
@@ -44,14 +44,14 @@ void SmallComponents::remove(Padded<std::uint8_t>& disparity, int least) {
   for (int v = 0; v < disparity.height(); ++v) {
     std::uint8_t* d = disparity.row(v);
     const std::int32_t* labels = labels_.row(v);
-    std::int32_t last = no_label;
+    std::int32_t last = kNoLabel;
     bool is_small = false;
     for (int u = 0; u < disparity.width(); ++u) {
       if (labels[u] != last) {
         last = labels[u];
-        is_small = last != no_label && sizes_[static_cast<std::size_t>(find(last))] < least;
+        is_small = last != kNoLabel && sizes_[static_cast<std::size_t>(find(last))] < least;
       }
-      if (is_small) d[u] = Winners::invalid;
+      if (is_small) d[u] = Winners::kInvalid;
     }
   }
 }
@@ -62,18 +62,18 @@ void SmallComponents::labelRow(const Padded<std::uint8_t>& disparity, int v) {
   const std::uint8_t* above = disparity.clampedRow(v - 1);
   std::int32_t* labels = labels_.row(v);
   const std::int32_t* labels_above = labels_.clampedRow(v - 1);
-  labels[-1] = no_label;
-  labels[width] = no_label;
-  std::int32_t run = no_label, run_length = 0;  // pixels not yet counted
+  labels[-1] = kNoLabel;
+  labels[width] = kNoLabel;
+  std::int32_t run = kNoLabel, run_length = 0;  // pixels not yet counted
   for (int u = 0; u < width; ++u) {
-    std::int32_t label = no_label;
-    if (d[u] != Winners::invalid) {
-      if (areConnected(d[u], d[u - 1]) && labels[u - 1] != no_label) label = labels[u - 1];
+    std::int32_t label = kNoLabel;
+    if (d[u] != Winners::kInvalid) {
+      if (areConnected(d[u], d[u - 1]) && labels[u - 1] != kNoLabel) label = labels[u - 1];
       if (v > 0)
         for (int k = u - 1; k <= u + 1; ++k)
-          if (labels_above[k] != label && labels_above[k] != no_label && areConnected(d[u], above[k]))
-            label = label == no_label ? labels_above[k] : join(label, labels_above[k]);
-      if (label == no_label) {
+          if (labels_above[k] != label && labels_above[k] != kNoLabel && areConnected(d[u], above[k]))
+            label = label == kNoLabel ? labels_above[k] : join(label, labels_above[k]);
+      if (label == kNoLabel) {
         label = count_++;
         parents_[static_cast<std::size_t>(label)] = label;
         sizes_[static_cast<std::size_t>(label)] = 0;
@@ -84,11 +84,11 @@ void SmallComponents::labelRow(const Padded<std::uint8_t>& disparity, int v) {
       ++run_length;
       continue;
     }
-    if (run != no_label) sizes_[static_cast<std::size_t>(run)] += run_length;
+    if (run != kNoLabel) sizes_[static_cast<std::size_t>(run)] += run_length;
     run = label;
     run_length = 1;
   }
-  if (run != no_label) sizes_[static_cast<std::size_t>(run)] += run_length;
+  if (run != kNoLabel) sizes_[static_cast<std::size_t>(run)] += run_length;
 }
 
 }  // namespace dense_stereo

@@ -11,7 +11,7 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr int longest_gap = 8;  // px
+constexpr int kLongestGap = 8;  // px
 
 /// More than one pixel, or half a pixel for each step across a gap.
 bool isDepthJump(int a, int b, int gap) { return 2 * std::abs(a - b) > std::max(2, gap); }
@@ -20,8 +20,8 @@ bool isDepthJump(int a, int b, int gap) { return 2 * std::abs(a - b) > std::max(
 void markAlong(const std::uint8_t* d, int width, std::uint8_t* marks) {
   int last = -1;
   for (int u = 0; u < width; ++u) {
-    if (d[u] == Winners::invalid) continue;
-    if (last >= 0 && u - last <= longest_gap && isDepthJump(d[u], d[last], u - last)) marks[u] = marks[last] = 255;
+    if (d[u] == Winners::kInvalid) continue;
+    if (last >= 0 && u - last <= kLongestGap && isDepthJump(d[u], d[last], u - last)) marks[u] = marks[last] = 255;
     last = u;
   }
 }
@@ -33,7 +33,7 @@ void DepthEdges::mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t
   edges.resize(width, height);
   wide_.resize(width, height);
   edges.fill(0);
-  last_.assign(static_cast<std::size_t>(width), Winners::invalid);
+  last_.assign(static_cast<std::size_t>(width), Winners::kInvalid);
   age_.assign(static_cast<std::size_t>(width), 0);
   for (int v = 0; v < height; ++v) {
     const std::uint8_t* d = disparity.row(v);
@@ -41,8 +41,8 @@ void DepthEdges::mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t
     for (int u = 0; u < width; ++u) {
       const std::size_t i = static_cast<std::size_t>(u);
       age_[i] = static_cast<std::uint8_t>(std::min(age_[i] + 1, 255));
-      if (d[u] == Winners::invalid) continue;
-      if (last_[i] != Winners::invalid && age_[i] <= longest_gap && isDepthJump(d[u], last_[i], age_[i]))
+      if (d[u] == Winners::kInvalid) continue;
+      if (last_[i] != Winners::kInvalid && age_[i] <= kLongestGap && isDepthJump(d[u], last_[i], age_[i]))
         edges.row(v)[u] = edges.row(v - age_[i])[u] = 255;
       last_[i] = d[u];
       age_[i] = 0;
@@ -52,14 +52,15 @@ void DepthEdges::mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t
     const std::uint8_t* from = edges.row(v);
     for (int u = 0; u < width; u += 16) {
       Bytes sum = Bytes::load(from + u);
-      for (int k = 1; k <= radius; ++k) sum = either(sum, either(Bytes::load(from + u - k), Bytes::load(from + u + k)));
+      for (int k = 1; k <= kRadius; ++k)
+        sum = either(sum, either(Bytes::load(from + u - k), Bytes::load(from + u + k)));
       sum.store(wide_.row(v) + u);
     }
   }
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; u += 16) {
       Bytes sum = Bytes::load(wide_.row(v) + u);
-      for (int k = 1; k <= radius; ++k)
+      for (int k = 1; k <= kRadius; ++k)
         sum = either(sum, either(Bytes::load(wide_.clampedRow(v - k) + u), Bytes::load(wide_.clampedRow(v + k) + u)));
       sum.store(edges.row(v) + u);
     }

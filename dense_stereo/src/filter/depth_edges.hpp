@@ -13,7 +13,7 @@ namespace dense_stereo {
 /// memory. Not thread-safe.
 class DepthEdges {
  public:
-  static constexpr int radius = 4;  ///< px
+  static constexpr int kRadius = 4;  ///< px
   /// `disparity`: px, 255 for invalid. `edges`: 255 near an edge, else 0.
   void mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t>& edges);
 

@@ -10,14 +10,14 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr float enough_information = 28.0F;  // squared gradients for each unit of noise; images of noise alone give 22
-constexpr float enough_distance = 50.0F;     // of the rival's cost
-constexpr float rounding_noise = 0.06F;      // grey levels^2, of two images with whole grey levels, smoothed
-constexpr double least_share = 0.15;         // of a window's pixels
-constexpr int flat_range = 4;                // grey levels in 3x3 px
-constexpr int saturated = 254;
-constexpr int outline_reach = 8;   // px, of the windows of census and alignment
-constexpr int outline_range = 32;  // grey levels in 3x3 px, of an outline
+constexpr float kEnoughInformation = 28.0F;  // squared gradients for each unit of noise; images of noise alone give 22
+constexpr float kEnoughDistance = 50.0F;     // of the rival's cost
+constexpr float kRoundingNoise = 0.06F;      // grey levels^2, of two images with whole grey levels, smoothed
+constexpr double kLeastShare = 0.15;         // of a window's pixels
+constexpr int kFlatRange = 4;                // grey levels in 3x3 px
+constexpr int kSaturated = 254;
+constexpr int kOutlineReach = 8;   // px, of the windows of census and alignment
+constexpr int kOutlineRange = 32;  // grey levels in 3x3 px, of an outline
 
 }  // namespace
 
@@ -49,13 +49,13 @@ void UnsupportedRegions::remove(const Padded<std::uint8_t>& left, const Winners&
     float* d = field.disparity.row(v);
     const std::uint8_t* removed = removed_.row(v);
     for (int u = 0; u < width; ++u)
-      if (removed[u] != 0) d[u] = DisparityField::invalid;
+      if (removed[u] != 0) d[u] = DisparityField::kInvalid;
   }
 }
 
 /// Grows removed_ by one pixel a round, through flat pixels beside outlines.
 void UnsupportedRegions::growThroughFlat() {
-  for (int round = 0; round < outline_reach; ++round) {
+  for (int round = 0; round < kOutlineReach; ++round) {
     for (int v = 0; v < removed_.height(); ++v) {
       const std::uint8_t* rows[3] = {removed_.clampedRow(v - 1), removed_.row(v), removed_.clampedRow(v + 1)};
       for (int u = 0; u < removed_.width(); u += 16) {
@@ -71,7 +71,7 @@ void UnsupportedRegions::growThroughFlat() {
 
 /// flat_ is 255 where the 3x3 pixels around are equal but for noise, outline_ where they differ much.
 void UnsupportedRegions::markFlat(const Padded<std::uint8_t>& left) {
-  const Bytes range = Bytes::splat(flat_range), outline = Bytes::splat(outline_range - 1);
+  const Bytes range = Bytes::splat(kFlatRange), outline = Bytes::splat(kOutlineRange - 1);
   const Bytes zero = Bytes::splat(0), all = Bytes::splat(255);
   for (int v = 0; v < left.height(); ++v) {
     const std::uint8_t* rows[3] = {left.clampedRow(v - 1), left.row(v), left.clampedRow(v + 1)};
@@ -96,14 +96,14 @@ void UnsupportedRegions::markBesideOutlines() {
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; u += 16) {
       Bytes near = Bytes::load(outline_.row(v) + u);
-      for (int k = 1; k <= outline_reach; ++k)
+      for (int k = 1; k <= kOutlineReach; ++k)
         near = either(near, either(Bytes::load(outline_.row(v) + u - k), Bytes::load(outline_.row(v) + u + k)));
       near.store(grown_.row(v) + u);
     }
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; u += 16) {
       Bytes near = Bytes::load(grown_.row(v) + u);
-      for (int k = 1; k <= outline_reach; ++k)
+      for (int k = 1; k <= kOutlineReach; ++k)
         near =
             either(near, either(Bytes::load(grown_.clampedRow(v - k) + u), Bytes::load(grown_.clampedRow(v + k) + u)));
       both(near, Bytes::load(flat_.row(v) + u)).store(beside_.row(v) + u);
@@ -123,10 +123,10 @@ void UnsupportedRegions::markEvidence(const Padded<std::uint8_t>& left, const Wi
     std::uint8_t* flat = flat_.row(v);
     std::uint8_t* evidence = evidence_.row(v);
     for (int u = 0; u < left.width(); ++u) {
-      const float scale = enough_information * (noise[u] + rounding_noise);
+      const float scale = kEnoughInformation * (noise[u] + kRoundingNoise);
       const auto distance = static_cast<float>(rival[u] - cost[u]);
-      const bool is_enough = enough_distance * information[u] + distance * scale > enough_distance * scale;
-      const bool is_saturated = flat[u] != 0 && pixels[u] >= saturated;
+      const bool is_enough = kEnoughDistance * information[u] + distance * scale > kEnoughDistance * scale;
+      const bool is_saturated = flat[u] != 0 && pixels[u] >= kSaturated;
       const bool has_evidence = d[u] >= 0.0F && is_enough && !is_saturated;
       evidence[u] = has_evidence ? 1 : 0;
       if (!has_evidence) flat[u] = 255;
@@ -138,19 +138,19 @@ void UnsupportedRegions::markEvidence(const Padded<std::uint8_t>& left, const Wi
 void UnsupportedRegions::sumWindows() {
   const int width = evidence_.width(), height = evidence_.height();
   std::fill(column_.begin(), column_.end(), std::uint16_t{0});
-  for (int v = -radius; v < height; ++v) {
-    const std::uint8_t* added = evidence_.row(std::min(v + radius, height - 1));
-    const std::uint8_t* removed = evidence_.row(std::max(v - radius - 1, 0));
-    const int add = v + radius < height ? 1 : 0, remove = v - radius - 1 >= 0 ? 1 : 0;
+  for (int v = -kRadius; v < height; ++v) {
+    const std::uint8_t* added = evidence_.row(std::min(v + kRadius, height - 1));
+    const std::uint8_t* removed = evidence_.row(std::max(v - kRadius - 1, 0));
+    const int add = v + kRadius < height ? 1 : 0, remove = v - kRadius - 1 >= 0 ? 1 : 0;
     for (int u = 0; u < width; ++u)
       column_[static_cast<std::size_t>(u)] =
           static_cast<std::uint16_t>(column_[static_cast<std::size_t>(u)] + add * added[u] - remove * removed[u]);
     if (v < 0) continue;
     std::uint16_t* sums = sums_.row(v);
     int sum = 0;
-    for (int u = -radius; u < width; ++u) {
-      if (u + radius < width) sum += column_[static_cast<std::size_t>(u + radius)];
-      if (u - radius - 1 >= 0) sum -= column_[static_cast<std::size_t>(u - radius - 1)];
+    for (int u = -kRadius; u < width; ++u) {
+      if (u + kRadius < width) sum += column_[static_cast<std::size_t>(u + kRadius)];
+      if (u - kRadius - 1 >= 0) sum -= column_[static_cast<std::size_t>(u - kRadius - 1)];
       if (u >= 0) sums[u] = static_cast<std::uint16_t>(sum);
     }
   }
@@ -160,12 +160,12 @@ void UnsupportedRegions::sumWindows() {
 void UnsupportedRegions::markPoorWindows() {
   const int width = evidence_.width(), height = evidence_.height();
   for (int v = 0; v < height; ++v) {
-    const int rows = std::min(v + radius, height - 1) - std::max(v - radius, 0) + 1;
+    const int rows = std::min(v + kRadius, height - 1) - std::max(v - kRadius, 0) + 1;
     const std::uint16_t* sums = sums_.row(v);
     std::uint8_t* poor = evidence_.row(v);
     for (int u = 0; u < width; ++u) {
-      const int columns = std::min(u + radius, width - 1) - std::max(u - radius, 0) + 1;
-      poor[u] = sums[u] <= least_share * rows * columns ? 1 : 0;
+      const int columns = std::min(u + kRadius, width - 1) - std::max(u - kRadius, 0) + 1;
+      poor[u] = sums[u] <= kLeastShare * rows * columns ? 1 : 0;
     }
   }
 }
@@ -173,14 +173,14 @@ void UnsupportedRegions::markPoorWindows() {
 /// Grows removed_ by a pixel over the blurred outline: to pixels whose brightness lies between those of their removed
 /// neighbour and of the pixel two further on, which differs much, and nearer to the former.
 void UnsupportedRegions::growOverBlur(const Padded<std::uint8_t>& left) {
-  const Bytes zero = Bytes::splat(0), all = Bytes::splat(255), contrast = Bytes::splat(outline_range - 1),
-              noise = Bytes::splat(flat_range);
-  constexpr int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  const Bytes zero = Bytes::splat(0), all = Bytes::splat(255), contrast = Bytes::splat(kOutlineRange - 1),
+              noise = Bytes::splat(kFlatRange);
+  constexpr int kDirections[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   for (int v = 0; v < removed_.height(); ++v) {
     for (int u = 0; u < removed_.width(); u += 16) {
       const Bytes here = Bytes::load(left.row(v) + u);
       Bytes grown = Bytes::load(removed_.row(v) + u);
-      for (const auto& [du, dv] : directions) {
+      for (const auto& [du, dv] : kDirections) {
         const Bytes neighbour = Bytes::load(left.clampedRow(v + dv) + u + du);
         const Bytes beyond = Bytes::load(left.clampedRow(v - 2 * dv) + u - 2 * du);
         const Bytes to_neighbour = absoluteDifference(here, neighbour), to_beyond = absoluteDifference(here, beyond);

@@ -22,7 +22,7 @@ class UnsupportedRegions {
   void remove(const Padded<std::uint8_t>& left, const Winners& winners, DisparityField& field);
 
  private:
-  static constexpr int radius = 10;  ///< px, of the window
+  static constexpr int kRadius = 10;  ///< px, of the window
 
   void markFlat(const Padded<std::uint8_t>& left);
   void markEvidence(const Padded<std::uint8_t>& left, const Winners& winners, const DisparityField& field);

@@ -17,18 +17,18 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr std::size_t least_points = 200;
-constexpr int samples = 300;
-constexpr std::size_t scored_points = 1500;
-constexpr double least_support = 0.1;       // of all points within range: a strip of ground between obstacles
-constexpr double ground_band = 0.3;         // m, above and below the plane: what may be ground
-constexpr double least_planar_share = 0.8;  // of the area in that band
-constexpr int plan_cells = 128;             // along each side of the plan, over twice the range
-constexpr std::uint8_t on_plane = 1, in_band = 2;
-constexpr double degrees = M_PI / 180.0;
-constexpr double points_of_a_window = 80.0;  // whose disparities share their errors
-constexpr double far_margin = 1.1;
-constexpr int fit_steps = 5;
+constexpr std::size_t kLeastPoints = 200;
+constexpr int kSamples = 300;
+constexpr std::size_t kScoredPoints = 1500;
+constexpr double kLeastSupport = 0.1;      // of all points within range: a strip of ground between obstacles
+constexpr double kGroundBand = 0.3;        // m, above and below the plane: what may be ground
+constexpr double kLeastPlanarShare = 0.8;  // of the area in that band
+constexpr int kPlanCells = 128;            // along each side of the plan, over twice the range
+constexpr std::uint8_t kOnPlane = 1, kInBand = 2;
+constexpr double kDegrees = M_PI / 180.0;
+constexpr double kPointsOfAWindow = 80.0;  // whose disparities share their errors
+constexpr double kFarMargin = 1.1;
+constexpr int kFitSteps = 5;
 
 /// d = a u + b v + c, with u and v from the principal point: a plane of space.
 using DisparityPlane = Eigen::Vector3d;
@@ -72,15 +72,15 @@ class GroundSearch {
       : points_(points), camera_(camera), options_(options) {
     const Eigen::Vector3d assumed = -Eigen::Vector3d::UnitY();
     up_ = options.up ? options.up->normalized() : assumed;
-    least_cosine_ = std::cos((options.up ? options.max_tilt_known : options.max_tilt_assumed) * degrees);
+    least_cosine_ = std::cos((options.up ? options.max_tilt_known : options.max_tilt_assumed) * kDegrees);
   }
 
   std::optional<DisparityPlane> sample() const {
     SampleGenerator random(options_.seed);
-    const std::size_t stride = std::max<std::size_t>(points_.size() / scored_points, 1);
+    const std::size_t stride = std::max<std::size_t>(points_.size() / kScoredPoints, 1);
     std::optional<DisparityPlane> best;
     double best_score = 0.0;
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < kSamples; ++i) {
       Eigen::Matrix3d rows;
       Eigen::Vector3d disparities;
       for (int k = 0; k < 3; ++k) {
@@ -114,13 +114,13 @@ class GroundSearch {
   DisparityPlane fit(DisparityPlane plane, Eigen::Matrix3d& information) const {
     double farthest = std::numeric_limits<double>::max();
     for (const DensePoint& point : points_) farthest = std::min(farthest, static_cast<double>(point.disparity));
-    for (int i = 0; i < fit_steps; ++i) {
+    for (int i = 0; i < kFitSteps; ++i) {
       const double height = toSpace(plane, camera_).height;
       information.setZero();
       Eigen::Vector3d moment = Eigen::Vector3d::Zero();
       for (const DensePoint& point : points_) {
         const Eigen::Vector3d row = toRow(point, camera_);
-        if (row.dot(plane) < far_margin * farthest)
+        if (row.dot(plane) < kFarMargin * farthest)
           continue;  // points just beyond the range are missing by their noise
         const double residual = static_cast<double>(point.disparity) - row.dot(plane);
         const double squared = residual * residual / toleratedVariance(point, height) / 9.0;
@@ -141,10 +141,10 @@ class GroundSearch {
   std::pair<double, double> findSupport(const SpacePlane& plane) const {
     double farthest = 0.0, on = 0.0;
     for (const DensePoint& point : points_) farthest = std::max(farthest, static_cast<double>(point.p_cam.norm()));
-    const double cells_per_metre = 0.5 * plan_cells / std::max(farthest, 1e-3);
+    const double cells_per_metre = 0.5 * kPlanCells / std::max(farthest, 1e-3);
     const Eigen::Vector3d forward = (Eigen::Vector3d::UnitZ() - plane.up.z() * plane.up).normalized();
     const Eigen::Vector3d right = forward.cross(plane.up);
-    std::vector<std::uint8_t> plan(static_cast<std::size_t>(plan_cells) * plan_cells, 0);
+    std::vector<std::uint8_t> plan(static_cast<std::size_t>(kPlanCells) * kPlanCells, 0);
     for (const DensePoint& point : points_) {
       const Eigen::Vector3d p = point.p_cam.cast<double>();
       const double height = plane.up.dot(p) + plane.height;
@@ -152,15 +152,15 @@ class GroundSearch {
           std::sqrt(static_cast<double>(point.variance)) * plane.height / static_cast<double>(point.disparity);
       const bool is_on = std::abs(height) < 2.0 * options_.tolerance + 2.0 * sigma;
       on += is_on ? 1.0 : 0.0;
-      if (!is_on && std::abs(height) >= ground_band) continue;
+      if (!is_on && std::abs(height) >= kGroundBand) continue;
       const auto cell = [&](double metres) {
-        return static_cast<std::size_t>(std::clamp(0.5 * plan_cells + cells_per_metre * metres, 0.0, plan_cells - 1.0));
+        return static_cast<std::size_t>(std::clamp(0.5 * kPlanCells + cells_per_metre * metres, 0.0, kPlanCells - 1.0));
       };
-      plan[cell(forward.dot(p)) * plan_cells + cell(right.dot(p))] |= is_on ? on_plane : in_band;
+      plan[cell(forward.dot(p)) * kPlanCells + cell(right.dot(p))] |= is_on ? kOnPlane : kInBand;
     }
     double on_cells = 0.0, all_cells = 0.0;
     for (const std::uint8_t cell : plan) {
-      on_cells += (cell & on_plane) != 0 ? 1.0 : 0.0;
+      on_cells += (cell & kOnPlane) != 0 ? 1.0 : 0.0;
       all_cells += cell != 0 ? 1.0 : 0.0;
     }
     return {on / static_cast<double>(points_.size()), all_cells > 0.0 ? on_cells / all_cells : 0.0};
@@ -168,7 +168,7 @@ class GroundSearch {
 
   /// First-order covariance of (up, height) from that of the plane's three coefficients.
   Eigen::Matrix4d computeCovariance(const DisparityPlane& plane, const Eigen::Matrix3d& information) const {
-    const Eigen::Matrix3d coefficients = points_of_a_window * pointsPerPixel() * information.inverse();
+    const Eigen::Matrix3d coefficients = kPointsOfAWindow * pointsPerPixel() * information.inverse();
     const Eigen::Vector3d normal = computeNormal(plane, camera_), scale(camera_.left.fx, camera_.left.fy, 1.0);
     const double length = normal.norm();
     const Eigen::Vector3d unit = normal / length;
@@ -214,16 +214,16 @@ std::string percent(const char* before, double share, const char* after) {
 }  // namespace
 
 const char* toString(GroundVerdict verdict) {
-  static constexpr const char* names[] = {"found", "too_few_points", "no_plane", "not_planar"};
-  return names[static_cast<std::size_t>(verdict)];
+  static constexpr const char* kNames[] = {"found", "too_few_points", "no_plane", "not_planar"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera& camera,
                        const GroundOptions& options) {
   GroundPlane ground;
-  if (points.size() < least_points) {
+  if (points.size() < kLeastPoints) {
     ground.sentence =
-        std::to_string(points.size()) + " points within range, " + std::to_string(least_points) + " wanted";
+        std::to_string(points.size()) + " points within range, " + std::to_string(kLeastPoints) + " wanted";
     return ground;
   }
   const GroundSearch search(points, camera, options);
@@ -237,14 +237,14 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   const SpacePlane space = toSpace(plane, camera);
   const auto [of_all, of_band] = search.findSupport(space);
   ground.support = of_band;
-  if (of_all < least_support) {
+  if (of_all < kLeastSupport) {
     ground.sentence = percent("the best plane holds ", of_all, " of the points within range");
     return ground;
   }
   ground.up = space.up;
   ground.height = space.height;
   ground.covariance = search.computeCovariance(plane, information);
-  const bool is_planar = of_band >= least_planar_share;
+  const bool is_planar = of_band >= kLeastPlanarShare;
   ground.verdict = is_planar ? GroundVerdict::Found : GroundVerdict::NotPlanar;
   ground.sentence = is_planar ? "" : percent("the ground is no plane: ", of_band, " of it lies on the best one");
   return ground;

@@ -13,8 +13,8 @@ namespace dense_stereo {
 namespace {
 
 // Points on top of an object of just that height scatter around it.
-constexpr double height_share = 0.8;
-constexpr double sure_deviations = 2.0;
+constexpr double kHeightShare = 0.8;
+constexpr double kSureDeviations = 2.0;
 
 /// Two axes in the ground plane.
 struct GroundAxes {
@@ -34,7 +34,7 @@ std::vector<ObstaclePoint> findObstacles(const std::vector<DensePoint>& points, 
   std::vector<ObstaclePoint> candidates;
   if (!ground.isFound()) return candidates;
   const GroundAxes axes(ground.up);
-  const double threshold = height_share * options.least_height;
+  const double threshold = kHeightShare * options.least_height;
   std::unordered_map<std::int64_t, int> counts;
   std::vector<std::pair<std::int64_t, std::int64_t>> cells;
   for (const DensePoint& point : points) {
@@ -42,7 +42,7 @@ std::vector<ObstaclePoint> findObstacles(const std::vector<DensePoint>& points, 
     // An error of the disparity moves a point along its line of sight.
     const double sigma = std::sqrt(static_cast<double>(point.variance)) / static_cast<double>(point.disparity) *
                          std::abs(ground.up.dot(point.p_cam.cast<double>()));
-    if (std::abs(height) < threshold + sure_deviations * sigma || height > options.clearance) continue;
+    if (std::abs(height) < threshold + kSureDeviations * sigma || height > options.clearance) continue;
     const Eigen::Vector3d p = point.p_cam.cast<double>();
     const auto x = static_cast<std::int64_t>(std::floor(axes.forward.dot(p) / options.cell));
     const auto y = static_cast<std::int64_t>(std::floor(axes.right.dot(p) / options.cell));

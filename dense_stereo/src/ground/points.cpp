@@ -23,14 +23,14 @@ std::vector<DensePoint> makePoints(const DisparityImage& image, const StereoCame
 }
 
 Eigen::Matrix3d pointCovariance(const DensePoint& point, const StereoCamera& camera) {
-  constexpr double direction_variance = 1.0 / 12.0;  // px^2, of a place within a pixel
+  constexpr double kDirectionVariance = 1.0 / 12.0;  // px^2, of a place within a pixel
   const Eigen::Vector3d p = point.p_cam.cast<double>();
   const double z = p.z(), d = static_cast<double>(point.disparity);
   const Eigen::Vector3d along = p / d;  // dp/dd is -p/d
   const double across_u = z / camera.left.fx, across_v = z / camera.left.fy;
   Eigen::Matrix3d covariance = along * along.transpose() * static_cast<double>(point.variance);
-  covariance(0, 0) += across_u * across_u * direction_variance;
-  covariance(1, 1) += across_v * across_v * direction_variance;
+  covariance(0, 0) += across_u * across_u * kDirectionVariance;
+  covariance(1, 1) += across_v * across_v * kDirectionVariance;
   return covariance;
 }
 

@@ -10,14 +10,14 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs second = 1'000'000'000;
-constexpr double least_gravity = 9.3, most_gravity = 10.3;  // m/s2
+constexpr StampNs kSecond = 1'000'000'000;
+constexpr double kLeastGravity = 9.3, kMostGravity = 10.3;  // m/s2
 
 }  // namespace
 
 void GravityFilter::add(const urban_nav_core::SpecificForce& sample) {
   if (!sample.force.allFinite()) return;
-  if (!last_ || sample.stamp < *last_ || sample.stamp - *last_ > second) {
+  if (!last_ || sample.stamp < *last_ || sample.stamp - *last_ > kSecond) {
     first_ = sample.stamp;
     force_ = sample.force;
   } else {
@@ -28,9 +28,9 @@ void GravityFilter::add(const urban_nav_core::SpecificForce& sample) {
 }
 
 std::optional<Eigen::Vector3d> GravityFilter::up(StampNs stamp) const {
-  if (!last_ || std::llabs(stamp - *last_) > second || *last_ - *first_ < second) return std::nullopt;
+  if (!last_ || std::llabs(stamp - *last_) > kSecond || *last_ - *first_ < kSecond) return std::nullopt;
   const double size = force_.norm();
-  if (!(size > least_gravity && size < most_gravity)) return std::nullopt;
+  if (!(size > kLeastGravity && size < kMostGravity)) return std::nullopt;
   return Eigen::Vector3d(force_ / size);
 }
 

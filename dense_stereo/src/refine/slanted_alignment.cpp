@@ -11,20 +11,20 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr float slope_prior = 0.05F;
-constexpr float tiny = 1e-6F;
-constexpr float prior_weight = 1.0F / (0.5F * 0.5F);  // px^-2: how far winners are off
-constexpr float least_noise = 1.0F;                   // grey levels^2
-constexpr float longest_step = 1.0F;                  // px; beyond it the linearisation means nothing
+constexpr float kSlopePrior = 0.05F;
+constexpr float kTiny = 1e-6F;
+constexpr float kPriorWeight = 1.0F / (0.5F * 0.5F);  // px^-2: how far winners are off
+constexpr float kLeastNoise = 1.0F;                   // grey levels^2
+constexpr float kLongestStep = 1.0F;                  // px; beyond it the linearisation means nothing
 // Pixels of one surface near an edge of depth: closer than this to the centre's disparity.
-constexpr float same_surface = 1.3F;
-constexpr int edge_radius = 3;
+constexpr float kSameSurface = 1.3F;
+constexpr int kEdgeRadius = 3;
 
 /// Binomial 1 2 1 along a row, which takes away what the derivative would misjudge.
 void smoothRow(const std::uint8_t* pixels, int width, float gain, float offset, float* out) {
   const float quarter = 0.25F * gain;
-  constexpr int margin = 16;
-  for (int u = -margin; u < width + margin; ++u)
+  constexpr int kMargin = 16;
+  for (int u = -kMargin; u < width + kMargin; ++u)
     out[u] = quarter * static_cast<float>(pixels[u - 1] + 2 * pixels[u] + pixels[u + 1]) + offset;
 }
 
@@ -91,8 +91,8 @@ void SlantedAlignment<V>::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width;
   height_ = height;
-  stride_ = static_cast<std::size_t>(width + 2 * Padded<float>::padding);
-  ring_.assign(stride_ * channels * rows, 0.0F);
+  stride_ = static_cast<std::size_t>(width + 2 * Padded<float>::kPadding);
+  ring_.assign(stride_ * channels * kRows, 0.0F);
   left_.assign(stride_, 0.0F);
   left_slope_.assign(stride_, 0.0F);
   right_.assign(stride_, 0.0F);
@@ -103,19 +103,19 @@ template <typename V>
 void SlantedAlignment<V>::step(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right,
                                const Exposure& exposure, const Padded<std::uint8_t>& edges, const Padded<float>& start,
                                DisparityField& result) {
-  result.disparity.resize(width_, height_, DisparityField::invalid);
+  result.disparity.resize(width_, height_, DisparityField::kInvalid);
   result.noise.resize(width_, height_);
   result.information.resize(width_, height_);
-  for (int v = 0; v < rows; ++v) clearRow(v);
-  constexpr int ahead = radius + 1;
-  for (int v = 0; v < height_ + ahead; ++v) {
+  for (int v = 0; v < kRows; ++v) clearRow(v);
+  constexpr int kAhead = kRadius + 1;
+  for (int v = 0; v < height_ + kAhead; ++v) {
     if (v < height_) {
       measureRow(left.row(v), right.row(v), exposure, start.row(v), v);
       sumRow(v);
     } else {
       clearRow(v);
     }
-    const int first = v - ahead;
+    const int first = v - kAhead;
     if (first < 0 || first % 2 != 0) continue;
     solveRows(first, start, result);
     solveEdges(first, edges, start, result);
@@ -124,25 +124,25 @@ void SlantedAlignment<V>::step(const Padded<std::uint8_t>& left, const Padded<st
 
 template <typename V>
 void SlantedAlignment<V>::clearRow(int v) {
-  float* row = channel(v, G) - Padded<float>::padding;
+  float* row = channel(v, G) - Padded<float>::kPadding;
   std::fill(row, row + stride_ * channels, 0.0F);
 }
 
 template <typename V>
 typename SlantedAlignment<V>::Lines SlantedAlignment<V>::linesAround(int v) {
   Lines lines{};
-  for (int k = -radius; k <= radius + 1; ++k)
-    lines[static_cast<std::size_t>(k + radius)] = channel(v + k + rows, G) - Padded<float>::padding;
+  for (int k = -kRadius; k <= kRadius + 1; ++k)
+    lines[static_cast<std::size_t>(k + kRadius)] = channel(v + k + kRows, G) - Padded<float>::kPadding;
   return lines;
 }
 
 template <typename V>
 void SlantedAlignment<V>::measureRow(const std::uint8_t* left, const std::uint8_t* right, const Exposure& exposure,
                                      const float* start, int v) {
-  float* const l = left_.data() + Padded<float>::padding;
-  float* const l_slope = left_slope_.data() + Padded<float>::padding;
-  float* const r = right_.data() + Padded<float>::padding;
-  float* const r_pairs = right_pairs_.data() + 2 * Padded<float>::padding;
+  float* const l = left_.data() + Padded<float>::kPadding;
+  float* const l_slope = left_slope_.data() + Padded<float>::kPadding;
+  float* const r = right_.data() + Padded<float>::kPadding;
+  float* const r_pairs = right_pairs_.data() + 2 * Padded<float>::kPadding;
   smoothRow(left, width_, 1.0F, 0.0F, l);
   smoothRow(right, width_, exposure.gain, exposure.offset, r);
   for (int u = 0; u < width_; ++u) l_slope[u] = slopeAt(l, u);
@@ -150,12 +150,12 @@ void SlantedAlignment<V>::measureRow(const std::uint8_t* left, const std::uint8_
     r_pairs[2 * u] = r[u];
     r_pairs[2 * u + 1] = slopeAt(r, u);
   }
-  alignas(16) static constexpr float lane[4] = {0.0F, 1.0F, 2.0F, 3.0F};
+  alignas(16) static constexpr float kLane[4] = {0.0F, 1.0F, 2.0F, 3.0F};
   const V zero = V::splat(0.0F), half = V::splat(0.5F), one = V::splat(1.0F);
   for (int u = 0; u < width_; u += 4) {
     const V d = V::load(start + u);
     const V valid = whereLess(d, zero, zero, one);
-    const V at = larger(V::load(lane) + V::splat(static_cast<float>(u)) - larger(d, zero), zero);
+    const V at = larger(V::load(kLane) + V::splat(static_cast<float>(u)) - larger(d, zero), zero);
     const auto [value_right, slope_right] =
         V::gatherPairs(r_pairs, smaller(at, V::splat(static_cast<float>(width_ - 1))));
     const V difference = value_right - V::load(l + u);
@@ -170,7 +170,7 @@ void SlantedAlignment<V>::measureRow(const std::uint8_t* left, const std::uint8_
     valid.store(channel(v, Valid) + u);
   }
   for (Channel c : {G, GG, Q, GQ, Difference, Square, Valid})  // the last vector may have passed the end
-    std::fill(channel(v, c) + width_, channel(v, c) + width_ + 2 * radius, 0.0F);
+    std::fill(channel(v, c) + width_, channel(v, c) + width_ + 2 * kRadius, 0.0F);
 }
 
 template <typename V>
@@ -196,12 +196,12 @@ void SlantedAlignment<V>::sumRow(int v) {
 template <typename V>
 void SlantedAlignment<V>::solveRows(int v, const Padded<float>& start, DisparityField& result) {
   const Lines lines = linesAround(v);
-  const V invalid = V::splat(DisparityField::invalid), zero = V::splat(0.0F), half = V::splat(0.5F);
+  const V invalid = V::splat(DisparityField::kInvalid), zero = V::splat(0.0F), half = V::splat(0.5F);
   const int last = std::min(v + 1, height_ - 1);
   for (int u = 0; u < width_; u += 4) {
     const auto down = [&lines, this, u](Channel c) {
-      const std::size_t at = c * stride_ + static_cast<std::size_t>(u + Padded<float>::padding);
-      return [&lines, at](int k) { return V::load(lines[static_cast<std::size_t>(k + radius)] + at); };
+      const std::size_t at = c * stride_ + static_cast<std::size_t>(u + Padded<float>::kPadding);
+      return [&lines, at](int k) { return V::load(lines[static_cast<std::size_t>(k + kRadius)] + at); };
     };
     const V count = larger(sumDown<V>(down(Count)), V::splat(1.0F));
     const V mean = sumDown<V>(down(Differences)) / count;
@@ -215,15 +215,15 @@ void SlantedAlignment<V>::solveRows(int v, const Padded<float>& start, Disparity
                             g.first,   count,
                             gq.sum,    sumDown<V>(down(SumGQU)),
                             gq.first,  sumDown<V>(down(SumQ))};
-    const V weight = V::splat(prior_weight) * (noise + V::splat(least_noise));
+    const V weight = V::splat(kPriorWeight) * (noise + V::splat(kLeastNoise));
     const V above = V::load(start.row(v) + u), below = V::load(start.row(last) + u);
     const V prior = whereLess(above, zero, below, whereLess(below, zero, above, half * (above + below)));
-    const PlaneFit<V> fit = fitPlane(sums, prior, weight, V::splat(slope_prior), V::splat(tiny));
+    const PlaneFit<V> fit = fitPlane(sums, prior, weight, V::splat(kSlopePrior), V::splat(kTiny));
     for (int k = v; k <= last; ++k) {
       const V before = k == v ? above : below;
       const V step = half * fit.slope_v;
       const V moved = larger(k == v ? fit.disparity - step : fit.disparity + step, zero);
-      const V ok = whereLess(magnitude(moved - before), V::splat(longest_step), moved, before);
+      const V ok = whereLess(magnitude(moved - before), V::splat(kLongestStep), moved, before);
       whereLess(before, zero, invalid, ok).store(result.disparity.row(k) + u);
       noise.store(result.noise.row(k) + u);
       fit.information.store(result.information.row(k) + u);
@@ -249,13 +249,13 @@ void SlantedAlignment<V>::solveEdges(int v, const Padded<std::uint8_t>& edges, c
       const PlaneAtEdge fit = fitAtEdge(lines, u, v, disparity, start);
       for (int k = i; k < 4; ++k) {
         const int pu = u + k % 2, pv = v + k / 2;
-        if (!pending[k] || std::abs(start.row(pv)[pu] - disparity) >= same_surface) continue;
+        if (!pending[k] || std::abs(start.row(pv)[pu] - disparity) >= kSameSurface) continue;
         pending[k] = false;
         const float before = start.row(pv)[pu];
         const float moved = larger(fit.plane.disparity + (static_cast<float>(k % 2) - 0.5F) * fit.plane.slope_u +
                                        (static_cast<float>(k / 2) - 0.5F) * fit.plane.slope_v,
                                    0.0F);
-        result.disparity.row(pv)[pu] = std::abs(moved - before) < longest_step ? moved : before;
+        result.disparity.row(pv)[pu] = std::abs(moved - before) < kLongestStep ? moved : before;
         result.noise.row(pv)[pu] = fit.noise;
         result.information.row(pv)[pu] = fit.plane.information;
       }
@@ -269,19 +269,19 @@ template <typename V>
 typename SlantedAlignment<V>::PlaneAtEdge SlantedAlignment<V>::fitAtEdge(const Lines& lines, int u, int v,
                                                                          float disparity,
                                                                          const Padded<float>& start) const {
-  const V zero = V::splat(0.0F), one = V::splat(1.0F), here = V::splat(disparity), near = V::splat(same_surface);
-  alignas(16) static constexpr float columns[8] = {-3.5F, -2.5F, -1.5F, -0.5F, 0.5F, 1.5F, 2.5F, 3.5F};
+  const V zero = V::splat(0.0F), one = V::splat(1.0F), here = V::splat(disparity), near = V::splat(kSameSurface);
+  alignas(16) static constexpr float kColumns[8] = {-3.5F, -2.5F, -1.5F, -0.5F, 0.5F, 1.5F, 2.5F, 3.5F};
   PlaneSums<V> s{zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
   V squares = zero, differences = zero;
-  for (int k = std::max(-edge_radius, -v); k <= std::min(edge_radius + 1, height_ - 1 - v); ++k) {
-    const float* const line = lines[static_cast<std::size_t>(k + radius)];
+  for (int k = std::max(-kEdgeRadius, -v); k <= std::min(kEdgeRadius + 1, height_ - 1 - v); ++k) {
+    const float* const line = lines[static_cast<std::size_t>(k + kRadius)];
     const V dv = V::splat(static_cast<float>(k) - 0.5F);
     for (int part = 0; part < 8; part += 4) {
-      const int at = u - edge_radius + part;
+      const int at = u - kEdgeRadius + part;
       const V mask = whereLess(magnitude(V::load(start.row(v + k) + at) - here), near, one, zero);
-      const V du = V::load(columns + part);
+      const V du = V::load(kColumns + part);
       const auto pixel = [&](Channel c) {
-        return mask * V::load(line + c * stride_ + static_cast<std::size_t>(at + Padded<float>::padding));
+        return mask * V::load(line + c * stride_ + static_cast<std::size_t>(at + Padded<float>::kPadding));
       };
       const V g = pixel(G), gg = pixel(GG), gq = pixel(GQ), ggu = gg * du, ggv = gg * dv;
       s = {s.gg + gg,         s.ggu + ggu,     s.ggv + ggv,     s.gguu + ggu * du, s.gguv + ggu * dv,
@@ -296,7 +296,7 @@ typename SlantedAlignment<V>::PlaneAtEdge SlantedAlignment<V>::fitAtEdge(const L
   const PlaneSums<float> sums{sumLanes(s.gg),   sumLanes(s.ggu), sumLanes(s.ggv), sumLanes(s.gguu), sumLanes(s.gguv),
                               sumLanes(s.ggvv), sumLanes(s.g),   sumLanes(s.gu),  sumLanes(s.gv),   count,
                               sumLanes(s.gq),   sumLanes(s.gqu), sumLanes(s.gqv), sumLanes(s.q)};
-  return {fitPlane(sums, disparity, prior_weight * (noise + least_noise), slope_prior, tiny), noise};
+  return {fitPlane(sums, disparity, kPriorWeight * (noise + kLeastNoise), kSlopePrior, kTiny), noise};
 }
 
 template class SlantedAlignment<Floats>;

@@ -17,8 +17,8 @@ struct Exposure {
 
 /// Disparities with what the alignment of windows says about each.
 struct DisparityField {
-  static constexpr float invalid = -1000.0F;
-  Padded<float> disparity;    ///< px, `invalid` or at least 0
+  static constexpr float kInvalid = -1000.0F;
+  Padded<float> disparity;    ///< px, `kInvalid` or at least 0
   Padded<float> noise;        ///< variance of the difference of the two images in the window, grey levels^2
   Padded<float> information;  ///< squared gradients in the window that the disparity rests on, (grey levels/px)^2
 };
@@ -39,8 +39,8 @@ class SlantedAlignment {
             const Padded<std::uint8_t>& edges, const Padded<float>& start, DisparityField& result);
 
  private:
-  static constexpr int radius = 4;
-  static constexpr int rows = 2 * radius + 2;  ///< of windows centred between two rows
+  static constexpr int kRadius = 4;
+  static constexpr int kRows = 2 * kRadius + 2;  ///< of windows centred between two rows
   /// Of each pixel: gradient, its square, value, gradient times value, difference and its square, 1 if valid. Then sums
   /// along the row, those ending in U with weights u, in UU with u^2.
   enum Channel : std::size_t {
@@ -66,13 +66,13 @@ class SlantedAlignment {
   };
 
   float* channel(int v, Channel c) {
-    return ring_.data() + (static_cast<std::size_t>(v % rows) * channels + c) * stride_ + Padded<float>::padding;
+    return ring_.data() + (static_cast<std::size_t>(v % kRows) * channels + c) * stride_ + Padded<float>::kPadding;
   }
   struct PlaneAtEdge {
     PlaneFit<float> plane;
     float noise;
   };
-  using Lines = std::array<const float*, rows>;  ///< the first channel of each row of the window
+  using Lines = std::array<const float*, kRows>;  ///< the first channel of each row of the window
   Lines linesAround(int v);
   void clearRow(int v);
   void measureRow(const std::uint8_t* left, const std::uint8_t* right, const Exposure& exposure, const float* start,

@@ -12,7 +12,7 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr double disparity_error = 0.1, depth_error = 0.05;  // px, m
+constexpr double kDisparityError = 0.1, kDepthError = 0.05;  // px, m
 
 ObstacleOptions toObstacleOptions(const Parameters& parameters) {
   ObstacleOptions options;
@@ -23,8 +23,8 @@ ObstacleOptions toObstacleOptions(const Parameters& parameters) {
 
 double nearShare(const DisparityImage& image, std::size_t points) {
   std::size_t answered = 0;
-  for (int v = 0; v < image.height; v += NearScene::step)
-    for (int u = 0; u < image.width; u += NearScene::step) answered += image.isValid(u, v) ? 1 : 0;
+  for (int v = 0; v < image.height; v += NearScene::kStep)
+    for (int u = 0; u < image.width; u += NearScene::kStep) answered += image.isValid(u, v) ? 1 : 0;
   return answered == 0 ? 0.0 : static_cast<double>(points) / static_cast<double>(answered);
 }
 
@@ -47,7 +47,7 @@ double depthSigma(const DensePoint& point) {
 }  // namespace
 
 double rangeLimit(double max_range, const urban_nav_core::StereoCamera& camera) {
-  return std::max(max_range, std::sqrt(depth_error / disparity_error * camera.left.fx * camera.baseline));
+  return std::max(max_range, std::sqrt(kDepthError / kDisparityError * camera.left.fx * camera.baseline));
 }
 
 NearSceneEstimator::NearSceneEstimator(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
@@ -60,12 +60,12 @@ NearSceneEstimator::NearSceneEstimator(const Parameters& parameters, const urban
 const NearScene& NearSceneEstimator::process(const urban_nav_core::StereoPair& pair,
                                              const std::optional<Eigen::Vector3d>& up) {
   scene_.stereo = stereo_.process(pair);
-  scene_.points = makePoints(scene_.stereo.image, camera_, range_, NearScene::step);
+  scene_.points = makePoints(scene_.stereo.image, camera_, range_, NearScene::kStep);
   scene_.near_share = nearShare(scene_.stereo.image, scene_.points.size());
   GroundOptions options;
   options.up = up;
   scene_.ground = findGround(scene_.points, camera_, options);
-  scene_.obstacles = findObstacles(scene_.points, NearScene::step, scene_.ground, obstacles_);
+  scene_.obstacles = findObstacles(scene_.points, NearScene::kStep, scene_.ground, obstacles_);
   return scene_;
 }
 

@@ -9,39 +9,39 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr int reach = 3;  // rows and columns of the window to each side
-constexpr int rows = 2 * reach + 1;
-constexpr std::ptrdiff_t margin = 32;  // bytes before and after a row of descriptors
+constexpr int kReach = 3;  // rows and columns of the window to each side
+constexpr int kRows = 2 * kReach + 1;
+constexpr std::ptrdiff_t kMargin = 32;  // bytes before and after a row of descriptors
 
 struct Comparison {
   int du, dv, other_du, other_dv;
 };
 
-constexpr std::array<Comparison, DescriptorRow::bits> listComparisons() {
-  std::array<Comparison, DescriptorRow::bits> list{};
+constexpr std::array<Comparison, DescriptorRow::kBits> listComparisons() {
+  std::array<Comparison, DescriptorRow::kBits> list{};
   std::size_t n = 0;
-  for (int dv = -reach; dv <= 0; ++dv)
-    for (int du = -reach; du <= reach && (dv < 0 || du < 0); ++du) list[n++] = {du, dv, -du, -dv};
+  for (int dv = -kReach; dv <= 0; ++dv)
+    for (int du = -kReach; du <= kReach && (dv < 0 || du < 0); ++du) list[n++] = {du, dv, -du, -dv};
   for (int dv = -1; dv <= 1; ++dv)
     for (int du = -1; du <= 1; ++du)
       if (du != 0 || dv != 0) list[n++] = {du, dv, 0, 0};
   return list;
 }
-constexpr std::array<Comparison, DescriptorRow::bits> comparisons = listComparisons();
+constexpr std::array<Comparison, DescriptorRow::kBits> kComparisons = listComparisons();
 
 template <typename V>
 V reversed(V bytes) {
-  alignas(16) static constexpr std::uint8_t order[16] = {15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0};
-  return lookUp(bytes, V::load(order));
+  alignas(16) static constexpr std::uint8_t kOrder[16] = {15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0};
+  return lookUp(bytes, V::load(kOrder));
 }
 
 }  // namespace
 
 void DescriptorRow::resize(int width, int disparities) {
-  const std::size_t stride = static_cast<std::size_t>(width + disparities) + 2 * static_cast<std::size_t>(margin);
-  if (memory_.size() == stride * (nibble_count + 1)) return;
-  memory_.assign(stride * (nibble_count + 1), 0);
-  std::uint8_t* at = memory_.data() + margin;
+  const std::size_t stride = static_cast<std::size_t>(width + disparities) + 2 * static_cast<std::size_t>(kMargin);
+  if (memory_.size() == stride * (kNibbleCount + 1)) return;
+  memory_.assign(stride * (kNibbleCount + 1), 0);
+  std::uint8_t* at = memory_.data() + kMargin;
   for (std::uint8_t*& nibble : nibbles) {
     nibble = at;
     at += stride;
@@ -51,10 +51,10 @@ void DescriptorRow::resize(int width, int disparities) {
 
 template <typename V>
 void describeRow(const Padded<std::uint8_t>& image, int v, PixelOrder order, DescriptorRow& row) {
-  std::array<const std::uint8_t*, rows> lines{};
-  for (int i = 0; i < rows; ++i) lines[static_cast<std::size_t>(i)] = image.clampedRow(v + i - reach);
+  std::array<const std::uint8_t*, kRows> lines{};
+  for (int i = 0; i < kRows; ++i) lines[static_cast<std::size_t>(i)] = image.clampedRow(v + i - kReach);
   const auto pixels = [&lines](int u, int du, int dv) {
-    return V::load(lines[static_cast<std::size_t>(reach + dv)] + u + du);
+    return V::load(lines[static_cast<std::size_t>(kReach + dv)] + u + du);
   };
   const auto column = [&](int u) { return average(average(pixels(u, 0, -1), pixels(u, 0, 1)), pixels(u, 0, 0)); };
   const V zero = V::splat(0), all = V::splat(255);
@@ -67,7 +67,7 @@ void describeRow(const Padded<std::uint8_t>& image, int v, PixelOrder order, Des
     for (std::uint8_t* nibble : row.nibbles) {
       V value = zero;
       for (int bit = 1; bit < 16; bit *= 2) {
-        const Comparison& c = comparisons[next++];
+        const Comparison& c = kComparisons[next++];
         const V is_less = equal(subtract(pixels(u, c.du, c.dv), pixels(u, c.other_du, c.other_dv)), zero);
         value = either(value, both(is_less, V::splat(bit)));
       }
@@ -80,8 +80,8 @@ void describeRow(const Padded<std::uint8_t>& image, int v, PixelOrder order, Des
 void extendRows(Padded<std::uint8_t>& image) {
   for (int v = 0; v < image.height(); ++v) {
     std::uint8_t* row = image.row(v);
-    std::memset(row - image.padding, row[0], static_cast<std::size_t>(image.padding));
-    std::memset(row + image.width(), row[image.width() - 1], static_cast<std::size_t>(image.padding));
+    std::memset(row - image.kPadding, row[0], static_cast<std::size_t>(image.kPadding));
+    std::memset(row + image.width(), row[image.width() - 1], static_cast<std::size_t>(image.kPadding));
   }
 }
 

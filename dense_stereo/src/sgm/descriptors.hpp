@@ -17,13 +17,13 @@ namespace dense_stereo {
 /// four of them, so that a table of 16 entries counts differences. Gradient: 128 plus half the difference of the
 /// neighbouring columns, each averaged over three rows.
 struct DescriptorRow {
-  static constexpr int nibble_count = 8;
-  static constexpr int bits = 4 * nibble_count;
+  static constexpr int kNibbleCount = 8;
+  static constexpr int kBits = 4 * kNibbleCount;
 
   /// Memory for rows of `width` pixels; the right image's row is read up to `disparities` elements past its end.
   void resize(int width, int disparities);
 
-  std::array<std::uint8_t*, nibble_count> nibbles{};
+  std::array<std::uint8_t*, kNibbleCount> nibbles{};
   std::uint8_t* gradient = nullptr;
 
  private:

@@ -12,18 +12,18 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr int lanes = 16;
-constexpr std::uint8_t infinite = 255;  // the cost of disparities outside the range
+constexpr int kLanes = 16;
+constexpr std::uint8_t kInfinite = 255;  // the cost of disparities outside the range
 
-alignas(16) constexpr std::uint8_t ones_in_nibble[lanes] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
-alignas(16) constexpr std::uint8_t counting[lanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+alignas(16) constexpr std::uint8_t kOnesInNibble[kLanes] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+alignas(16) constexpr std::uint8_t kCounting[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// What a path brings from the pixel before: its costs with `infinite` on both sides, their least, and P2.
+/// What a path brings from the pixel before: its costs with `kInfinite` on both sides, their least, and P2.
 template <typename V>
 struct PathStep {
   const std::uint8_t* before;
   V least, with_jump, step;
-  V run = V::splat(infinite);
+  V run = V::splat(kInfinite);
 
   PathStep(const std::uint8_t* costs, int least_cost, int jump, int step_penalty)
       : before(costs),
@@ -53,18 +53,18 @@ void SemiGlobal<V>::resize(int width, int height, int disparities) {
   disparities_ = disparities;
   const std::size_t cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(disparities);
   const std::size_t padded =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(disparities + lanes) + 2 * lanes;
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(disparities + kLanes) + 2 * kLanes;
   left_row_.resize(width, disparities);
   right_row_.resize(width, disparities);
   costs_.assign(cells, 0);
   sums_.assign(cells, 0);
-  above_.assign(padded, infinite);
+  above_.assign(padded, kInfinite);
   above_least_.assign(static_cast<std::size_t>(width), 0);
-  for (auto& pixel : along_) pixel.assign(static_cast<std::size_t>(disparities + 2 * lanes), infinite);
+  for (auto& pixel : along_) pixel.assign(static_cast<std::size_t>(disparities + 2 * kLanes), kInfinite);
   right_cost_.assign(static_cast<std::size_t>(width + disparities), 0);
   right_disparity_ = right_cost_;
-  around_.assign(static_cast<std::size_t>(2 * disparities + 2 * lanes), 0);
-  for (int i = -1; i <= 1; ++i) around_[static_cast<std::size_t>(disparities + lanes + i)] = 255;
+  around_.assign(static_cast<std::size_t>(2 * disparities + 2 * kLanes), 0);
+  for (int i = -1; i <= 1; ++i) around_[static_cast<std::size_t>(disparities + kLanes + i)] = 255;
 }
 
 template <typename V>
@@ -78,9 +78,9 @@ void SemiGlobal<V>::match(const Padded<std::uint8_t>& left, const Padded<std::ui
   winners.disparity.resize(width_, height_);
   winners.cost.resize(width_, height_);
   winners.rival.resize(width_, height_);
-  const std::size_t stride = static_cast<std::size_t>(disparities_ + lanes);
+  const std::size_t stride = static_cast<std::size_t>(disparities_ + kLanes);
   for (std::size_t u = 0; u < static_cast<std::size_t>(width_); ++u)
-    std::memset(above_.data() + lanes + u * stride, 0, static_cast<std::size_t>(disparities_));
+    std::memset(above_.data() + kLanes + u * stride, 0, static_cast<std::size_t>(disparities_));
   std::fill(above_least_.begin(), above_least_.end(), std::uint8_t{0});
   switch (disparities_) {  // the usual counts have loops of known length
     case 64: return matchRows<4>(left, right, winners);
@@ -104,28 +104,28 @@ void SemiGlobal<V>::matchRows(const Padded<std::uint8_t>& left, const Padded<std
 template <typename V>
 template <int blocks>
 void SemiGlobal<V>::sweepRight(const std::uint8_t* pixels, const std::uint8_t* pixels_above) {
-  const int disparities = blocks > 0 ? lanes * blocks : disparities_;
-  const V ones = V::load(ones_in_nibble), limit = V::splat(penalties_.gradient_limit);
-  const auto worst = static_cast<std::uint8_t>(DescriptorRow::bits + penalties_.gradient_limit);
-  std::uint8_t* before = along_[0].data() + lanes;
-  std::uint8_t* now = along_[1].data() + lanes;
+  const int disparities = blocks > 0 ? kLanes * blocks : disparities_;
+  const V ones = V::load(kOnesInNibble), limit = V::splat(penalties_.gradient_limit);
+  const auto worst = static_cast<std::uint8_t>(DescriptorRow::kBits + penalties_.gradient_limit);
+  std::uint8_t* before = along_[0].data() + kLanes;
+  std::uint8_t* now = along_[1].data() + kLanes;
   std::memset(before, 0, static_cast<std::size_t>(disparities));
   int least_before = 0;
   for (int u = 0; u < width_; ++u) {
     const int shift = width_ - 1 - u;  // of the right image's row, which runs backwards: disparity 0
     std::uint8_t* costs = costs_.data() + static_cast<std::ptrdiff_t>(u) * disparities;
     const V gradient = V::splat(left_row_.gradient[u]);
-    V nibbles[DescriptorRow::nibble_count];
-    for (std::size_t k = 0; k < DescriptorRow::nibble_count; ++k) nibbles[k] = V::splat(left_row_.nibbles[k][u]);
-    for (int d = 0; d < disparities; d += lanes) {
+    V nibbles[DescriptorRow::kNibbleCount];
+    for (std::size_t k = 0; k < DescriptorRow::kNibbleCount; ++k) nibbles[k] = V::splat(left_row_.nibbles[k][u]);
+    for (int d = 0; d < disparities; d += kLanes) {
       V cost = min(absoluteDifference(gradient, V::load(right_row_.gradient + shift + d)), limit);
-      for (std::size_t k = 0; k < DescriptorRow::nibble_count; ++k)
+      for (std::size_t k = 0; k < DescriptorRow::kNibbleCount; ++k)
         cost = add(cost, lookUp(ones, exclusiveOr(nibbles[k], V::load(right_row_.nibbles[k] + shift + d))));
       cost.store(costs + d);
     }
     if (u + 1 < disparities) std::memset(costs + u + 1, worst, static_cast<std::size_t>(disparities - u - 1));
 
-    std::uint8_t* above = above_.data() + lanes + static_cast<std::ptrdiff_t>(u) * (disparities + lanes);
+    std::uint8_t* above = above_.data() + kLanes + static_cast<std::ptrdiff_t>(u) * (disparities + kLanes);
     std::uint8_t* sums = sums_.data() + static_cast<std::ptrdiff_t>(u) * disparities;
     std::uint8_t& least_above = above_least_[static_cast<std::size_t>(u)];
     const int jump_along = jumps_[static_cast<std::size_t>(std::abs(pixels[u] - pixels[u > 0 ? u - 1 : 0]))];
@@ -133,15 +133,15 @@ void SemiGlobal<V>::sweepRight(const std::uint8_t* pixels, const std::uint8_t* p
     PathStep<V> along(before, least_before, jump_along, penalties_.step);
     PathStep<V> down(above, least_above, jump_down, penalties_.step);
     V pending = V::splat(0);  // of the block before: stored late, since this block reads the last byte that it replaces
-    for (int d = 0; d < disparities; d += lanes) {
+    for (int d = 0; d < disparities; d += kLanes) {
       const V cost = V::load(costs + d);
       const V from_left = along.extend(d, cost), from_above = down.extend(d, cost);
       from_left.store(now + d);
       add(from_left, from_above).store(sums + d);
-      if (d > 0) pending.store(above + d - lanes);
+      if (d > 0) pending.store(above + d - kLanes);
       pending = from_above;
     }
-    pending.store(above + disparities - lanes);
+    pending.store(above + disparities - kLanes);
     least_before = least(along.run);
     least_above = static_cast<std::uint8_t>(least(down.run));
     std::swap(before, now);
@@ -152,11 +152,11 @@ template <typename V>
 template <int blocks>
 void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparity, std::uint8_t* cost,
                               std::uint8_t* rival) {
-  const int disparities = blocks > 0 ? lanes * blocks : disparities_;
-  std::uint8_t* before = along_[0].data() + lanes;
-  std::uint8_t* now = along_[1].data() + lanes;
+  const int disparities = blocks > 0 ? kLanes * blocks : disparities_;
+  std::uint8_t* before = along_[0].data() + kLanes;
+  std::uint8_t* now = along_[1].data() + kLanes;
   std::memset(before, 0, static_cast<std::size_t>(disparities));
-  std::fill(right_cost_.begin(), right_cost_.end(), infinite);
+  std::fill(right_cost_.begin(), right_cost_.end(), kInfinite);
   int least_before = 0;
   for (int u = width_ - 1; u >= 0; --u) {
     const std::uint8_t* costs = costs_.data() + static_cast<std::ptrdiff_t>(u) * disparities;
@@ -165,8 +165,8 @@ void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparit
     PathStep<V> along(before, least_before, jump, penalties_.step);
     std::uint8_t* right_cost = right_cost_.data() + (width_ - 1 - u);
     std::uint8_t* right_disparity = right_disparity_.data() + (width_ - 1 - u);
-    V best = V::splat(infinite);
-    for (int d = 0; d < disparities; d += lanes) {
+    V best = V::splat(kInfinite);
+    for (int d = 0; d < disparities; d += kLanes) {
       const V from_right = along.extend(d, V::load(costs + d));
       from_right.store(now + d);
       const V sum = add(V::load(sums + d), from_right);
@@ -174,7 +174,7 @@ void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparit
       best = min(best, sum);
       const V right_best = min(V::load(right_cost + d), sum);
       right_best.store(right_cost + d);
-      const V here = add(V::load(counting), V::splat(d));
+      const V here = add(V::load(kCounting), V::splat(d));
       select(equal(right_best, sum), here, V::load(right_disparity + d)).store(right_disparity + d);
     }
     least_before = least(along.run);
@@ -182,15 +182,15 @@ void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparit
 
     best = splatLeast(best);
     int winner = 0;
-    for (int d = 0; d < disparities; d += lanes) {
+    for (int d = 0; d < disparities; d += kLanes) {
       const unsigned found = bits(equal(V::load(sums + d), best));
       if (found == 0) continue;
       winner = d + static_cast<int>(firstBit(found));
       break;
     }
-    const std::uint8_t* around = around_.data() + disparities + lanes - winner;
-    V second = V::splat(infinite);
-    for (int d = 0; d < disparities; d += lanes) second = min(second, either(V::load(around + d), V::load(sums + d)));
+    const std::uint8_t* around = around_.data() + disparities + kLanes - winner;
+    V second = V::splat(kInfinite);
+    for (int d = 0; d < disparities; d += kLanes) second = min(second, either(V::load(around + d), V::load(sums + d)));
     disparity[u] = static_cast<std::uint8_t>(winner);
     cost[u] = static_cast<std::uint8_t>(least(best));
     rival[u] = static_cast<std::uint8_t>(least(second));
@@ -202,7 +202,7 @@ void SemiGlobal<V>::checkAgainstRight(std::uint8_t* disparity) const {
   for (int u = 0; u < width_; ++u) {
     const int d = disparity[u];
     if (d > u || std::abs(right_disparity_[static_cast<std::size_t>(width_ - 1 - u + d)] - d) > 2)
-      disparity[u] = Winners::invalid;
+      disparity[u] = Winners::kInvalid;
   }
 }
 

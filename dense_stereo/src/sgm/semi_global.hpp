@@ -21,8 +21,8 @@ struct Penalties {
 
 /// Winner of each pixel.
 struct Winners {
-  static constexpr std::uint8_t invalid = 255;
-  Padded<std::uint8_t> disparity;  ///< px, `invalid` where the right image's winner disagrees by more than two
+  static constexpr std::uint8_t kInvalid = 255;
+  Padded<std::uint8_t> disparity;  ///< px, `kInvalid` where the right image's winner disagrees by more than two
   Padded<std::uint8_t> cost;       ///< sum of the three path costs at the winner, saturated
   Padded<std::uint8_t> rival;      ///< the least sum at disparities that differ by more than one, saturated
 };

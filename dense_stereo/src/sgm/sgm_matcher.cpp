@@ -9,8 +9,8 @@ namespace dense_stereo {
 namespace {
 
 // Measured on rendered worlds and on Middlebury pairs, whose truth is good to 0.1 px (dense_stereo/bench, accuracy).
-constexpr float variance_scale = 1.35F * 1.35F;  // neighbouring residuals are correlated
-constexpr float least_sigma = 0.097F;            // px, what the residuals do not show
+constexpr float kVarianceScale = 1.35F * 1.35F;  // neighbouring residuals are correlated
+constexpr float kLeastSigma = 0.097F;            // px, what the residuals do not show
 
 }  // namespace
 
@@ -21,12 +21,12 @@ void SgmMatcher::match(const MatcherInput& input, DisparityImage& image) {
   semi_global_.match(input.left, input.right, Penalties{}, winners_);
   components_.remove(winners_.disparity, parameters_.min_component);
   depth_edges_.mark(winners_.disparity, edges_);
-  start_.resize(width, height, DisparityField::invalid);
+  start_.resize(width, height, DisparityField::kInvalid);
   for (int v = 0; v < height; ++v) {
     const std::uint8_t* from = winners_.disparity.row(v);
     float* to = start_.row(v);
     for (int u = 0; u < width; ++u)
-      to[u] = from[u] == Winners::invalid ? DisparityField::invalid : static_cast<float>(from[u]);
+      to[u] = from[u] == Winners::kInvalid ? DisparityField::kInvalid : static_cast<float>(from[u]);
   }
   const Exposure exposure = compareBrightness(input);
   alignment_.resize(width, height);
@@ -43,7 +43,7 @@ Exposure SgmMatcher::compareBrightness(const MatcherInput& input) const {
     const std::uint8_t* r = input.right.row(v);
     const std::uint8_t* d = winners_.disparity.row(v);
     for (int u = v / 2 % 4; u < input.left.width(); u += 4) {
-      if (d[u] == Winners::invalid) continue;
+      if (d[u] == Winners::kInvalid) continue;
       const int p = l[u], q = r[u - d[u]];
       left += p;
       right += q;
@@ -70,9 +70,9 @@ void SgmMatcher::finish(DisparityImage& image) const {
     const float* information = field_.information.row(v);
     for (int u = 0; u < image.width; ++u) {
       const std::size_t at = image.index(u, v);
-      const float variance = variance_scale * noise[u] / (information[u] + 1.0F) + least_sigma * least_sigma;
+      const float variance = kVarianceScale * noise[u] / (information[u] + 1.0F) + kLeastSigma * kLeastSigma;
       const bool valid = d[u] > 0.0F && variance < largest;  // 0 px is nothing at a finite depth
-      image.disparity[at] = valid ? d[u] : DisparityImage::invalid;
+      image.disparity[at] = valid ? d[u] : DisparityImage::kInvalid;
       image.variance[at] = valid ? variance : 0.0F;
     }
   }

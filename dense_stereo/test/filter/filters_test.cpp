@@ -34,7 +34,7 @@ int floodFill(const Padded<std::uint8_t>& d, int u, int v) {
       for (int dx = -1; dx <= 1; ++dx) {
         const int a = x + dx, b = y + dy;
         if (a < 0 || b < 0 || a >= d.width() || b >= d.height()) continue;
-        if (seen[static_cast<std::size_t>(b * d.width() + a)] != 0 || d.row(b)[a] == Winners::invalid) continue;
+        if (seen[static_cast<std::size_t>(b * d.width() + a)] != 0 || d.row(b)[a] == Winners::kInvalid) continue;
         if (std::abs(d.row(b)[a] - d.row(y)[x]) > 1) continue;
         seen[static_cast<std::size_t>(b * d.width() + a)] = 1;
         stack.emplace_back(a, b);
@@ -49,13 +49,13 @@ TEST(SmallComponents, RemovesWhatAFloodFillFindsSmall) {
     Padded<std::uint8_t> map = constantMap(60, 40, 0);
     for (int v = 0; v < 40; ++v)
       for (int u = 0; u < 60; ++u)
-        map.row(v)[u] = random() % 5 == 0 ? Winners::invalid : static_cast<std::uint8_t>(10 + random() % 4);
+        map.row(v)[u] = random() % 5 == 0 ? Winners::kInvalid : static_cast<std::uint8_t>(10 + random() % 4);
     const Padded<std::uint8_t> before = map;
     SmallComponents().remove(map, 6);
     for (int v = 0; v < 40; ++v)
       for (int u = 0; u < 60; ++u) {
-        if (before.row(v)[u] == Winners::invalid) continue;
-        ASSERT_EQ(map.row(v)[u] == Winners::invalid, floodFill(before, u, v) < 6) << u << " " << v;
+        if (before.row(v)[u] == Winners::kInvalid) continue;
+        ASSERT_EQ(map.row(v)[u] == Winners::kInvalid, floodFill(before, u, v) < 6) << u << " " << v;
       }
   }
 }
@@ -74,7 +74,7 @@ TEST(DepthEdges, LooksAcrossOccludedStripsAndForgivesSlants) {
   Padded<std::uint8_t> map = constantMap(64, 32, 10), slanted = constantMap(64, 32, 0), edges;
   for (int v = 0; v < 32; ++v)
     for (int u = 0; u < 64; ++u) {
-      if (u >= 24) map.row(v)[u] = u < 30 ? Winners::invalid : 20;
+      if (u >= 24) map.row(v)[u] = u < 30 ? Winners::kInvalid : 20;
       slanted.row(v)[u] = static_cast<std::uint8_t>(10 + u / 2 + v / 2);
     }
   DepthEdges().mark(map, edges);
@@ -114,7 +114,7 @@ TEST(UnsupportedRegions, RemovesTheFlatSkyAndKeepsTexture) {
 
 /// The windows of the seven lowest rows of a flat sky hold the texture below it.
 TEST(UnsupportedRegions, RemovesTheSkyUpToTheOutlineAndKeepsAFlatPatchWithinTexture) {
-  constexpr int horizon = 60, reached = 53;
+  constexpr int kHorizon = 60, kReached = 53;
   std::mt19937 random(2);
   Padded<std::uint8_t> left = constantMap(96, 128, 220);
   Winners winners;
@@ -126,17 +126,17 @@ TEST(UnsupportedRegions, RemovesTheSkyUpToTheOutlineAndKeepsAFlatPatchWithinText
   field.noise.resize(96, 128, 0.1F);
   field.information.resize(96, 128, 0.0F);
   const auto isPatch = [](int u, int v) { return u >= 40 && u < 48 && v >= 90 && v < 98; };
-  for (int v = reached; v < 128; ++v)
+  for (int v = kReached; v < 128; ++v)
     for (int u = 0; u < 96; ++u) {
       field.information.row(v)[u] = 500.0F;
       winners.rival.row(v)[u] = 120;
-      if (v >= horizon) left.row(v)[u] = isPatch(u, v) ? 220 : static_cast<std::uint8_t>(random() % 120);
+      if (v >= kHorizon) left.row(v)[u] = isPatch(u, v) ? 220 : static_cast<std::uint8_t>(random() % 120);
     }
   extendRows(left);
   UnsupportedRegions().remove(left, winners, field);
   for (int u = 0; u < 96; ++u) {
-    for (int v = 0; v < horizon; ++v) ASSERT_LT(field.disparity.row(v)[u], 0.0F) << u << " " << v;
-    for (int v = horizon + 1; v < 128; ++v) ASSERT_EQ(field.disparity.row(v)[u], 12.0F) << u << " " << v;
+    for (int v = 0; v < kHorizon; ++v) ASSERT_LT(field.disparity.row(v)[u], 0.0F) << u << " " << v;
+    for (int v = kHorizon + 1; v < 128; ++v) ASSERT_EQ(field.disparity.row(v)[u], 12.0F) << u << " " << v;
   }
 }
 

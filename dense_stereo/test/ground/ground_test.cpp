@@ -18,7 +18,7 @@ using testing_support::RenderedPair;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::testing::Scene;
 
-constexpr double rad = M_PI / 180.0;
+constexpr double kRad = M_PI / 180.0;
 
 StereoCamera groundCamera() {
   StereoCamera camera;
@@ -36,7 +36,7 @@ std::vector<DensePoint> pointsOn(const Height& heightAt, double sigma, unsigned 
   DisparityImage image;
   image.width = 384;
   image.height = 288;
-  image.disparity.assign(384 * 288, DisparityImage::invalid);
+  image.disparity.assign(384 * 288, DisparityImage::kInvalid);
   image.variance.assign(384 * 288, static_cast<float>(sigma * sigma));
   for (int v = 0; v < 288; ++v)
     for (int u = 0; u < 384; ++u)
@@ -59,7 +59,7 @@ TEST(GroundPlane, IsExactWithinItsCovarianceOnAFlatGround) {
   for (unsigned seed = 1; seed <= runs; ++seed) {
     const GroundPlane plane = findGround(pointsOn([](double, double) { return 0.0; }, 0.2, seed), groundCamera());
     ASSERT_TRUE(plane.isFound()) << plane.sentence;
-    EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(-Eigen::Vector3d::UnitY()))), 0.2 * rad);
+    EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(-Eigen::Vector3d::UnitY()))), 0.2 * kRad);
     EXPECT_NEAR(plane.height, 1.0, 0.01);
     EXPECT_GT(plane.support, 0.9);
     const double error = plane.height - 1.0;
@@ -83,7 +83,7 @@ TEST(GroundPlane, IsFoundBeforeAWall) {
   const GroundPlane plane =
       findGround(pointsOn([](double, double z) { return z < 3.2 ? 0.0 : 50.0; }, 0.1, 1), groundCamera());
   ASSERT_TRUE(plane.isFound()) << plane.sentence;
-  EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(-Eigen::Vector3d::UnitY()))), 0.3 * rad);
+  EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(-Eigen::Vector3d::UnitY()))), 0.3 * kRad);
   EXPECT_NEAR(plane.height, 1.0, 0.01);
 }
 
@@ -98,13 +98,13 @@ TEST(GroundPlane, NeedsPointsAndADirectionNearGravity) {
 TEST(GroundPlane, IsFoundInRenderedRooms) {
   const Scene room = urban_nav_core::testing::texturedRoom();
   for (const double pitch : {0.0, 10.0, 20.0}) {
-    const RenderedPair view(room, -2.0, 0.5, 0.9, pitch * rad, 3.0 * rad);
+    const RenderedPair view(room, -2.0, 0.5, 0.9, pitch * kRad, 3.0 * kRad);
     DenseStereo stereo{Parameters()};
     const StereoResult& result = stereo.process(view.pair());
     const GroundPlane plane = findGround(makePoints(result.image, view.camera(), 5.0, 2), view.camera());
     ASSERT_TRUE(plane.isFound()) << plane.sentence << " at " << pitch;
     EXPECT_GT(plane.support, 0.8) << pitch;
-    EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(view.up()))), 0.3 * rad) << pitch;
+    EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(view.up()))), 0.3 * kRad) << pitch;
     EXPECT_NEAR(plane.height, view.height(), 0.01) << pitch;
   }
 }

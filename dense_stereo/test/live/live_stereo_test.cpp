@@ -16,31 +16,31 @@ namespace {
 using urban_nav_core::SpecificForce;
 using urban_nav_core::StampNs;
 
-constexpr StampNs tick = 10'000'000;  // 100 Hz
+constexpr StampNs kTick = 10'000'000;  // 100 Hz
 
 TEST(GravityFilter, PointsUpThroughShocks) {
   const Eigen::Vector3d up = Eigen::Vector3d(0.05, -0.1, 1.0).normalized();
   GravityFilter filter;
   EXPECT_FALSE(filter.up(0)) << "no sample";
   for (int i = 0; i < 300; ++i)
-    filter.add({i * tick, 9.81 * up + Eigen::Vector3d(i % 10 == 0 ? 3.0 : 0.0, std::sin(0.5 * i), 0.0)});
-  ASSERT_TRUE(filter.up(300 * tick));
-  EXPECT_LT(std::acos(filter.up(300 * tick)->dot(up)), 0.06);
-  EXPECT_FALSE(filter.up(500 * tick)) << "too old";
+    filter.add({i * kTick, 9.81 * up + Eigen::Vector3d(i % 10 == 0 ? 3.0 : 0.0, std::sin(0.5 * i), 0.0)});
+  ASSERT_TRUE(filter.up(300 * kTick));
+  EXPECT_LT(std::acos(filter.up(300 * kTick)->dot(up)), 0.06);
+  EXPECT_FALSE(filter.up(500 * kTick)) << "too old";
 }
 
 TEST(GravityFilter, NeedsASecondOfSomethingOfTheSizeOfGravity) {
   GravityFilter filter;
-  for (int i = 0; i < 50; ++i) filter.add({i * tick, {0.0, 0.0, 9.8}});
-  EXPECT_FALSE(filter.up(50 * tick)) << "too short";
-  filter.add({50 * tick, {0.0, std::numeric_limits<double>::quiet_NaN(), 9.8}});
-  for (int i = 51; i < 200; ++i) filter.add({i * tick, {0.0, 0.0, 9.8}});
-  EXPECT_TRUE(filter.up(200 * tick));
+  for (int i = 0; i < 50; ++i) filter.add({i * kTick, {0.0, 0.0, 9.8}});
+  EXPECT_FALSE(filter.up(50 * kTick)) << "too short";
+  filter.add({50 * kTick, {0.0, std::numeric_limits<double>::quiet_NaN(), 9.8}});
+  for (int i = 51; i < 200; ++i) filter.add({i * kTick, {0.0, 0.0, 9.8}});
+  EXPECT_TRUE(filter.up(200 * kTick));
   filter.add({0, {0.0, 0.0, 9.8}});
   EXPECT_FALSE(filter.up(0)) << "time went back";
   GravityFilter units;
-  for (int i = 0; i < 200; ++i) units.add({i * tick, {0.0, 0.0, 1.0}});  // in g
-  EXPECT_FALSE(units.up(200 * tick));
+  for (int i = 0; i < 200; ++i) units.add({i * kTick, {0.0, 0.0, 1.0}});  // in g
+  EXPECT_FALSE(units.up(200 * kTick));
 }
 
 TEST(LiveStereo, RefusesTheMethodsOfTheCommand) {

@@ -26,7 +26,7 @@ struct RoundedStart {
     copy(pair.right, right);
     edges.resize(left.width(), left.height());
     edges.fill(edge);
-    start.resize(left.width(), left.height(), DisparityField::invalid);
+    start.resize(left.width(), left.height(), DisparityField::kInvalid);
     for (int v = 0; v < left.height(); ++v)
       for (int u = 0; u < left.width(); ++u) {
         const double d = scene.disparity(u, v);

@@ -19,7 +19,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::testing::RenderedSequence;
 
-constexpr double camera_height = 1.2;  // m
+constexpr double kCameraHeight = 1.2;  // m
 
 RenderedSequence room() {
   using namespace urban_nav_core::testing;
@@ -30,7 +30,7 @@ RenderedSequence room() {
   options.camera.cx = 159.5;
   options.camera.cy = 119.5;
   options.first_stamp = 1'225'719'873'123'456'789;
-  return RenderedSequence(texturedRoom(), loop(3.0, 1.5, camera_height, 25.0), options);
+  return RenderedSequence(texturedRoom(), loop(3.0, 1.5, kCameraHeight, 25.0), options);
 }
 
 /// The robot's camera, and a subscriber to all topics of the nodelet.
@@ -59,7 +59,7 @@ class DenseStereoNodelet : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(graph.connected());
-    graph.place(Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, camera_height)));
+    graph.place(Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, kCameraHeight)));
     ASSERT_TRUE(graph.call("reset"));
   }
   StereoCamera camera() { return makeCamera(sequence.options().camera); }
@@ -98,7 +98,7 @@ TEST_F(DenseStereoNodelet, PublishesWhatTheCoreComputes) {
     ASSERT_EQ(ground.verdict, urban_nav_msgs::GroundPlane::FOUND) << ground.sentence;
     EXPECT_EQ(ground.height, scene.ground.height);
     EXPECT_EQ(ground.up.y, scene.ground.up.y());
-    EXPECT_NEAR(ground.height, camera_height, 0.02);
+    EXPECT_NEAR(ground.height, kCameraHeight, 0.02);
     EXPECT_EQ(graph.obstacles[n].width, scene.obstacles.size());
   }
 }

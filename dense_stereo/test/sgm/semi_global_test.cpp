@@ -54,7 +54,7 @@ TEST(SemiGlobal, AnswersTheLeftMarginWithDisparitiesInsideTheRightImage) {
   const Winners winners = matchedBy<Bytes>(left, right, 64);
   for (int v = 0; v < left.height(); ++v)
     for (int u = 0; u < 63; ++u)
-      ASSERT_TRUE(winners.disparity.row(v)[u] == Winners::invalid || winners.disparity.row(v)[u] <= u);
+      ASSERT_TRUE(winners.disparity.row(v)[u] == Winners::kInvalid || winners.disparity.row(v)[u] <= u);
 }
 
 TEST(SemiGlobal, TheRivalCostsMoreThanTheWinner) {

@@ -20,9 +20,9 @@ using urban_nav_core::DataError;
 namespace {
 
 // 1: without sequences. 3: with features of OpenCV, which no describer extracts.
-constexpr std::uint32_t oldest_version = 1, model_version = 2, opencv_version = 3;
-constexpr char model_name[] = "places model";
-constexpr std::size_t most_words = 1'000'000;
+constexpr std::uint32_t kOldestVersion = 1, kModelVersion = 2, kOpencvVersion = 3;
+constexpr char kModelName[] = "places model";
+constexpr std::size_t kMostWords = 1'000'000;
 
 void archiveCentres(Archive& archive, Vocabulary& vocabulary) {
   std::vector<std::uint8_t> bytes;
@@ -138,7 +138,7 @@ void roundToFile(ChowLiuTree& tree) {
 std::string printModelContent(const PlaceModel& model) { return printVersion(model, kModelVersion); }
 
 std::string printModel(const PlaceModel& model) {
-  return urban_nav_core::seal(model_name, model_version, printModelContent(model));
+  return urban_nav_core::seal(kModelName, kModelVersion, printModelContent(model));
 }
 
 PlaceModel parseModelContent(std::string_view content, const std::string& name) {
@@ -148,11 +148,11 @@ PlaceModel parseModelContent(std::string_view content, const std::string& name) 
 PlaceModel parseModel(std::string_view bytes, const std::string& name) {
   urban_nav_core::UnsealedState state;
   try {
-    state = urban_nav_core::unseal(model_name, oldest_version, opencv_version, bytes);
+    state = urban_nav_core::unseal(kModelName, kOldestVersion, kOpencvVersion, bytes);
   } catch (const urban_nav_core::Error& error) {
     throw DataError(name, error.what(), "a whole model written by places train");
   }
-  if (state.version == opencv_version)
+  if (state.version == kOpencvVersion)
     throw DataError(name, "a model of OpenCV's features (sift or orb)",
                     "a model of upright features, as places train writes it: train it again");
   return parseVersion(state.content, state.version, name);

@@ -20,8 +20,8 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double across_reach = 3.0;  // px of the level
-constexpr int row_steps = 4;  // px of the level to both sides, searched where the template does not take hold at once
+constexpr double kAcrossReach = 3.0;  // px of the level
+constexpr int kRowSteps = 4;  // px of the level to both sides, searched where the template does not take hold at once
 
 /// The place along a row where the template fits best to whole pixels.
 Eigen::Vector2d bestOnRow(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& around) {
@@ -31,7 +31,7 @@ Eigen::Vector2d bestOnRow(Side side, const Corners& corners, const Track& track,
   const int u = static_cast<int>(std::lround(around.x() * scale)),
             v = static_cast<int>(std::lround(around.y() * scale));
   int best = std::numeric_limits<int>::max(), at = u;
-  for (int i = u - row_steps; i <= u + row_steps; ++i) {
+  for (int i = u - kRowSteps; i <= u + kRowSteps; ++i) {
     if (!urban_nav_core::sadFits(image, i, v)) continue;
     const int sad = urban_nav_core::meanRemovedSad(patch, image, i, v);
     if (sad >= best) continue;
@@ -57,9 +57,9 @@ void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose&
       if (!projected || !partner || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
       // What the sighting in the other image is off by is mostly the pose's error, and so common to both.
       const Eigen::Vector2d start = other.found ? Eigen::Vector2d(*projected + (other.pixel - *partner)) : *projected;
-      mine = refine(side, corners, *match.track, start, across_reach);
+      mine = refine(side, corners, *match.track, start, kAcrossReach);
       if (!mine.found && other.found)
-        mine = refine(side, corners, *match.track, bestOnRow(side, corners, *match.track, start), across_reach);
+        mine = refine(side, corners, *match.track, bestOnRow(side, corners, *match.track, start), kAcrossReach);
     }
   }
 }

@@ -10,8 +10,8 @@ using urban_nav_core::StereoPair;
 namespace {
 
 // Corners wanted at level 0 per feature; a quarter of that at each further level.
-constexpr int fewest_per_feature = 8, most_per_feature = 14;
-constexpr int lowest_threshold = 4, highest_threshold = 60;
+constexpr int kFewestPerFeature = 8, kMostPerFeature = 14;
+constexpr int kLowestThreshold = 4, kHighestThreshold = 60;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Corners::Corners(int levels, int top, int threshold, int features)
       right_(top_ + 1, levels) {
   for (Eye* eye : {&left_, &right_})
     std::fill(eye->thresholds.begin(), eye->thresholds.end(),
-              std::clamp(threshold, lowest_threshold, highest_threshold));
+              std::clamp(threshold, kLowestThreshold, kHighestThreshold));
 }
 
 void Corners::extract(const StereoPair& pair) {
@@ -44,8 +44,8 @@ void Corners::extract(const ImageView& image, Eye& eye) {
     int& threshold = eye.thresholds[static_cast<std::size_t>(level)];
     const auto& found = fast_.detect(view, threshold, Fast::Suppression::LocalMaximum);
     const int unit = std::max(1, features_ >> (2 * level)), count = static_cast<int>(found.size());
-    if (count < fewest_per_feature * unit) threshold = std::max(lowest_threshold, threshold - 1 - threshold / 6);
-    if (count > most_per_feature * unit) threshold = std::min(highest_threshold, threshold + 1 + threshold / 12);
+    if (count < kFewestPerFeature * unit) threshold = std::max(kLowestThreshold, threshold - 1 - threshold / 6);
+    if (count > kMostPerFeature * unit) threshold = std::min(kHighestThreshold, threshold + 1 + threshold / 12);
     eye.grids[static_cast<std::size_t>(level)].assign(found, view.width, view.height);
   }
 }
@@ -54,7 +54,7 @@ void Corners::archive(urban_nav_core::Archive& archive) {
   for (Eye* eye : {&left_, &right_})
     for (int& threshold : eye->thresholds) {
       archive(threshold);
-      archive.require(threshold >= lowest_threshold && threshold <= highest_threshold,
+      archive.require(threshold >= kLowestThreshold && threshold <= kHighestThreshold,
                       "a threshold of corners is none");
     }
 }

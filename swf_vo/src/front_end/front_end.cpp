@@ -30,35 +30,35 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
-constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
-constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1, noticed_row_offset_px = 0.1;
+constexpr double kReferenceArea = 512.0 * 384.0;  // of the parameter `features`
+constexpr int kTopWidth = 160;                    // the image whose rotation is found is at most this wide
+constexpr double kCoarseSlackPx = 1.0, kFineSlackPx = 0.1, kNoticedRowOffsetPx = 0.1;
 // A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
-constexpr double astray_slack_px = 0.5;
+constexpr double kAstraySlackPx = 0.5;
 // By chance 8 % of the landmarks in view agreed, once in ten simulated minutes with gaps (the soak of
 // src/urban_nav/bench); where the pose was right at least 21 % did, after a second without pictures in a real street
 // seen from a car (the recordings of bench/faults).
-constexpr double least_share_in_view = 0.15;
+constexpr double kLeastShareInView = 0.15;
 // Where so little agrees that nothing is known of the motion: how many motions are tried, for one match in five to be
 // right.
-constexpr int wide_samples = 400;
+constexpr int kWideSamples = 400;
 // Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with
 // this share of n^2 steps added to their variance show a motion along the track as badly as n steps of a random walk do
 // (6 / (5 n) q = 12 / n^3 R).
-constexpr double slope_share = 0.1;
+constexpr double kSlopeShare = 0.1;
 // Of the error of a disparity a part stays the same as long as the landmark lives (that of its slope, and of what else
 // is in its patch): this share of the variance it was born with. Measured in rendered rooms at 1, 3 and 6 grey levels
 // of noise (bench/creep). However many measurements there are, up to this many, their mean is no better.
-constexpr double constant_share = 0.2;
-constexpr int longest_average = 30;
-constexpr double least_two_eyed = 0.3;                 // share of the inliers
-constexpr int most_missed = 3, most_missed_young = 1;  // frames
-constexpr int longest_aside = 50;                      // frames: what was known as long ago has left the view
-constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
+constexpr double kConstantShare = 0.2;
+constexpr int kLongestAverage = 30;
+constexpr double kLeastTwoEyed = 0.3;                 // share of the inliers
+constexpr int kMostMissed = 3, kMostMissedYoung = 1;  // frames
+constexpr int kLongestAside = 50;                     // frames: what was known as long ago has left the view
+constexpr int kDisagreementsRefute = 2, kDisagreementsRefuteYoung = 1, kYoung = 3;  // frames
 
 int topLevel(int width) {
   int level = 0;
-  while ((width >> level) > top_width) ++level;
+  while ((width >> level) > kTopWidth) ++level;
   return level;
 }
 
@@ -66,7 +66,7 @@ int topLevel(int width) {
 
 int featuresIn(const StereoCamera& camera, int features) {
   const double area = static_cast<double>(camera.left.width) * camera.left.height;
-  return std::max(8, static_cast<int>(std::lround(features * std::pow(area / reference_area, 2.0 / 3.0))));
+  return std::max(8, static_cast<int>(std::lround(features * std::pow(area / kReferenceArea, 2.0 / 3.0))));
 }
 
 class FrontEnd::Implementation {
@@ -164,7 +164,7 @@ class FrontEnd::Implementation {
   void replenish(FrameId frame) {
     const bool first = !rows_.isKnown();
     startTracks(frame);
-    if (!first || std::abs(rows_.px()) < noticed_row_offset_px) return;
+    if (!first || std::abs(rows_.px()) < kNoticedRowOffsetPx) return;
     for (const Observation& observation : result_.fresh) tracks_.end(observation.landmark);
     result_.fresh.clear();
     startTracks(frame);
@@ -256,7 +256,7 @@ class FrontEnd::Implementation {
     for (Match& match : matches_) measure(match);
     starts_.assign({T_predicted_odom, T_turned_odom});
     PoseEstimatorOptions options;
-    options.slack_px = coarse_slack_px;
+    options.slack_px = kCoarseSlackPx;
     options.least_inliers = parameters_.lost_features;
     return pose_estimator_.locate(starts_, options, matches_);
   }
@@ -302,9 +302,9 @@ class FrontEnd::Implementation {
     for (Match& match : matches_) measure(match);
     starts_.assign({T_turned_odom});
     PoseEstimatorOptions options;
-    options.slack_px = coarse_slack_px;
+    options.slack_px = kCoarseSlackPx;
     options.least_inliers = parameters_.lost_features;
-    options.samples = wide_samples;
+    options.samples = kWideSamples;
     const PoseEstimate guess = pose_estimator_.locate(starts_, options, matches_);
     if (guess.found) {
       const PoseEstimate coarse = matchCoarsely(guess.T_camera_odom, guess.T_camera_odom);
@@ -338,7 +338,7 @@ class FrontEnd::Implementation {
     }
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     PoseEstimatorOptions options;
-    options.slack_px = astray_ ? astray_slack_px : fine_slack_px;
+    options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
     options.least_inliers = parameters_.lost_features;
     return pose_estimator_.locate(starts_, options, matches_);
   }
@@ -385,7 +385,7 @@ class FrontEnd::Implementation {
   bool isByChance(const PoseEstimate& found) const {
     const auto in_view = std::count_if(matches_.begin(), matches_.end(),
                                        [&](const Match& match) { return isInView(match, found.T_camera_odom); });
-    return found.inliers < least_share_in_view * static_cast<double>(in_view);
+    return found.inliers < kLeastShareInView * static_cast<double>(in_view);
   }
 
   /// Do most matches live in one image although the other has something to show? Then the two images are no pair
@@ -395,7 +395,7 @@ class FrontEnd::Implementation {
     int both = 0;
     for (const Match& match : matches_) both += match.inlier && match.left.found && match.right.found ? 1 : 0;
     const int enough = static_cast<int>(matches_.size());
-    return both < least_two_eyed * inliers && corners_.count(Side::Left) > enough &&
+    return both < kLeastTwoEyed * inliers && corners_.count(Side::Left) > enough &&
            corners_.count(Side::Right) > enough;
   }
 
@@ -414,11 +414,11 @@ class FrontEnd::Implementation {
       const double sigma_px = std::sqrt(0.5 * aligned.trace() + floor * floor);
       const Eigen::Matrix2d crept = creep(camera_, result_.T_odom_camera.inverse(), match);
       const double together = std::min<double>(track.seen, parameters_.window);
-      const double constant = constant_share * track.sigma_disparity * track.sigma_disparity;
+      const double constant = kConstantShare * track.sigma_disparity * track.sigma_disparity;
       const Eigen::Matrix2d displaced = displacedByBlur(track, match.left.found);
       track.blurred = displaced.isZero() ? 0 : track.blurred + 1;
-      loosen(slope_share * together * together * crept + std::min(track.blurred, longest_average) * displaced,
-             std::min(track.seen, longest_average) * constant, match);
+      loosen(kSlopeShare * together * together * crept + std::min(track.blurred, kLongestAverage) * displaced,
+             std::min(track.seen, kLongestAverage) * constant, match);
       const double inflation = match.inflation;
       result_.tracked.push_back({track.id, frame, match.z, match.information / inflation,
                                  inflation * whereBorn(track, crept), sigma_px, inflation});
@@ -428,16 +428,16 @@ class FrontEnd::Implementation {
     }
     // Less or more sharp than it was, it is looked for in vain, or found elsewhere; that says nothing of it.
     const bool unlike = track.sharper || !track.blur.isZero();
-    if (unlike && ++track.aside <= longest_aside) return;
+    if (unlike && ++track.aside <= kLongestAside) return;
     if (result_.localised && (match.measured || match.contradicted)) {
-      if (++track.disagreed < (track.seen < young ? disagreements_refute_young : disagreements_refute)) return;
+      if (++track.disagreed < (track.seen < kYoung ? kDisagreementsRefuteYoung : kDisagreementsRefute)) return;
       result_.refuted.push_back(track.id);
       tracks_.end(track.id);
       return;
     }
     // Lost for a moment, as in a flash of light: what was known well may still be found when the images are good again.
-    if (!result_.localised && track.seen >= young) return;
-    const int most = track.seen < young ? most_missed_young : most_missed;
+    if (!result_.localised && track.seen >= kYoung) return;
+    const int most = track.seen < kYoung ? kMostMissedYoung : kMostMissed;
     if (++track.missed < most && isInView(match, result_.T_odom_camera.inverse())) return;
     result_.ended.push_back(track.id);
     tracks_.end(track.id);

@@ -9,16 +9,16 @@ namespace swf_vo {
 
 namespace {
 
-constexpr std::size_t renewal = 8;  // patches between two looks at the median
+constexpr std::size_t kRenewal = 8;  // patches between two looks at the median
 
 }  // namespace
 
 bool PatchResidualTest::isTypical(double noise) {
-  recent_[count_ % size] = noise;
+  recent_[count_ % kSize] = noise;
   ++count_;
-  if (count_ < enough) return true;
-  if (limit_ == 0.0 || count_ % renewal == 0) {
-    const std::size_t known = std::min(count_, size);
+  if (count_ < kEnough) return true;
+  if (limit_ == 0.0 || count_ % kRenewal == 0) {
+    const std::size_t known = std::min(count_, kSize);
     std::copy_n(recent_.begin(), known, sorted_.begin());
     limit_ = robustThreshold(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(known));
   }

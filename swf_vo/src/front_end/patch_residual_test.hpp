@@ -19,8 +19,8 @@ class PatchResidualTest {
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  static constexpr std::size_t size = 64, enough = 16;
-  std::array<double, size> recent_{}, sorted_{};
+  static constexpr std::size_t kSize = 64, kEnough = 16;
+  std::array<double, kSize> recent_{}, sorted_{};
   std::size_t count_ = 0;
   double limit_ = 0.0;
 };

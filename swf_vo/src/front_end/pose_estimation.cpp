@@ -22,15 +22,15 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double cauchy2 = 5.7;  // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
-constexpr double gate = 16.3;    // chi-square, 3 degrees of freedom, 99.9 %
-constexpr int most_pose_steps = 12;
-constexpr double prediction_bonus = 0.9;  // a start that was found by consensus must be better by more than this
-constexpr double clear_majority = 0.35;   // share of the highest cost, below which no other motion is looked for
-constexpr double full_trust_age = 6.0;    // frames
+constexpr double kCauchy2 = 5.7;  // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
+constexpr double kGate = 16.3;    // chi-square, 3 degrees of freedom, 99.9 %
+constexpr int kMostPoseSteps = 12;
+constexpr double kPredictionBonus = 0.9;  // a start that was found by consensus must be better by more than this
+constexpr double kClearMajority = 0.35;   // share of the highest cost, below which no other motion is looked for
+constexpr double kFullTrustAge = 6.0;     // frames
 
 // Keeps the pose where three points in a row or too few matches say nothing.
-constexpr double anchor_m = 1.0, anchor_rad = 0.2;
+constexpr double kAnchorM = 1.0, kAnchorRad = 0.2;
 
 /// A landmark seen in one frame has the error of its first disparity, which shows as the camera moves; it averages out.
 Eigen::Matrix3d mapCovariance(const StereoCamera& camera, const Track& track, const Pose& T_camera_odom,
@@ -64,7 +64,7 @@ void PoseEstimator::prepare(const Pose& T_camera_odom, const PoseEstimatorOption
     item.p_odom = match.p_odom;
     item.z = match.z;
     item.match = static_cast<int>(i);
-    item.trust = std::min(1.0, 0.1 + match.track->seen / full_trust_age);
+    item.trust = std::min(1.0, 0.1 + match.track->seen / kFullTrustAge);
     Eigen::Matrix3d extra = mapCovariance(camera_, *match.track, T_camera_odom, inverseDepthWhereBorn(match));
     extra.diagonal().array() += options.slack_px * options.slack_px;
     // (R + extra)^-1 without inverting R, which may say nothing of a coordinate
@@ -103,7 +103,7 @@ Pose PoseEstimator::descend(Pose T, int steps, const std::array<int, sample_size
       Eigen::Matrix<double, 3, 6> J;
       if (!residual(item, T, e, &J)) return;
       const Eigen::Vector3d Ie = item.information * e;
-      const double weight = only != nullptr ? 1.0 : 1.0 / (1.0 + e.dot(Ie) / cauchy2);
+      const double weight = only != nullptr ? 1.0 : 1.0 / (1.0 + e.dot(Ie) / kCauchy2);
       const Eigen::Matrix<double, 6, 3> WJ = weight * J.transpose() * item.information;
       H.noalias() += WJ * J;
       b.noalias() += WJ * e;
@@ -113,9 +113,9 @@ Pose PoseEstimator::descend(Pose T, int steps, const std::array<int, sample_size
     } else {
       for (const Item& item : items_) add(item);
     }
-    H.diagonal().head<3>().array() += 1.0 / (anchor_m * anchor_m);
-    H.diagonal().tail<3>().array() += 1.0 / (anchor_rad * anchor_rad);
-    b.head<3>() -= (T.t() - anchor.t()) / (anchor_m * anchor_m);
+    H.diagonal().head<3>().array() += 1.0 / (kAnchorM * kAnchorM);
+    H.diagonal().tail<3>().array() += 1.0 / (kAnchorRad * kAnchorRad);
+    b.head<3>() -= (T.t() - anchor.t()) / (kAnchorM * kAnchorM);
     const Vector6d d = urban_nav_core::solveByLdlt<6, 1>(H, b);
     if (!d.allFinite()) return anchor;
     T = apply(d, T);
@@ -128,8 +128,8 @@ double PoseEstimator::cost(const Pose& T_camera_odom) const {
   double total = 0.0;
   for (const Item& item : items_) {
     Eigen::Vector3d e;
-    double chi2 = gate;
-    if (residual(item, T_camera_odom, e, nullptr)) chi2 = std::min(gate, e.dot(item.information * e));
+    double chi2 = kGate;
+    if (residual(item, T_camera_odom, e, nullptr)) chi2 = std::min(kGate, e.dot(item.information * e));
     total += item.trust * chi2;
   }
   return total;
@@ -139,7 +139,7 @@ Pose PoseEstimator::bestByConsensus(const Pose& start, int samples, double& best
   Pose best = start;
   const std::uint32_t count = static_cast<std::uint32_t>(items_.size());
   std::uint32_t state = 12345;
-  std::array<int, sample_size> chosen{};
+  std::array<int, kSampleSize> chosen{};
   for (int sample = 0; sample < samples; ++sample) {
     for (auto next = chosen.begin(); next != chosen.end();) {
       state = state * 1664525U + 1013904223U;
@@ -165,12 +165,12 @@ PoseEstimate PoseEstimator::locate(const std::vector<Pose>& starts, const PoseEs
   for (Match& match : matches) match.inlier = false;
   if (items_.size() < 4) return result;
 
-  Pose best = descend(starts.front(), most_pose_steps, nullptr);
+  Pose best = descend(starts.front(), kMostPoseSteps, nullptr);
   double best_cost = cost(best);
   const auto consider = [&](const Pose& start) {
-    const Pose T = descend(start, most_pose_steps, nullptr);
+    const Pose T = descend(start, kMostPoseSteps, nullptr);
     const double c = cost(T);
-    if (c < prediction_bonus * best_cost) {
+    if (c < kPredictionBonus * best_cost) {
       best_cost = c;
       best = T;
     }
@@ -179,8 +179,8 @@ PoseEstimate PoseEstimator::locate(const std::vector<Pose>& starts, const PoseEs
   double trust = 0.0;
   for (const Item& item : items_) trust += item.trust;
   // Another motion could win only with more than the rest.
-  if (best_cost > clear_majority * gate * trust) {
-    double consensus_cost = prediction_bonus * best_cost;
+  if (best_cost > kClearMajority * kGate * trust) {
+    double consensus_cost = kPredictionBonus * best_cost;
     consider(bestByConsensus(starts.front(), options.samples, consensus_cost));
   }
 
@@ -191,7 +191,7 @@ PoseEstimate PoseEstimator::locate(const std::vector<Pose>& starts, const PoseEs
     Eigen::Vector3d e;
     if (!residual(item, best, e, nullptr)) continue;
     match.chi2 = e.dot(item.information * e);
-    match.inlier = match.chi2 < gate;
+    match.inlier = match.chi2 < kGate;
     if (!match.inlier) continue;
     ++result.inliers;
     if (!match.left.found) continue;

@@ -41,7 +41,7 @@ class PoseEstimator {
                       const PoseEstimatorOptions& options, std::vector<Match>& matches);
 
  private:
-  static constexpr int sample_size = 3;  // three points in stereo fix a motion with some to spare
+  static constexpr int kSampleSize = 3;  // three points in stereo fix a motion with some to spare
   struct Item {
     Eigen::Vector4d p_odom;
     Eigen::Vector3d z;
@@ -54,7 +54,7 @@ class PoseEstimator {
   bool residual(const Item& item, const urban_nav_core::Pose& T_camera_odom, Eigen::Vector3d& e,
                 Eigen::Matrix<double, 3, 6>* J) const;
   urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps,
-                               const std::array<int, sample_size>* only) const;
+                               const std::array<int, kSampleSize>* only) const;
   double cost(const urban_nav_core::Pose& T_camera_odom) const;
   urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, int samples, double& best_cost) const;
 

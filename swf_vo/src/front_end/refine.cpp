@@ -16,24 +16,24 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double largest_scale = 1.5, smallest_scale = 0.6;
-constexpr double same_warp = 0.02;    // of an entry: 0.1 px at the border of the window
-constexpr double same_bend = 0.002;   // 1/px, half as much there
-constexpr double row_gate = 9.0;      // chi-square of the difference of the rows, one degree of freedom
-constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
-constexpr double further = 1.4;       // a slant is learnt anew each time the camera has moved so much further
-constexpr double steepest = 20.0;     // change of a surface's slant in one step, tangent
-constexpr double same_blur = 0.05;    // px^2 of the level
+constexpr double kLargestScale = 1.5, kSmallestScale = 0.6;
+constexpr double kSameWarp = 0.02;   // of an entry: 0.1 px at the border of the window
+constexpr double kSameBend = 0.002;  // 1/px, half as much there
+constexpr double kRowGate = 9.0;     // chi-square of the difference of the rows, one degree of freedom
+constexpr double kRowSlackPx = 0.3;  // what rectification may be wrong by
+constexpr double kFurther = 1.4;     // a slant is learnt anew each time the camera has moved so much further
+constexpr double kSteepest = 20.0;   // change of a surface's slant in one step, tangent
+constexpr double kSameBlur = 0.05;   // px^2 of the level
 // Of the blur that edges show, what it may be off by, and what a blur that is no Gaussian adds: of the displacement
 // that the blur makes.
-constexpr double blur_share = 0.3;
-constexpr double least_gain = 0.2, largest_gain = 5.0;
+constexpr double kBlurShare = 0.3;
+constexpr double kLeastGain = 0.2, kLargestGain = 5.0;
 // As the view changes, a template weighs its pixels anew, and what it stands for creeps over the surface, in both
 // images at once, so that disparities do not change. For a change of one its variance grows by this multiple of the
-// alignment's covariance and of creep_px^2: a patch of several depths fits worse and worse and creeps the most.
+// alignment's covariance and of kCreepPx^2: a patch of several depths fits worse and worse and creeps the most.
 // Measured in simulated streets (bench/template_drift); patches of one plane creep by half of that at most
 // (bench/creep).
-constexpr double creep_per_change = 4.0, creep_px = 0.03;
+constexpr double kCreepPerChange = 4.0, kCreepPx = 0.03;
 
 }  // namespace
 
@@ -54,16 +54,16 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   warp->bend /= urban_nav_core::Pyramid::scale(track.level);
   warp->bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp->bend.norm(), 1e-9));
   const double area = warp->A.determinant();
-  if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
+  if (!(area > kSmallestScale * kSmallestScale && area < kLargestScale * kLargestScale)) return false;
   PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
   bool &ready = is_left ? track.left_ready : track.right_ready,
        &others_ready = is_left ? track.right_ready : track.left_ready;
   Eigen::Vector2d &made_blur = is_left ? track.made_blur_left : track.made_blur_right,
                   &others_blur = is_left ? track.made_blur_right : track.made_blur_left;
   const auto serves = [&](const PatchTemplate& patch, const Eigen::Vector2d& its_blur) {
-    return (patch.warp.A - warp->A).cwiseAbs().maxCoeff() < same_warp &&
-           (patch.warp.bend - warp->bend).cwiseAbs().maxCoeff() < same_bend &&
-           (its_blur - blur).cwiseAbs().maxCoeff() < same_blur;
+    return (patch.warp.A - warp->A).cwiseAbs().maxCoeff() < kSameWarp &&
+           (patch.warp.bend - warp->bend).cwiseAbs().maxCoeff() < kSameBend &&
+           (its_blur - blur).cwiseAbs().maxCoeff() < kSameBlur;
   };
   if (ready && serves(made, made_blur)) return true;
   // What is seen from the front looks the same to both eyes.
@@ -81,7 +81,7 @@ PixelMeasurement refine(Side side, const Corners& corners, const Track& track, c
   const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
   const PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
   const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), made, start / size, reach);
-  if (!a.converged || a.correlation < least_correlation || a.gain < least_gain || a.gain > largest_gain)
+  if (!a.converged || a.correlation < kLeastCorrelation || a.gain < kLeastGain || a.gain > kLargestGain)
     return sighting;
   sighting.found = true;
   sighting.pixel = a.position * size;
@@ -97,7 +97,7 @@ void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose
   const double inverse_depth = inverseDepthWhereBorn(match);
   const Eigen::Vector2d direction =
       slantDirection(camera, track, T_camera_odom * track.T_born_odom.inverse(), inverse_depth);
-  if (!match.left.found || !track.left_ready || !(direction.norm() > further * track.slant_reach)) return;
+  if (!match.left.found || !track.left_ready || !(direction.norm() > kFurther * track.slant_reach)) return;
   Alignment alignment;
   alignment.converged = true;
   alignment.position = match.left.pixel * urban_nav_core::Pyramid::scale(track.level);
@@ -111,7 +111,7 @@ void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose
   track.slant_reach = direction.norm();
   if (!(inverse_depth > 0.0)) return;
   const Eigen::Vector2d mean = slant.under(inverse_depth).mean;
-  if (!((mean - assumed).norm() < steepest * std::max(inverse_depth, 1e-3))) return;
+  if (!((mean - assumed).norm() < kSteepest * std::max(inverse_depth, 1e-3))) return;
   track.slant = slant;
   track.plane = urban_nav_core::leaning(camera, track.ray, inverse_depth, mean);
 }
@@ -124,7 +124,7 @@ Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Mat
   const double change = (warp->A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
   track.seen_as = warp->A;
   const Eigen::Matrix2d& aligned = match.left.found ? match.left.covariance : match.right.covariance;
-  return change * creep_per_change * (aligned + creep_px * creep_px * Eigen::Matrix2d::Identity());
+  return change * kCreepPerChange * (aligned + kCreepPx * kCreepPx * Eigen::Matrix2d::Identity());
 }
 
 Eigen::Matrix2d whereBorn(const Track& track, const Eigen::Matrix2d& covariance) {
@@ -138,7 +138,7 @@ Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {
   PatchTemplate sharp;
   if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, made.warp, sharp)) return Eigen::Matrix2d::Zero();
   const Eigen::Vector2d d =
-      blur_share * urban_nav_core::displacement(made, sharp) / urban_nav_core::Pyramid::scale(track.level);
+      kBlurShare * urban_nav_core::displacement(made, sharp) / urban_nav_core::Pyramid::scale(track.level);
   return d * d.transpose();
 }
 
@@ -185,8 +185,8 @@ void combine(double floor_px, Match& match, double row_offset) {
   };
   if (match.left.found && match.right.found) {
     const double difference = match.left.pixel.y() - in_right.y();
-    const double variance = match.left.covariance(1, 1) + match.right.covariance(1, 1) + row_slack_px * row_slack_px;
-    if (difference * difference > row_gate * variance) return;
+    const double variance = match.left.covariance(1, 1) + match.right.covariance(1, 1) + kRowSlackPx * kRowSlackPx;
+    if (difference * difference > kRowGate * variance) return;
   }
   add(match.left, match.left.pixel, 0);
   add(match.right, in_right, 2);

@@ -8,7 +8,7 @@
 
 namespace swf_vo {
 
-inline constexpr double least_correlation =
+inline constexpr double kLeastCorrelation =
     0.8;  ///< of a patch with its template, below which it is not the same thing
 
 /// 1/z of the landmark in the camera that first saw it, by the map of now.

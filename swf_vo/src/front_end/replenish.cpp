@@ -22,17 +22,17 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double slack = 2.0;                // of the quadtree
-constexpr double largest_disparity = 0.16;   // of the image's width: nearer things pass too fast to be of use
-constexpr int lowest_disparity = -2;         // px of the level: far points, with the error of rectification
-constexpr double least_disparity_px = -1.0;  // after refinement, level 0
-constexpr float level_preference = 0.3F;     // a feature is located to pixels of its own level
-constexpr double same_row = 1.0;             // px of the level between the rows of both images
-constexpr double least_correlation_across = 0.85;
+constexpr double kSlack = 2.0;              // of the quadtree
+constexpr double kLargestDisparity = 0.16;  // of the image's width: nearer things pass too fast to be of use
+constexpr int kLowestDisparity = -2;        // px of the level: far points, with the error of rectification
+constexpr double kLeastDisparityPx = -1.0;  // after refinement, level 0
+constexpr float kLevelPreference = 0.3F;    // a feature is located to pixels of its own level
+constexpr double kSameRow = 1.0;            // px of the level between the rows of both images
+constexpr double kLeastCorrelationAcross = 0.85;
 // From here on a pixel says no more than "at least so bright"; cameras' tables and JPEG end a level or two early.
-constexpr std::uint8_t clipped_from = 254;
-constexpr int clipping_reach = 2;                                // px of the level
-constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the time where nothing can be matched
+constexpr std::uint8_t kClippedFrom = 254;
+constexpr int kClippingReach = 2;                              // px of the level
+constexpr int kAttemptsPerFeature = 3, kAttemptsAtLeast = 20;  // bounds the time where nothing can be matched
 
 /// Is it a corner of what is clipped, such as leaves before a white sky? Where the light is cut off moves with the
 /// exposure and with what falls into each pixel, alike for all such corners: they turn the camera, and no residual
@@ -40,7 +40,7 @@ constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the t
 bool isOfClipped(const ImageView& image, int u, int v, int reach) {
   const int first = std::max(u - reach, 0), end = std::min(u + reach + 1, image.width);
   for (int j = std::max(v - reach, 0); j <= std::min(v + reach, image.height - 1); ++j)
-    if (*std::max_element(image.row(j) + first, image.row(j) + end) >= clipped_from) return true;
+    if (*std::max_element(image.row(j) + first, image.row(j) + end) >= kClippedFrom) return true;
   return false;
 }
 
@@ -57,13 +57,13 @@ Replenisher::Replenisher(const StereoCamera& camera, int features, double floor_
       features_(features),
       floor_px_(floor_px),
       subpixel_(subpixel),
-      quadtree_(camera.left.width, camera.left.height, features, depthFor(features), slack) {}
+      quadtree_(camera.left.width, camera.left.height, features, depthFor(features), kSlack) {}
 
 void Replenisher::gather(const Corners& corners) {
   candidates_.clear();
   residual_test_.resize(static_cast<std::size_t>(corners.levels()));
   float weight = 1.0F;
-  for (int level = 0; level < corners.levels(); ++level, weight *= level_preference) {
+  for (int level = 0; level < corners.levels(); ++level, weight *= kLevelPreference) {
     const ImageView& image = corners.image(Side::Left, level);
     for (const auto& corner : corners.at(Side::Left, level).corners()) {
       if (!quadtree_.mayAdd(corner.u << level, corner.v << level)) continue;
@@ -71,7 +71,7 @@ void Replenisher::gather(const Corners& corners) {
           corner.v >= image.height - kHarrisMargin)
         continue;
       const bool of_clipped =
-          isOfClipped(corners.image(Side::Left, 0), corner.u << level, corner.v << level, clipping_reach << level);
+          isOfClipped(corners.image(Side::Left, 0), corner.u << level, corner.v << level, kClippingReach << level);
       candidates_.push_back({level, corner.u, corner.v,
                              weight * urban_nav_core::structureTensor(image, corner.u, corner.v).harris(), of_clipped});
     }
@@ -110,8 +110,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   const ImageView& right = corners.image(Side::Right, candidate.level);
   const int offset = static_cast<int>(std::lround(camera_.disparity_offset * Pyramid::scale(candidate.level)));
   const double row_offset = rows.px() * Pyramid::scale(candidate.level);
-  const auto disparity = urban_nav_core::findDisparity(left, right, candidate.u, candidate.v, lowest_disparity + offset,
-                                                       static_cast<int>(largest_disparity * left.width) + offset,
+  const auto disparity = urban_nav_core::findDisparity(left, right, candidate.u, candidate.v, kLowestDisparity + offset,
+                                                       static_cast<int>(kLargestDisparity * left.width) + offset,
                                                        static_cast<int>(std::lround(row_offset)));
   if (!disparity) return false;
   const auto source = cutSource(left, candidate.u, candidate.v);
@@ -129,14 +129,13 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   match.left.found = match.right.found = true;
   match.left.pixel = size * Eigen::Vector2d(candidate.u, candidate.v);
   match.right.pixel = size * found.alignment.position;
-  const bool fits = found.alignment.converged && found.alignment.correlation >= least_correlation_across;
+  const bool fits = found.alignment.converged && found.alignment.correlation >= kLeastCorrelationAcross;
   const double lower = found.alignment.position.y() - candidate.v;
   if (fits) rows.see(size * lower);
-  const bool plausible =
-      fits && std::abs(lower - row_offset) <= same_row &&
-      match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= least_disparity_px &&
-      residual_test_[static_cast<std::size_t>(candidate.level)].isTypical(found.alignment.noise) &&
-      urban_nav_core::warpTemplate(*source, {}, track->in_left);
+  const bool plausible = fits && std::abs(lower - row_offset) <= kSameRow &&
+                         match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= kLeastDisparityPx &&
+                         residual_test_[static_cast<std::size_t>(candidate.level)].isTypical(found.alignment.noise) &&
+                         urban_nav_core::warpTemplate(*source, {}, track->in_left);
   if (plausible) {
     // the template's own noise is the left image's
     const double noise = std::max(found.alignment.noise, 0.3);
@@ -167,7 +166,7 @@ void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T
   const int missing = features_ - quadtree_.count();
   if (missing <= 0) return;
   gather(corners);
-  int attempts = std::max(attempts_at_least, attempts_per_feature * missing);
+  int attempts = std::max(kAttemptsAtLeast, kAttemptsPerFeature * missing);
   for (const Candidate& candidate : candidates_) {
     if (quadtree_.count() >= features_ || attempts <= 0) return;
     if (candidate.of_clipped && 2 * quadtree_.count() >= features_)

@@ -14,32 +14,32 @@ using urban_nav_core::SmallCholesky;
 namespace {
 
 // Landmarks: mounts give way and clocks drift, slowly.
-constexpr double memory = 20000.0;
+constexpr double kMemory = 20000.0;
 // Standard deviation of a row by a match before any was seen, px, and what the prior of it counts for, matches.
-constexpr double first_sigma_px = 0.3;
-constexpr double first_count = 20.0;
-constexpr double least_share_of_depth = 0.1;  // in the frame before, of that in this one
-constexpr double huber = 2.0;                 // standard deviations
-constexpr double offset_prior_px = 10.0;      // any: it is followed elsewhere (row_offset.hpp)
-constexpr double widest = 0.8;                // of the cells, by direction
+constexpr double kFirstSigmaPx = 0.3;
+constexpr double kFirstCount = 20.0;
+constexpr double kLeastShareOfDepth = 0.1;  // in the frame before, of that in this one
+constexpr double kHuber = 2.0;              // standard deviations
+constexpr double kOffsetPriorPx = 10.0;     // any: it is followed elsewhere (row_offset.hpp)
+constexpr double kWidest = 0.8;             // of the cells, by direction
 // Effective number of cells (Kish 1965) from which on they say something of a variance.
-constexpr double least_cells = 6.0;
+constexpr double kLeastCells = 6.0;
 // Of Student's t: most rigs are as well calibrated as their priors say, and some are far off.
-constexpr double freedom = 4.0;
-constexpr int iterations = 10;
-constexpr double free = 1e-6;  // information, in units of the priors, that says nothing
+constexpr double kFreedom = 4.0;
+constexpr int kIterations = 10;
+constexpr double kFree = 1e-6;  // information, in units of the priors, that says nothing
 
 }  // namespace
 
 RigRows::RigRows(const Priors& priors, const urban_nav_core::StereoCamera& camera)
-    : priors_(priors), camera_(camera), count_(first_count), variance_(first_count * first_sigma_px * first_sigma_px) {}
+    : priors_(priors), camera_(camera), count_(kFirstCount), variance_(kFirstCount * kFirstSigmaPx * kFirstSigmaPx) {}
 
 RigRows::Cell& RigRows::find(const Eigen::Vector2d& direction) {
   const auto place = [](double tangent, int count) {
-    const double at = (std::clamp(tangent / widest, -1.0, 1.0) + 1.0) / 2.0 * count;
+    const double at = (std::clamp(tangent / kWidest, -1.0, 1.0) + 1.0) / 2.0 * count;
     return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1);
   };
-  return cells_[static_cast<std::size_t>(place(direction.y(), rows) * columns + place(direction.x(), columns))];
+  return cells_[static_cast<std::size_t>(place(direction.y(), kRows) * kColumns + place(direction.x(), kColumns))];
 }
 
 void RigRows::see(const Difference& difference) {
@@ -47,7 +47,7 @@ void RigRows::see(const Difference& difference) {
     return;
   const Vector3d along(1.0, -camera_.left.fx * difference.direction.x(), difference.flow_px_s);
   const double residual = difference.px - along.dot(estimate_), sigma = std::sqrt(variance_ / count_),
-               size = std::abs(residual), weight = size > huber * sigma ? huber * sigma / size : 1.0;
+               size = std::abs(residual), weight = size > kHuber * sigma ? kHuber * sigma / size : 1.0;
   count_ += 1.0;
   variance_ += weight * residual * residual;
   for (Cell* cell : {&find(difference.direction), &all_}) {
@@ -64,7 +64,7 @@ void RigRows::learn(const urban_nav_core::Pose& T_last_now, double seconds, cons
     const Vector3d ray = camera_.left.ray(z.head<2>());
     const double disparity = z.x() - z.z() - camera_.disparity_offset;
     const Vector3d then = T_last_now.q() * ray + T_last_now.t() * (disparity / (camera_.left.fx * camera_.baseline));
-    if (!(then.z() > least_share_of_depth)) continue;
+    if (!(then.z() > kLeastShareOfDepth)) continue;
     const double flow = camera_.left.fy * (ray.y() - then.y() / then.z()) / seconds;
     see({tracks.find(observation.landmark)->row_difference_px, ray.head<2>(), flow});
   }
@@ -72,18 +72,18 @@ void RigRows::learn(const urban_nav_core::Pose& T_last_now, double seconds, cons
 }
 
 void RigRows::learn() {
-  const double kept = std::min(1.0, memory / count_);
+  const double kept = std::min(1.0, kMemory / count_);
   count_ *= kept;
   variance_ *= kept;
   for (Cell& cell : cells_) cell.fade(kept);
   all_.fade(kept);
   const double variance = variance_ / count_;
   // In units of the priors, so that no pivot is lost.
-  const Vector3d scale(offset_prior_px, priors_.roll, priors_.delay_s);
+  const Vector3d scale(kOffsetPriorPx, priors_.roll, priors_.delay_s);
   const Matrix3d measured = scale.asDiagonal() * all_.information * scale.asDiagonal() / variance;
   const Vector3d right = scale.cwiseProduct(all_.right) / variance;
   // By the measurements alone, but for what they say nothing of.
-  const SmallCholesky<3> plain(Matrix3d(measured + free * Matrix3d::Identity()));
+  const SmallCholesky<3> plain(Matrix3d(measured + kFree * Matrix3d::Identity()));
   if (!plain.succeeded()) return;
   const Vector3d alone = plain.solve(right);
   Matrix3d meat = Matrix3d::Zero();
@@ -96,13 +96,14 @@ void RigRows::learn() {
   const double cells = squares > 0.0 ? all_.information(0, 0) * all_.information(0, 0) / squares : 0.0;
   const Matrix3d inverse = plain.inverse(), sandwich = inverse * meat * inverse, model = inverse * measured * inverse;
   double caution = 1.0;
-  if (cells > least_cells)
+  if (cells > kLeastCells)
     for (int i = 1; i < 3; ++i)
-      if (measured(i, i) > free) caution = std::max(caution, cells / (cells - 3.0) * sandwich(i, i) / model(i, i));
+      if (measured(i, i) > kFree) caution = std::max(caution, cells / (cells - 3.0) * sandwich(i, i) / model(i, i));
   // From the prior outwards: noise alone does not loosen it.
   Vector3d found = Vector3d::Zero();
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    const Vector3d prior(1.0, 1.0 / (1.0 + found[1] * found[1] / freedom), 1.0 / (1.0 + found[2] * found[2] / freedom));
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Vector3d prior(1.0, 1.0 / (1.0 + found[1] * found[1] / kFreedom),
+                         1.0 / (1.0 + found[2] * found[2] / kFreedom));
     const SmallCholesky<3> cautious(Matrix3d(Matrix3d(prior.asDiagonal()) + measured / caution));
     if (!cautious.succeeded()) return;
     found = cautious.solve(Vector3d(right / caution));

@@ -53,7 +53,7 @@ class RigRows {
  private:
   using Vector3d = Eigen::Vector3d;
   using Matrix3d = Eigen::Matrix3d;
-  static constexpr int columns = 8, rows = 6;
+  static constexpr int kColumns = 8, kRows = 6;
   struct Cell {
     Matrix3d information = Matrix3d::Zero();  // per px^2
     Vector3d right = Vector3d::Zero();
@@ -64,7 +64,7 @@ class RigRows {
 
   Priors priors_;
   const urban_nav_core::StereoCamera& camera_;
-  std::array<Cell, columns * rows> cells_;
+  std::array<Cell, kColumns * kRows> cells_;
   Cell all_;
   double count_ = 0.0, variance_ = 0.0;     // of residuals, px^2
   Vector3d estimate_ = Vector3d::Zero();    // offset (px), roll (rad), delay (s)

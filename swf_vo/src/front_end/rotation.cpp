@@ -16,13 +16,13 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr int most_rotation_steps = 10;
-constexpr double far_turn = 0.07;      // rad: 4 deg
-constexpr double settled = 1e-4;       // rad
-constexpr double longest_step = 0.05;  // rad
-constexpr int wanted_pixels = 1500;    // of which the sums are made
-constexpr int least_known = 20;        // landmarks, to do without the rest of the image
-constexpr double improvement = 0.98;
+constexpr int kMostRotationSteps = 10;
+constexpr double kFarTurn = 0.07;      // rad: 4 deg
+constexpr double kSettled = 1e-4;      // rad
+constexpr double kLongestStep = 0.05;  // rad
+constexpr int kWantedPixels = 1500;    // of which the sums are made
+constexpr int kLeastKnown = 20;        // landmarks, to do without the rest of the image
+constexpr double kImprovement = 0.98;
 
 using Vector5 = Eigen::Matrix<float, 5, 1>;
 using Matrix5 = Eigen::Matrix<float, 5, 5>;
@@ -74,8 +74,8 @@ void RotationTracker::choose(int level, const std::vector<Parallax>& known) {
     samples_.push_back(sample);
   };
   const int count = static_cast<int>(known.size());
-  if (count >= least_known) {
-    const int skip = 1 + 9 * count / wanted_pixels;
+  if (count >= kLeastKnown) {
+    const int skip = 1 + 9 * count / kWantedPixels;
     for (int i = 0; i < count; i += skip) {
       const Parallax& k = known[static_cast<std::size_t>(i)];
       const int u = static_cast<int>(std::lround(k.pixel.x() * scale)),
@@ -86,7 +86,7 @@ void RotationTracker::choose(int level, const std::vector<Parallax>& known) {
     return;
   }
   const int step =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(last_.width) * last_.height / wanted_pixels)));
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(last_.width) * last_.height / kWantedPixels)));
   for (int v = 2; v + 2 < last_.height; v += step)
     for (int u = 2; u + 2 < last_.width; u += step) add(u, v, Vector3d::Zero());
 }
@@ -134,13 +134,13 @@ RotationTracker::Descent RotationTracker::descend(int level, const Quaterniond& 
   Normal normal = sum(level, q.toRotationMatrix());
   Descent descent{start, normal.rms(), normal.rms()};
   if (descent.before < 0.0) return descent;
-  for (int i = 0; i < most_rotation_steps; ++i) {
+  for (int i = 0; i < kMostRotationSteps; ++i) {
     normal.H.diagonal().array() += 1e-3F;
     Vector3d d = normal.H.ldlt().solve(normal.b).head<3>().cast<double>();
     if (!d.allFinite()) break;
-    if (d.norm() > longest_step) d *= longest_step / d.norm();
+    if (d.norm() > kLongestStep) d *= kLongestStep / d.norm();
     q = (expSo3(d) * q).normalized();
-    if (d.norm() < settled) break;
+    if (d.norm() < kSettled) break;
     normal = sum(level, q.toRotationMatrix());
     const double rms = normal.rms();
     if (rms < 0.0) break;
@@ -165,14 +165,14 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
   estimate.before = descent.before;
   if (descent.before < 0.0) return estimate;
   // A camera that is shaken turns back where the prediction turns on.
-  if (start.angularDistance(Quaterniond::Identity()) > far_turn) {
+  if (start.angularDistance(Quaterniond::Identity()) > kFarTurn) {
     const Descent back = descend(level, Quaterniond::Identity());
     if (back.before >= 0.0 && back.after < descent.after) descent = back;
   }
   const double best = descent.after;
   estimate.q_now_last = descent.q;
   estimate.after = best;
-  estimate.found = best < improvement * estimate.before;
+  estimate.found = best < kImprovement * estimate.before;
   if (!estimate.found) estimate.q_now_last = start;
   return estimate;
 }
@@ -182,8 +182,8 @@ void RotationTracker::archive(urban_nav_core::Archive& archive) {
   std::vector<std::uint8_t> grey(now_.grey.begin(), now_.grey.end());
   archive(now_.width, now_.height, grey);
   if (!archive.isReading()) return;
-  constexpr int largest = 1 << 14;  // px
-  archive.require(now_.width >= 0 && now_.height >= 0 && now_.width < largest && now_.height < largest &&
+  constexpr int kLargest = 1 << 14;  // px
+  archive.require(now_.width >= 0 && now_.height >= 0 && now_.width < kLargest && now_.height < kLargest &&
                       grey.size() == static_cast<std::size_t>(now_.width) * static_cast<std::size_t>(now_.height),
                   "an image is of another size");
   fill({grey.data(), now_.width, now_.height, now_.width}, now_);

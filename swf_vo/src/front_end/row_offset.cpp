@@ -7,16 +7,16 @@ namespace swf_vo {
 
 namespace {
 
-constexpr std::size_t enough_matches = 20;  // differences, for their median to mean something
-constexpr int offset_memory = 100;          // frames; cameras move in their mounts, slowly
+constexpr std::size_t kEnoughMatches = 20;  // differences, for their median to mean something
+constexpr int kOffsetMemory = 100;          // frames; cameras move in their mounts, slowly
 
 }  // namespace
 
 void RowOffset::learn() {
-  if (differences_.size() >= enough_matches) {
+  if (differences_.size() >= kEnoughMatches) {
     const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
     std::nth_element(differences_.begin(), middle, differences_.end());
-    frames_ = std::min(frames_ + 1, offset_memory);
+    frames_ = std::min(frames_ + 1, kOffsetMemory);
     px_ += (*middle - px_) / frames_;
   }
   differences_.clear();
@@ -24,7 +24,7 @@ void RowOffset::learn() {
 
 void RowOffset::archive(urban_nav_core::Archive& archive) {
   archive(px_, frames_);
-  archive.require(frames_ >= 0 && frames_ <= offset_memory, "more frames than are remembered");
+  archive.require(frames_ >= 0 && frames_ <= kOffsetMemory, "more frames than are remembered");
 }
 
 }  // namespace swf_vo

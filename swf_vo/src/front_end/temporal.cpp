@@ -19,13 +19,13 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 // Share of the patch's own contrast that the difference may have. A corner can stand a pixel beside the landmark.
-constexpr double accepted_share = 0.75;
+constexpr double kAcceptedShare = 0.75;
 // From a corner to the landmark, px of the level: FAST answers move by a pixel or two.
-constexpr double corner_reach = 2.5;
-constexpr double direct_reach = 3.0;
+constexpr double kCornerReach = 2.5;
+constexpr double kDirectReach = 3.0;
 // Best over second best of corners that stand apart, where the search is wide.
-constexpr double uniqueness = 0.85;
-constexpr int apart = 3;  // px of the level
+constexpr double kUniqueness = 0.85;
+constexpr int kApart = 3;  // px of the level
 
 struct BestCorner {
   bool any = false;
@@ -41,14 +41,14 @@ BestCorner bestCorner(Side side, const Corners& corners, const Track& track, con
   for (const std::int16_t value : patch.value) contrast += std::abs(value);
   const double scale = Pyramid::scale(track.level);
   BestCorner best;
-  best.sad = best.second = static_cast<int>(accepted_share * contrast);
+  best.sad = best.second = static_cast<int>(kAcceptedShare * contrast);
   corners.at(side, track.level)
       .forEachWithin(
           projected.x() * scale, projected.y() * scale, radius * scale + 1.0, [&](const Corner& corner, std::size_t) {
             if (!urban_nav_core::sadFits(image, corner.u, corner.v)) return;
             const int sad = urban_nav_core::meanRemovedSad(patch, image, corner.u, corner.v);
             const bool is_same =
-                best.any && std::abs(corner.u - best.corner.u) < apart && std::abs(corner.v - best.corner.v) < apart;
+                best.any && std::abs(corner.u - best.corner.u) < kApart && std::abs(corner.v - best.corner.v) < kApart;
             if (sad >= best.sad) {
               if (!is_same) best.second = std::min(best.second, sad);
               return;
@@ -62,7 +62,7 @@ BestCorner bestCorner(Side side, const Corners& corners, const Track& track, con
 }
 
 PixelMeasurement at(Side side, const Corners& corners, const Track& track, const Corner& corner) {
-  return refine(side, corners, track, Eigen::Vector2d(corner.u, corner.v) / Pyramid::scale(track.level), corner_reach);
+  return refine(side, corners, track, Eigen::Vector2d(corner.u, corner.v) / Pyramid::scale(track.level), kCornerReach);
 }
 
 PixelMeasurement search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
@@ -70,14 +70,14 @@ PixelMeasurement search(Side side, const Corners& corners, const Track& track, c
   const BestCorner best = bestCorner(side, corners, track, projected, radius);
   PixelMeasurement sighting;
   if (best.any) sighting = at(side, corners, track, best.corner);
-  if (!sighting.found) sighting = refine(side, corners, track, projected, direct_reach);
+  if (!sighting.found) sighting = refine(side, corners, track, projected, kDirectReach);
   return sighting;
 }
 
 PixelMeasurement searchAnywhere(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
                                 double radius) {
   const BestCorner best = bestCorner(side, corners, track, projected, radius);
-  if (!best.any || best.sad > uniqueness * best.second) return PixelMeasurement();
+  if (!best.any || best.sad > kUniqueness * best.second) return PixelMeasurement();
   return at(side, corners, track, best.corner);
 }
 

@@ -12,18 +12,18 @@ using urban_nav_core::StereoPair;
 namespace {
 
 // A place: so many neighbours along a row; few enough for a row that rectification has bent to stay in it.
-constexpr int length = 32;
-constexpr int corruption_column_step = 64, corruption_row_step = 4;
+constexpr int kLength = 32;
+constexpr int kCorruptionColumnStep = 64, kCorruptionRowStep = 4;
 // From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it
 // may be the noise of the camera.
-constexpr unsigned least_rough = 16 * length, random_bytes = 60 * length;
+constexpr unsigned kLeastRough = 16 * kLength, kRandomBytes = 60 * kLength;
 // Halfway, in proportion, between what pictures have and what corrupted has (the header).
-constexpr double corrupted_share = 0.025;
-constexpr int fewest_lines =
+constexpr double kCorruptedShare = 0.025;
+constexpr int kFewestLines =
     4;  // places: a small image has a few tens, and one of them may be an edge that lies along the rows
-// Rows: where 60 % are corrupted, one in twenty has nothing else about it, and that is over random_bytes by itself.
-constexpr int corruption_reach = 3;
-constexpr int saturated_grey = 250;
+// Rows: where 60 % are corrupted, one in twenty has nothing else about it, and that is over kRandomBytes by itself.
+constexpr int kCorruptionReach = 3;
+constexpr int kSaturatedGrey = 250;
 
 unsigned difference(const std::uint8_t* p, const std::uint8_t* q) {
   return cv::v_reduce_sad(cv::v_load(p), cv::v_load(q)) + cv::v_reduce_sad(cv::v_load(p + 16), cv::v_load(q + 16));
@@ -31,23 +31,23 @@ unsigned difference(const std::uint8_t* p, const std::uint8_t* q) {
 
 unsigned roughness(const std::uint8_t* p) { return difference(p, p + 1); }
 
-bool isRougher(unsigned roughness, unsigned other) { return roughness > least_rough && 2 * roughness > 5 * other; }
+bool isRougher(unsigned roughness, unsigned other) { return roughness > kLeastRough && 2 * roughness > 5 * other; }
 
 }  // namespace
 
 bool looksCorrupted(const ImageView& image) {
   if (image.empty()) return false;
   int places = 0, corrupted = 0;
-  for (int v = 0; v + 1 < image.height; v += corruption_row_step) {
+  for (int v = 0; v + 1 < image.height; v += kCorruptionRowStep) {
     const std::uint8_t *upper = image.row(v), *lower = image.row(v + 1);
-    for (int u = 0; u + length < image.width; u += corruption_column_step, ++places) {
+    for (int u = 0; u + kLength < image.width; u += kCorruptionColumnStep, ++places) {
       const unsigned a = roughness(upper + u), b = roughness(lower + u);
       const bool torn = isRougher(std::max(a, b), std::min(a, b));
-      const bool random = std::min({a, b, difference(upper + u, lower + u)}) > random_bytes;
+      const bool random = std::min({a, b, difference(upper + u, lower + u)}) > kRandomBytes;
       corrupted += torn || random ? 1 : 0;
     }
   }
-  return corrupted >= fewest_lines && corrupted > corrupted_share * places;
+  return corrupted >= kFewestLines && corrupted > kCorruptedShare * places;
 }
 
 CorruptRowRepair::CorruptRowRepair(int width, int height)
@@ -74,9 +74,9 @@ CorruptRowRepair::Repaired CorruptRowRepair::repair(const StereoPair& pair) {
 void CorruptRowRepair::repair(const ImageView& image, std::vector<std::uint8_t>& pixels) {
   for (int v = 0; v < height_; ++v)
     std::copy_n(image.row(v), width_, pixels.begin() + static_cast<std::ptrdiff_t>(v) * width_);
-  for (int begin = 0; begin < width_; begin += length) {
-    const int count = std::min(length, width_ - begin);
-    findCorrupted(image, std::min(begin, width_ - length - 1));
+  for (int begin = 0; begin < width_; begin += kLength) {
+    const int count = std::min(kLength, width_ - begin);
+    findCorrupted(image, std::min(begin, width_ - kLength - 1));
     bridge(pixels, begin, count);
   }
 }
@@ -86,12 +86,12 @@ void CorruptRowRepair::findCorrupted(const ImageView& image, int column) {
   for (int v = 0; v < height_; ++v) {
     const unsigned here = roughness_[static_cast<std::size_t>(v)];
     unsigned least = here;
-    for (int w = std::max(0, v - corruption_reach); w < std::min(height_, v + corruption_reach + 1); ++w) {
+    for (int w = std::max(0, v - kCorruptionReach); w < std::min(height_, v + kCorruptionReach + 1); ++w) {
       const unsigned there = roughness_[static_cast<std::size_t>(w)];
       // A row without any texture may be one that is missing, unless it is of a white sky.
-      if (there > 0 || image.at(column, w) >= saturated_grey) least = std::min(least, there);
+      if (there > 0 || image.at(column, w) >= kSaturatedGrey) least = std::min(least, there);
     }
-    corrupted_[static_cast<std::size_t>(v)] = here > random_bytes || isRougher(here, least);
+    corrupted_[static_cast<std::size_t>(v)] = here > kRandomBytes || isRougher(here, least);
   }
 }
 

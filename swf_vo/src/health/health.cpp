@@ -57,8 +57,8 @@ const char* sentence(Reason reason) {
 namespace {
 
 // Rows of a rectified pair agree to a pixel after a common offset; RowCheck resolves whole pixels.
-constexpr double rows_agree_px = 1.5;
-constexpr double far_outside = 3.0;  // standard deviations of the prior
+constexpr double kRowsAgreePx = 1.5;
+constexpr double kFarOutside = 3.0;  // standard deviations of the prior
 
 /// Returns the sentence of a reason with what was measured.
 std::string describe(Reason reason, const Evidence& evidence) {
@@ -91,7 +91,7 @@ Reason HealthMonitor::reasonFor(const Evidence& evidence) const {
   if (evidence.gap) return Reason::Gap;
   if (enough >= degraded_features_)
     return evidence.inlier_share < 0.4 && !evidence.first ? Reason::Inconsistent : Reason::None;
-  if (evidence.rows_disagree_px && *evidence.rows_disagree_px > rows_agree_px) return Reason::NotRectified;
+  if (evidence.rows_disagree_px && *evidence.rows_disagree_px > kRowsAgreePx) return Reason::NotRectified;
   if (isMiscalibrated(evidence)) return Reason::Calibration;
   const bool scattered = evidence.candidates >= degraded_features_ && 2 * evidence.tracked < evidence.candidates;
   return scattered ? Reason::Inconsistent : Reason::TooFewFeatures;
@@ -104,8 +104,8 @@ bool HealthMonitor::isUnexplained(const Evidence& evidence) const {
 
 bool HealthMonitor::isMiscalibrated(const Evidence& evidence) const {
   if (!(offset_prior_px_ > 0.0) || !(evidence.disparity_offset_sigma_px > 0.0)) return false;
-  const double known = std::abs(evidence.disparity_offset_px) - far_outside * evidence.disparity_offset_sigma_px;
-  return known > far_outside * offset_prior_px_;
+  const double known = std::abs(evidence.disparity_offset_px) - kFarOutside * evidence.disparity_offset_sigma_px;
+  return known > kFarOutside * offset_prior_px_;
 }
 
 Status HealthMonitor::judge(const Evidence& evidence) {

@@ -16,20 +16,20 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-constexpr int check_column_step = 8;
-constexpr int row_step = 4;
+constexpr int kCheckColumnStep = 8;
+constexpr int kRowStep = 4;
 // Below these an 8-bit image holds no corner above its own noise (FAST at its lowest threshold needs 3 grey levels of
 // contrast).
-constexpr double dark_contrast = 2.0;
+constexpr double kDarkContrast = 2.0;
 // Matching removes mean and gain; beyond a factor of 1.6 between frames clipping begins to move the corners.
-constexpr double exposure_ratio = 1.6;
+constexpr double kExposureRatio = 1.6;
 // A lens that is out of focus for so many frames is so for good: then it is the new usual.
-constexpr int longest_blur = 50;
+constexpr int kLongestBlur = 50;
 // An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not
 // at all, and landmarks are worth keeping for when the light is back. For so many frames it is not: then it is the new
 // usual.
-constexpr int white_grey = 250;
-constexpr double white_share = 0.5, white_rate = 0.01;
+constexpr int kWhiteGrey = 250;
+constexpr double kWhiteShare = 0.5, kWhiteRate = 0.01;
 
 // Sum of absolute differences of two samples; 0 for samples of different size.
 std::int64_t distance(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
@@ -42,18 +42,18 @@ std::int64_t distance(const std::vector<std::uint8_t>& a, const std::vector<std:
 }  // namespace
 
 ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std::uint8_t>& sample) const {
-  const int columns = (image.width - 1) / check_column_step, rows = image.height / row_step;
+  const int columns = (image.width - 1) / kCheckColumnStep, rows = image.height / kRowStep;
   sample.resize(static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)));
   if (sample.empty()) return {};
   std::int64_t sum = 0, squares = 0, clipped = 0;
   std::size_t at = 0;
   for (int r = 0; r < rows; ++r) {
-    const std::uint8_t* row = image.row(r * row_step);
+    const std::uint8_t* row = image.row(r * kRowStep);
     for (int c = 0; c < columns; ++c) {
-      const int value = row[c * check_column_step];
+      const int value = row[c * kCheckColumnStep];
       sample[at++] = static_cast<std::uint8_t>(value);
       sum += value;
-      clipped += value >= white_grey ? 1 : 0;
+      clipped += value >= kWhiteGrey ? 1 : 0;
       squares += value * value;
     }
   }
@@ -86,7 +86,7 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
                        distance(left_, last_left_) + distance(right_, last_right_);
   left_.swap(last_left_);
   right_.swap(last_right_);
-  if (verdict.contrast < dark_contrast) {
+  if (verdict.contrast < kDarkContrast) {
     verdict.usable = false;
     verdict.reason = Reason::Dark;
     return verdict;
@@ -98,18 +98,18 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   }
 
   const double ratio = usual_brightness_ > 0.0 ? (verdict.brightness + 1.0) / (usual_brightness_ + 1.0) : 1.0;
-  const bool washed_out = ratio > exposure_ratio && std::max(left.white, right.white) > white_share;
+  const bool washed_out = ratio > kExposureRatio && std::max(left.white, right.white) > kWhiteShare;
   if (washed_out) {
-    usual_brightness_ += white_rate * (verdict.brightness - usual_brightness_);
+    usual_brightness_ += kWhiteRate * (verdict.brightness - usual_brightness_);
     verdict.usable = false;
     verdict.reason = Reason::ExposureJump;
     return verdict;
   }
-  if (ratio > exposure_ratio || ratio < 1.0 / exposure_ratio) verdict.reason = Reason::ExposureJump;
+  if (ratio > kExposureRatio || ratio < 1.0 / kExposureRatio) verdict.reason = Reason::ExposureJump;
   const bool first = usual_brightness_ < 0.0;
   const bool wider = !first && !widening(verdict.edges, usual_edges_).isZero();
   blurred_ = wider ? blurred_ + 1 : 0;
-  const bool is_blurred = blurred_ > 0 && blurred_ <= longest_blur;
+  const bool is_blurred = blurred_ > 0 && blurred_ <= kLongestBlur;
   if (is_blurred) verdict.reason = Reason::Blurred;
   if ((doubtful || crossed || first) && looksExchanged(pair.left, pair.right)) {
     verdict.exchange = true;

@@ -16,15 +16,15 @@ using urban_nav_core::SadPatch;
 
 namespace {
 
-constexpr int cell_columns = 10, cell_rows = 8;
-constexpr int contrast_threshold = 12;       // grey levels, of FAST
-constexpr int rows_to_search = 24;           // px to both sides
-constexpr double farthest_disparity = 0.16;  // of the image's width, as Replenisher has it
-constexpr int nearest_disparity = -8;        // px: a camera that squints
-constexpr double unique_share = 0.85;        // best over second best, more than two pixels away
-constexpr double contrast_share = 0.75;      // best over the patch's own contrast
-constexpr std::size_t enough_to_judge = 15;  // matches
-constexpr int pairs_apart = 20;
+constexpr int kCellColumns = 10, kCellRows = 8;
+constexpr int kContrastThreshold = 12;       // grey levels, of FAST
+constexpr int kRowsToSearch = 24;            // px to both sides
+constexpr double kFarthestDisparity = 0.16;  // of the image's width, as Replenisher has it
+constexpr int kNearestDisparity = -8;        // px: a camera that squints
+constexpr double kUniqueShare = 0.85;        // best over second best, more than two pixels away
+constexpr double kContrastShare = 0.75;      // best over the patch's own contrast
+constexpr std::size_t kEnoughToJudge = 15;   // matches
+constexpr int kPairsApart = 20;
 
 int contrastOf(const SadPatch& patch) {
   int sum = 0;
@@ -38,7 +38,7 @@ int contrastOf(const SadPatch& patch) {
 /// lies more than two pixels from it.
 RowCheck::Place RowCheck::search(const SadPatch& patch, const ImageView& image, int first, int last, int v) {
   const int from = std::max(4, first), to = std::min(image.width - 4, last), columns = to - from + 1;
-  const int top = std::max(4, v - rows_to_search), bottom = std::min(image.height - 5, v + rows_to_search);
+  const int top = std::max(4, v - kRowsToSearch), bottom = std::min(image.height - 5, v + kRowsToSearch);
   Place best;
   if (columns <= 0 || bottom < top) return best;
   costs_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(bottom - top + 1));
@@ -59,29 +59,29 @@ RowCheck::Place RowCheck::search(const SadPatch& patch, const ImageView& image, 
 
 std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, double row_offset_px) {
   const ImageView &left = pair.left, &right = pair.right;
-  strongest_.assign(cell_columns * cell_rows, Corner());
-  std::array<bool, cell_columns * cell_rows> filled{};
-  for (const Corner& corner : fast_.detect(left, contrast_threshold, urban_nav_core::Fast::Suppression::LocalMaximum)) {
-    const int cell = corner.v * cell_rows / left.height * cell_columns + corner.u * cell_columns / left.width;
+  strongest_.assign(kCellColumns * kCellRows, Corner());
+  std::array<bool, kCellColumns * kCellRows> filled{};
+  for (const Corner& corner : fast_.detect(left, kContrastThreshold, urban_nav_core::Fast::Suppression::LocalMaximum)) {
+    const int cell = corner.v * kCellRows / left.height * kCellColumns + corner.u * kCellColumns / left.width;
     const auto at = static_cast<std::size_t>(cell);
     if (filled[at] && corner.fast <= strongest_[at].fast) continue;
     strongest_[at] = corner;
     filled[at] = true;
   }
-  const int farthest = static_cast<int>(farthest_disparity * left.width);
+  const int farthest = static_cast<int>(kFarthestDisparity * left.width);
   differences_.clear();
   for (std::size_t at = 0; at < strongest_.size(); ++at) {
     const int u = strongest_[at].u, v = strongest_[at].v;
     if (!filled[at] || !urban_nav_core::sadFits(left, u, v)) continue;
     const SadPatch patch = urban_nav_core::sadPatch(left, u, v);
-    const Place there = search(patch, right, u - farthest, u - nearest_disparity, v);
-    if (there.sad > contrast_share * contrastOf(patch) || there.sad > unique_share * there.second) continue;
-    const Place back = search(urban_nav_core::sadPatch(right, there.u, there.v), left, there.u + nearest_disparity,
+    const Place there = search(patch, right, u - farthest, u - kNearestDisparity, v);
+    if (there.sad > kContrastShare * contrastOf(patch) || there.sad > kUniqueShare * there.second) continue;
+    const Place back = search(urban_nav_core::sadPatch(right, there.u, there.v), left, there.u + kNearestDisparity,
                               there.u + farthest, there.v);
     if (std::abs(back.u - u) > 1 || std::abs(back.v - v) > 1) continue;
     differences_.push_back(std::abs(there.v - v - row_offset_px));
   }
-  if (differences_.size() < enough_to_judge) return std::nullopt;
+  if (differences_.size() < kEnoughToJudge) return std::nullopt;
   const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
   std::nth_element(differences_.begin(), middle, differences_.end());
   return *middle;
@@ -90,7 +90,7 @@ std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, 
 std::optional<double> RowCheck::measureSometimes(const urban_nav_core::StereoPair& pair, double row_offset_px) {
   if (pairs_until_next_ == 0) {
     last_ = measure(pair, row_offset_px);
-    pairs_until_next_ = pairs_apart;
+    pairs_until_next_ = kPairsApart;
   }
   --pairs_until_next_;
   return last_;

@@ -11,11 +11,11 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr std::size_t way_length = 12;  // frames; longer ways hide the image
-constexpr int subpixel_bits = 4;        // OpenCV draws at 1/16 px with them
+constexpr std::size_t kWayLength = 12;  // frames; longer ways hide the image
+constexpr int kSubpixelBits = 4;        // OpenCV draws at 1/16 px with them
 
 cv::Point fixedPoint(const cv::Point2f& pixel) {
-  return {cvRound(pixel.x * (1 << subpixel_bits)), cvRound(pixel.y * (1 << subpixel_bits))};
+  return {cvRound(pixel.x * (1 << kSubpixelBits)), cvRound(pixel.y * (1 << kSubpixelBits))};
 }
 
 cv::Scalar toColour(Health health) {
@@ -41,7 +41,7 @@ void TracksPicture::follow(const Frame& frame) {
     Way& way = ways_[feature.landmark];
     if (frame.frame - way.last > 1) way.pixels.clear();
     way.last = frame.frame;
-    if (way.pixels.size() == way_length) way.pixels.erase(way.pixels.begin());
+    if (way.pixels.size() == kWayLength) way.pixels.erase(way.pixels.begin());
     way.pixels.emplace_back(static_cast<float>(feature.pixel.x()), static_cast<float>(feature.pixel.y()));
   }
   for (auto it = ways_.begin(); it != ways_.end();)
@@ -63,10 +63,10 @@ const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const 
     const cv::Scalar colour = feature.trusted ? cv::Scalar(warm[0], warm[1], warm[2]) : cv::Scalar(150, 150, 150);
     const std::vector<cv::Point2f>& way = ways_.at(feature.landmark).pixels;
     for (std::size_t i = 1; i < way.size(); ++i)
-      cv::line(picture_, fixedPoint(way[i - 1]), fixedPoint(way[i]), colour, 1, cv::LINE_AA, subpixel_bits);
+      cv::line(picture_, fixedPoint(way[i - 1]), fixedPoint(way[i]), colour, 1, cv::LINE_AA, kSubpixelBits);
     const bool fresh = feature.age == 0;
-    cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << subpixel_bits, colour, fresh ? 1 : cv::FILLED,
-               cv::LINE_AA, subpixel_bits);
+    cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << kSubpixelBits, colour, fresh ? 1 : cv::FILLED,
+               cv::LINE_AA, kSubpixelBits);
   }
   cv::rectangle(picture_, {0, 0, picture_.cols, 4}, toColour(frame.status.health), cv::FILLED);
   if (!frame.status.sentence.empty())

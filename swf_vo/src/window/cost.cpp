@@ -17,7 +17,7 @@ namespace {
 
 // What lies behind the camera cannot have been measured, so it costs as much as one that is off by so many standard
 // deviations: else a step that turns the camera away from everything would be the best of all.
-constexpr double unseen = 100.0;
+constexpr double kUnseen = 100.0;
 
 // The columns of [w]x^T A, that is -[w]x A, for A of three rows.
 Matrix3d minusCross(const Vector3d& w, const Matrix3d& A) {
@@ -159,7 +159,7 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
       if (!sensor_.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z) ||
           !sensor_.linearise(landmark.anchor, landmark.linearised, pose.at_linearised, at)) {
         measurement.weight = 0.0;
-        weigh(unseen * unseen, equations.cost);
+        weigh(kUnseen * kUnseen, equations.cost);
         if (with_matrices && !landmark.known) equations.cross.push_back(Matrix63d::Zero());
         continue;
       }
@@ -201,7 +201,7 @@ double Cost::value(const State& state) const {
     for (const Measurement& measurement : landmark.seen) {
       const PoseBlock& pose = state.poses[static_cast<std::size_t>(measurement.step - state.first_step)];
       if (!sensor_.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z)) {
-        weigh(unseen * unseen, cost);
+        weigh(kUnseen * kUnseen, cost);
         continue;
       }
       const Vector3d r = residual(state, measurement, z);

@@ -14,10 +14,10 @@ using kernels::kStrip;
 namespace {
 
 // Rounding leaves about 1e-15 of the diagonal; what lies a thousand times above it is taken for information.
-constexpr double least_pivot = 1e-12;
+constexpr double kLeastPivot = 1e-12;
 // Columns of a panel: a packed strip of it (3 KB) and the strip it is multiplied with stay in the first-level cache.
-constexpr int cholesky_panel = 48;
-constexpr int largest_size = 1 << 14;  // rows of a matrix that is read
+constexpr int kCholeskyPanel = 48;
+constexpr int kLargestSize = 1 << 14;  // rows of a matrix that is read
 
 std::size_t rounded(int n) { return static_cast<std::size_t>((n + kStrip - 1) / kStrip * kStrip); }
 
@@ -76,7 +76,7 @@ void DenseCholesky::factorDiagonal(DenseMatrix& A, int start, int width, const s
     double* row = L + j * width;
     double pivot = row[j];
     for (int k = 0; k < j; ++k) pivot -= row[k] * row[k];
-    const bool held = !(pivot > least_pivot * diagonal_[at]) || !(pivot > 0.0);
+    const bool held = !(pivot > kLeastPivot * diagonal_[at]) || !(pivot > 0.0);
     held_[at] = held ? 1 : 0;
     held_count_ += held ? 1 : 0;
     row[j] = std::sqrt(held ? floor[at] : pivot);
@@ -117,11 +117,11 @@ void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
   reserveWithHeadroom(diagonal_, static_cast<std::size_t>(n));
   held_.assign(static_cast<std::size_t>(n), 0);
   diagonal_.resize(static_cast<std::size_t>(n));
-  block_.resize(static_cast<std::size_t>(cholesky_panel * cholesky_panel));
-  inverse_.resize(static_cast<std::size_t>(cholesky_panel));
+  block_.resize(static_cast<std::size_t>(kCholeskyPanel * kCholeskyPanel));
+  inverse_.resize(static_cast<std::size_t>(kCholeskyPanel));
   for (int j = 0; j < n; ++j) diagonal_[static_cast<std::size_t>(j)] = A(j, j);
-  for (int start = 0; start < n; start += cholesky_panel) {
-    const int width = std::min(cholesky_panel, n - start), end = start + width;
+  for (int start = 0; start < n; start += kCholeskyPanel) {
+    const int width = std::min(kCholeskyPanel, n - start), end = start + width;
     factorDiagonal(A, start, width, floor);
     if (end == n) break;
     const int strips = static_cast<int>(rounded(n - end)) / kStrip;
@@ -172,7 +172,7 @@ void DenseMatrix::archive(urban_nav_core::Archive& archive) {
   int size = size_;
   archive(size);
   if (archive.isReading()) {
-    archive.require(size >= 0 && size <= largest_size, "a matrix is too large");
+    archive.require(size >= 0 && size <= kLargestSize, "a matrix is too large");
     resize(size);
   }
   std::vector<double> lower;

@@ -17,20 +17,19 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // Effective clusters that the model counts for: the usual degrees of freedom of a variance that is hardly known.
-constexpr double model_clusters = 4.0;
+constexpr double kModelClusters = 4.0;
 // What of a score the estimate leaves at least: with less, leverage is not known well enough to correct for it.
-constexpr double least_left = 0.2;
+constexpr double kLeastLeft = 0.2;
 
 // Share of a coordinate's own information below which what the others leave of it is rounding.
-constexpr double least_rate_pivot = 1e-8;
+constexpr double kLeastRatePivot = 1e-8;
 
 /// Returns the inverse, or nothing where some direction is hardly known.
 std::optional<Matrix6d> invertWellKnown(const Matrix6d& information) {
   const SmallCholesky<6> cholesky(information);
   if (!cholesky.succeeded()) return std::nullopt;
   for (int i = 0; i < 6; ++i)
-    if (!(cholesky.factor()(i, i) * cholesky.factor()(i, i) > least_rate_pivot * information(i, i)))
-      return std::nullopt;
+    if (!(cholesky.factor()(i, i) * cholesky.factor()(i, i) > kLeastRatePivot * information(i, i))) return std::nullopt;
   return cholesky.inverse();
 }
 
@@ -51,8 +50,8 @@ DriftSandwich::Region& DriftSandwich::find(const Eigen::Vector2d& direction) {
 }
 
 void DriftSandwich::advance(double view_change) {
-  const double kept = std::exp(-view_change / score_memory_rad),
-               correlated = std::exp(-view_change / score_correlation_rad),
+  const double kept = std::exp(-view_change / kScoreMemoryRad),
+               correlated = std::exp(-view_change / kScoreCorrelationRad),
                overlapping = life_ > 0.0 ? std::exp(-view_change / life_) : 1.0;
   view_change_ = kept * view_change_ + view_change;
   information_ *= kept;
@@ -106,9 +105,9 @@ DriftSandwich::Ratio DriftSandwich::ratio() const {
                               all = traces(D);
   std::array<double, 2> ratios = {1.0, 1.0};
   for (std::size_t part = 0; part < 2; ++part) {
-    const double ratio = measured[part] / std::max(expected[part], least_left * all[part]), weight = clusters(part);
+    const double ratio = measured[part] / std::max(expected[part], kLeastLeft * all[part]), weight = clusters(part);
     if (std::isfinite(ratio) && ratio > 0.0)
-      ratios[part] = (model_clusters + weight * ratio) / (model_clusters + weight);
+      ratios[part] = (kModelClusters + weight * ratio) / (kModelClusters + weight);
   }
   return {ratios[0], ratios[1]};
 }

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int fewest_coordinates = 12;       // four frames: with fewer a landmark can take up whatever it is off by
-constexpr std::size_t fewest_for_test = 16;  // to know what is usual
+constexpr int kFewestCoordinates = 12;      // four frames: with fewer a landmark can take up whatever it is off by
+constexpr std::size_t kFewestForTest = 16;  // to know what is usual
 
 }  // namespace
 
@@ -33,7 +33,7 @@ bool DriftingLandmarks::score(const State& state, const SensorModel& sensor, con
       ++coordinates;
     }
   }
-  if (coordinates < fewest_coordinates) return false;
+  if (coordinates < kFewestCoordinates) return false;
   scores_.push_back({landmark.id, std::sqrt(sum / coordinates)});
   return true;
 }
@@ -48,7 +48,7 @@ const std::vector<LandmarkId>& DriftingLandmarks::find(const State& state, const
   for (const LandmarkBlock& landmark : state.landmarks)
     if (landmark.used && !landmark.known && landmark.followed && score(state, sensor, landmark))
       sorted_.push_back(scores_.back().residual);
-  if (scores_.size() < fewest_for_test) return drifting_;
+  if (scores_.size() < kFewestForTest) return drifting_;
   const double limit = robustThreshold(sorted_.begin(), sorted_.end());
   for (const Score& score : scores_)
     if (score.residual > limit) drifting_.push_back(score.landmark);

@@ -23,12 +23,12 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // Of the pose that a window begins with, m and rad.
-constexpr double datum_sigma = 1e-6;
+constexpr double kDatumSigma = 1e-6;
 // Radians: a fifth of what a good match is off by in an image of 500 px.
-constexpr double least_wander = 5e-5;
+constexpr double kLeastWander = 5e-5;
 // Share of a step's covariance that is always taken as drift, so that it stays proper where nothing drifts: one
 // step's in a thousand steps.
-constexpr double least_drift = 1e-3;
+constexpr double kLeastDrift = 1e-3;
 
 Matrix6d inverse(Matrix6d A) {
   Matrix6d B = Matrix6d::Identity();
@@ -98,7 +98,7 @@ void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPo
   gain_valid_ = false;
   scores_.clear();
   if (datum_.isActive()) {
-    prior_.start(next.pose, Matrix6d::Identity() / (datum_sigma * datum_sigma));
+    prior_.start(next.pose, Matrix6d::Identity() / (kDatumSigma * kDatumSigma));
     datum_.start(prior_, next.covariance);
   } else {
     prior_.start(next.pose, inverse(next.covariance));
@@ -161,7 +161,7 @@ void Filter::applyProcessNoise(const Vector3d& origin) {
                   landmark.seen.front().template_drift_covariance);
       landmark.seen.front().template_drift_covariance.setZero();
     }
-    if (landmark.template_drift_covariance.trace() < least_wander * least_wander) continue;
+    if (landmark.template_drift_covariance.trace() < kLeastWander * kLeastWander) continue;
     wandered_.push_back({landmark.prior, landmark.template_drift_covariance});
     landmark.template_drift_covariance.setZero();
   }
@@ -207,7 +207,7 @@ Matrix6d Filter::driftCovariance(const PoseBlock& oldest, const Matrix6d& relati
   if (!gain_valid_ || !datum_.isActive()) return relative;
   const Matrix6d J =
       urban_nav_core::between(settled_.pose, oldest.estimate).J2 * gauge::ofPose(oldest.estimate, datum_.origin());
-  return J * datum_.growth() * J.transpose() + least_drift * relative;
+  return J * datum_.growth() * J.transpose() + kLeastDrift * relative;
 }
 
 // Classic visual odometry: what the oldest frame said is lost, and the next pose becomes the datum.

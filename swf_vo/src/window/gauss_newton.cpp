@@ -15,24 +15,24 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // A step that raises the cost by more than this share is halved.
-constexpr double cost_slack = 0.01;
-constexpr int halvings = 4;
+constexpr double kCostSlack = 0.01;
+constexpr int kHalvings = 4;
 // Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g)
-constexpr double contraction = 0.1;
+constexpr double kContraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
-constexpr double far_start = 2000.0;
+constexpr double kFarStart = 2000.0;
 // A step that an old factor promises, and that is not so much smaller than the one before, is not taken: a new factor
 // is asked.
-constexpr double stalled = 0.5;
+constexpr double kStalled = 0.5;
 // Contradictory measurements may want a pose or the offset anywhere: beyond these a step is as one that raises the
 // cost.
-constexpr double longest_move = 1e4;      // m, from where a pose was linearised
-constexpr double largest_offset = 100.0;  // px
+constexpr double kLongestMove = 1e4;      // m, from where a pose was linearised
+constexpr double kLargestOffset = 100.0;  // px
 
 bool isSane(const State& state) {
-  if (!(std::abs(state.disparity_offset) < largest_offset)) return false;
+  if (!(std::abs(state.disparity_offset) < kLargestOffset)) return false;
   for (const PoseBlock& pose : state.poses)
-    if (!((pose.estimate.t() - pose.linearised.t()).squaredNorm() < longest_move * longest_move)) return false;
+    if (!((pose.estimate.t() - pose.linearised.t()).squaredNorm() < kLongestMove * kLongestMove)) return false;
   return true;
 }
 
@@ -71,10 +71,10 @@ void GaussNewton::take(double scale, State& state, const Prior& prior) const {
 // Shortens the step until the cost does not rise; false, and nothing has moved, where it does all the same.
 bool GaussNewton::descend(double before, State& state, const Prior& prior, const Cost& cost) {
   double scale = 1.0;
-  for (int h = 0; h <= halvings; ++h) {
+  for (int h = 0; h <= kHalvings; ++h) {
     const double after = priorGradient(state, prior) + cost.value(state);
-    if (isSane(state) && after <= before + cost_slack * (1.0 + std::abs(before))) return true;
-    if (h == halvings) break;
+    if (isSane(state) && after <= before + kCostSlack * (1.0 + std::abs(before))) return true;
+    if (h == kHalvings) break;
     take(-0.5 * scale, state, prior);
     scale *= 0.5;
   }
@@ -94,7 +94,7 @@ GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& c
     solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
     // Where something is held loosely a shared factor may not contract: the direction in which nothing is measured
     // has turned with the estimates, and what the old factor sees along it is divided by next to nothing.
-    if (!refactor && solver_.decrement() > stalled * last) {
+    if (!refactor && solver_.decrement() > kStalled * last) {
       factor(state, prior, cost, datum);
       solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
     }
@@ -110,7 +110,7 @@ GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& c
     progress.converged = decrement < options_.tolerance;
     if (progress.converged) break;
     // The textbook's factor belongs to its last step; else a far start or slow progress ask for a new one.
-    refactor = !options_.linearise_first || decrement > (i == 0 ? far_start : contraction * last);
+    refactor = !options_.linearise_first || decrement > (i == 0 ? kFarStart : kContraction * last);
     last = decrement;
   }
   if (!cost.lineariseFirst()) prior.recentre(state);

@@ -15,16 +15,16 @@ namespace kernels = urban_nav_core::kernels;
 
 void LandmarkProcessNoise::apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior,
                                  Departed& departed) {
-  for (std::size_t at = 0; at < steps.size(); at += group)
-    apply(steps.data() + at, static_cast<int>(std::min<std::size_t>(group, steps.size() - at)), directions, prior,
+  for (std::size_t at = 0; at < steps.size(); at += kGroup)
+    apply(steps.data() + at, static_cast<int>(std::min<std::size_t>(kGroup, steps.size() - at)), directions, prior,
           departed);
 }
 
 void LandmarkProcessNoise::gather(const Step* steps, int count, const Prior& prior) {
   const int n = prior.size();
   stride_ = static_cast<std::size_t>((n + kernels::kStrip - 1) / kernels::kStrip * kernels::kStrip);
-  reserveWithHeadroom(columns_, stride_ * most);
-  columns_.resize(stride_ * most);
+  reserveWithHeadroom(columns_, stride_ * kMost);
+  columns_.resize(stride_ * kMost);
   for (int k = 0; k < 2 * count; ++k) {
     row_[k] = 3 * steps[k / 2].block + k % 2;
     double* column = columns_.data() + static_cast<std::size_t>(k) * stride_;
@@ -64,7 +64,7 @@ void LandmarkProcessNoise::apply(const Step* steps, int count, const std::vector
     for (int i = 0; i < n; ++i) column(j)[i] /= L_[j][j];
   }
   // y = L^-1 E^T v, v -= Pi E L^-T y: how every row vector over the blocks changes.
-  double y[most], tied[most];
+  double y[kMost], tied[kMost];
   const auto change = [&](double* v, double* part) {
     for (int j = 0; j < m; ++j) {
       part[j] = v[row_[j]];
@@ -82,7 +82,7 @@ void LandmarkProcessNoise::apply(const Step* steps, int count, const std::vector
       prior.offset_eta -= tied[j] * y[j];
     }
   }
-  Eigen::Matrix<double, most, 6> held;
+  Eigen::Matrix<double, kMost, 6> held;
   for (int c = 0; c < 6; ++c)
     for (int j = 0; j < m; ++j) held(j, c) = kernels::dot(column(j), directions.data() + c * n, n);
   departed.gauge_loss.noalias() += held.topRows(m).transpose() * held.topRows(m);

@@ -26,15 +26,15 @@ class LandmarkProcessNoise {
   void apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior, Departed& departed);
 
  private:
-  static constexpr int group = 8, most = 2 * group;  // landmarks taken together, and their rows
+  static constexpr int kGroup = 8, kMost = 2 * kGroup;  // landmarks taken together, and their rows
   void apply(const Step* steps, int count, const std::vector<double>& directions, Prior& prior, Departed& departed);
   void gather(const Step* steps, int count, const Prior& prior);
   void factor(const Step* steps, int count);
 
   std::size_t stride_ = 0;
   std::vector<double> columns_;  // Pi E, then times L^-T
-  int row_[most] = {};
-  double L_[most][most] = {};  // L L^T = E^T Pi E + Q^-1
+  int row_[kMost] = {};
+  double L_[kMost][kMost] = {};  // L L^T = E^T Pi E + Q^-1
   StripProduct product_;
 };
 

@@ -13,7 +13,7 @@ using urban_nav_core::Pose;
 namespace {
 
 // Share of a coordinate's own information below which what is left of it is rounding.
-constexpr double least_theta_pivot = 1e-12;
+constexpr double kLeastThetaPivot = 1e-12;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ DriftScore LandmarkScore::evaluate(const Pose& T_odom_camera) const {
   Matrix10d A = information_;
   Vector10d b = score_;
   for (int j = 0; j < 3; ++j) {
-    if (!(A(j, j) > least_theta_pivot * information_(j, j))) continue;
+    if (!(A(j, j) > kLeastThetaPivot * information_(j, j))) continue;
     for (int i = j + 1; i < 10; ++i) {
       const double factor = A(i, j) / A(j, j);
       b[i] -= factor * b[j];

@@ -19,8 +19,8 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // An eigenvalue of a block scaled to a unit diagonal below this is rounding.
-constexpr double least_eigenvalue = 1e-12;
-constexpr int unused = 1 << 30;
+constexpr double kLeastEigenvalue = 1e-12;
+constexpr int kUnused = 1 << 30;
 
 // G with G G^T = D^-1, or the inverse on what D determines.
 template <int N>
@@ -30,7 +30,7 @@ Eigen::Matrix<double, N, N> inverseRoot(const Eigen::Matrix<double, N, N>& D) {
   const Eigen::Matrix<double, N, N> scaled = scale.asDiagonal() * D * scale.asDiagonal();
   const auto eigen = urban_nav_core::smallEigen<N>(scaled);
   Eigen::Matrix<double, N, 1> roots;
-  for (int i = 0; i < N; ++i) roots[i] = eigen.values[i] > least_eigenvalue ? 1.0 / std::sqrt(eigen.values[i]) : 0.0;
+  for (int i = 0; i < N; ++i) roots[i] = eigen.values[i] > kLeastEigenvalue ? 1.0 / std::sqrt(eigen.values[i]) : 0.0;
   return scale.asDiagonal() * eigen.vectors * roots.asDiagonal();
 }
 
@@ -54,7 +54,7 @@ void Marginaliser::sort(const State& state, const Prior& prior) {
   dying_.clear();
   for (std::vector<int>* slots : {&kept_, &dying_}) slots->reserve(state.landmarks.size());
   centres_.reserve(state.landmarks.size());
-  place_.assign(state.landmarks.size(), unused);
+  place_.assign(state.landmarks.size(), kUnused);
   for (const int slot : prior.slots) {
     const std::size_t at = static_cast<std::size_t>(slot);
     if (staysWithout(state.landmarks[at], state.first_step)) {
@@ -145,7 +145,7 @@ void Marginaliser::addTerms(const State& state, const Cost& cost, LandmarkScores
   for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
     const LandmarkBlock& landmark = state.landmarks[at];
     if (!landmark.used || !seenBy(landmark, state.first_step)) continue;
-    if (!landmark.known && place_[at] == unused) continue;
+    if (!landmark.known && place_[at] == kUnused) continue;
     const SensorTerm term = cost.sensorTerm(state, landmark, landmark.seen.front(), oldest);
     add(eliminatedColumn(pose) + pose, stride_, term.pose);
     Map<Vector6d>(gradient_.data() + pose) += term.pose_gradient;

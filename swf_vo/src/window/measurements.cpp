@@ -15,12 +15,12 @@ namespace {
 
 // Bearings further out than 84 deg from the axis at birth, or nearer than a tenth of a millimetre: an estimate gone
 // astray.
-constexpr double absurd_bearing = 10.0;
-constexpr double absurd_inverse_depth = 1e4;
+constexpr double kAbsurdBearing = 10.0;
+constexpr double kAbsurdInverseDepth = 1e4;
 
 bool isSane(const Vector3d& theta) {
-  return std::abs(theta.x()) < absurd_bearing && std::abs(theta.y()) < absurd_bearing &&
-         std::abs(theta.z()) < absurd_inverse_depth;
+  return std::abs(theta.x()) < kAbsurdBearing && std::abs(theta.y()) < kAbsurdBearing &&
+         std::abs(theta.z()) < kAbsurdInverseDepth;
 }
 
 bool hasFullRank(Eigen::Matrix3d information) {

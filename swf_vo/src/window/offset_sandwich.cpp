@@ -14,10 +14,10 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double prior_clusters = 4.0;
+constexpr double kPriorClusters = 4.0;
 // Beyond these no sum of squares is believed.
-constexpr double least_ratio = 1e-2;
-constexpr double largest_ratio = 1e6;
+constexpr double kLeastRatio = 1e-2;
+constexpr double kLargestRatio = 1e6;
 
 }  // namespace
 
@@ -32,8 +32,8 @@ OffsetSandwich::Region& OffsetSandwich::find(const Eigen::Vector2d& direction) {
 }
 
 void OffsetSandwich::advance(double view_change) {
-  const double kept = std::exp(-view_change / score_memory_rad),
-               correlated = std::exp(-view_change / score_correlation_rad);
+  const double kept = std::exp(-view_change / kScoreMemoryRad),
+               correlated = std::exp(-view_change / kScoreCorrelationRad);
   drift_ *= kept;
   cross_ *= kept;
   for (Region& region : regions_) {
@@ -66,8 +66,8 @@ void OffsetSandwich::add(const DriftScore& landmark) {
 double OffsetSandwich::ratio(double without) const {
   if (!(information_ > 0.0) || !(squares_ > 0.0)) return without;
   const double clusters = 1.0 / squared_shares_,
-               measured = std::clamp(squares_ / information_, least_ratio, largest_ratio);
-  return std::exp((prior_clusters * std::log(without) + clusters * std::log(measured)) / (prior_clusters + clusters));
+               measured = std::clamp(squares_ / information_, kLeastRatio, kLargestRatio);
+  return std::exp((kPriorClusters * std::log(without) + clusters * std::log(measured)) / (kPriorClusters + clusters));
 }
 
 void OffsetSandwich::Region::archive(urban_nav_core::Archive& archive) { archive(place, score, share); }

@@ -11,7 +11,7 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double least_path_pivot = 1e-12;
+constexpr double kLeastPathPivot = 1e-12;
 
 bool isState(const LandmarkBlock& landmark) {
   return landmark.used && !landmark.known && (landmark.prior >= 0 || !landmark.seen.empty());
@@ -69,7 +69,7 @@ void PoseElimination::factorPose(std::size_t j, const Vector6d& diagonal) {
   for (int c = 0; c < 6; ++c) {
     double pivot = D(c, c);
     for (int k = 0; k < c; ++k) pivot -= link.L(c, k) * link.L(c, k);
-    link.held[c] = !(pivot > least_path_pivot * diagonal[c]) || !(pivot > 0.0);
+    link.held[c] = !(pivot > kLeastPathPivot * diagonal[c]) || !(pivot > 0.0);
     link.L(c, c) = std::sqrt(link.held[c] ? process_model::floor()(c, c) : pivot);
     if (link.held[c]) continue;
     for (int r = c + 1; r < 6; ++r) {

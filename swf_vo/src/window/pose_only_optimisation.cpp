@@ -17,10 +17,10 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr int most_newest_steps = 6;
-constexpr int fewest_for_pose = 3;
+constexpr int kMostNewestSteps = 6;
+constexpr int kFewestForPose = 3;
 // d^T g of the last step, chi-square.
-constexpr double near_enough = 1e-2;
+constexpr double kNearEnough = 1e-2;
 
 bool isNew(const LandmarkBlock& landmark) { return landmark.seen.size() == 1 && landmark.prior < 0 && !landmark.known; }
 
@@ -58,17 +58,17 @@ void optimiseNewestPose(State& state, const SensorModel& sensor, double huber) {
   lift.topLeftCorner<3, 3>() = lift.bottomRightCorner<3, 3>() = predicted.R();
   const Matrix6d held = lift * (process_model::floor() + newest.u.information) * lift.transpose();
   int known = 0;
-  for (int i = 0; i < most_newest_steps; ++i) {
+  for (int i = 0; i < kMostNewestSteps; ++i) {
     Matrix6d A = held;
     Vector6d b = -held * boxMinus(newest.estimate, predicted);
     known = addLandmarks(state, sensor, huber, A, b);
-    if (known < fewest_for_pose) break;
+    if (known < kFewestForPose) break;
     Vector6d d = b;
     if (!urban_nav_core::solvePositiveDefiniteInPlace(A, d) || !d.allFinite()) break;
     newest.estimate = boxPlus(newest.estimate, d);
-    if (d.dot(b) < near_enough) break;
+    if (d.dot(b) < kNearEnough) break;
   }
-  if (known < fewest_for_pose || !newest.estimate.isFinite()) newest.estimate = predicted;
+  if (known < kFewestForPose || !newest.estimate.isFinite()) newest.estimate = predicted;
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     const LandmarkBlock& landmark = state.landmarks[slot];
     if (!landmark.used || landmark.seen.empty() || landmark.seen.back().step != state.newestStep() || !isNew(landmark))

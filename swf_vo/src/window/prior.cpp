@@ -16,7 +16,7 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double degrees_of_freedom = 4.0;  // of what is known of calibrations: the usual choice for data with outliers
+constexpr double kDegreesOfFreedom = 4.0;  // of what is known of calibrations: the usual choice for data with outliers
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Prior::startOffset(double offset, double sigma) {
 
 double Prior::calibrationInformation(double offset) const {
   const double off = offset - calibrated_offset;
-  return calibration_information / (1.0 + off * off * calibration_information / degrees_of_freedom);
+  return calibration_information / (1.0 + off * off * calibration_information / kDegreesOfFreedom);
 }
 
 void Prior::deviation(const State& state, std::vector<double>& d) const {

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 namespace {
 
 // Depth relative to the depth at birth: nearer than this share the camera has run into the point or past it.
-constexpr double nearest = 1e-3;
+constexpr double kNearest = 1e-3;
 
 Matrix3d cross(const Vector3d& a) {
   Matrix3d m;
@@ -43,7 +43,7 @@ bool SensorModel::predict(const Anchor& anchor, const Vector3d& theta, const Pos
   const Vector3d w = anchor.R_odom_anchor * Vector3d(theta.x(), theta.y(), 1.0) +
                      theta.z() * (anchor.t_odom_anchor - pose.t_odom_camera);
   const Vector3d q = pose.R_camera_odom * w;
-  if (!(q.z() > nearest)) return false;
+  if (!(q.z() > kNearest)) return false;
   const double inverse = 1.0 / q.z();
   const double u = fx_ * q.x() * inverse + cx_;
   z = Vector3d(u, fy_ * q.y() * inverse + cy_, u - fx_ * baseline_ * theta.z() * inverse);
@@ -56,7 +56,7 @@ bool SensorModel::linearise(const Anchor& anchor, const Vector3d& theta, const P
   result.rho = theta.z();
   result.w = anchor.R_odom_anchor * Vector3d(theta.x(), theta.y(), 1.0) + theta.z() * towards;
   const Vector3d q = pose.R_camera_odom * result.w;
-  if (!(q.z() > nearest)) return false;
+  if (!(q.z() > kNearest)) return false;
   const double inverse = 1.0 / q.z();
   const Vector3d x_row = pose.R_camera_odom.row(0), y_row = pose.R_camera_odom.row(1),
                  z_row = pose.R_camera_odom.row(2);

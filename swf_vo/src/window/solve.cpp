@@ -16,19 +16,19 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double least_solve_pivot = 1e-12;
+constexpr double kLeastSolvePivot = 1e-12;
 // The other way has to promise this share of the work: its panels are narrow.
-constexpr double worth_changing = 0.7;
+constexpr double kWorthChanging = 0.7;
 // Columns of eliminated landmarks that are taken together.
-constexpr int solve_panel = 48;
-constexpr std::size_t most_rows = 1 << 20;  // of a factor that is read
+constexpr int kSolvePanel = 48;
+constexpr std::size_t kMostRows = 1 << 20;  // of a factor that is read
 // Any would do; this one leaves the oldest pose a negligible variance.
-constexpr double datum_strength = 1e3;
+constexpr double kDatumStrength = 1e3;
 // The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of
 // camera and surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate
 // is off by 2 to 30 times what the information says. It is weighted a twentieth as much (in standard deviation) as
 // alignments alone would have it; by what measurements are inflated they have lost of that already.
-constexpr double caution = 400.0;
+constexpr double kCaution = 400.0;
 
 double cautionFor(const State& state) {
   double sum = 0.0, count = 0.0;
@@ -37,7 +37,7 @@ double cautionFor(const State& state) {
     for (const Measurement& measurement : landmark.seen) sum += measurement.inflation;
     count += static_cast<double>(landmark.seen.size());
   }
-  return count > 0.0 ? std::max(1.0, caution * count / sum) : caution;
+  return count > 0.0 ? std::max(1.0, kCaution * count / sum) : kCaution;
 }
 
 bool isFree(const LandmarkBlock& landmark) { return landmark.used && !landmark.known && landmark.prior < 0; }
@@ -49,7 +49,7 @@ Matrix3d inverseRoot(const Matrix3d& C) {
   for (int j = 0; j < 3; ++j) {
     double pivot = C(j, j);
     for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
-    held[j] = !(pivot > least_solve_pivot * C(j, j)) || !(pivot > 0.0);
+    held[j] = !(pivot > kLeastSolvePivot * C(j, j)) || !(pivot > 0.0);
     if (held[j]) {
       L(j, j) = 1.0;
       continue;
@@ -92,7 +92,7 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
   eliminated_.resize(equations.cross.size());
   inverse_root_.resize(state.landmarks.size());
   onto_poses_.reset(6 * static_cast<int>(poses_));
-  columns_.assign(static_cast<std::size_t>(onto_poses_.stride()) * solve_panel, 0.0);
+  columns_.assign(static_cast<std::size_t>(onto_poses_.stride()) * kSolvePanel, 0.0);
   Strip strip;
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     const LandmarkBlock& landmark = state.landmarks[slot];
@@ -112,7 +112,7 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
       strip.last = std::max(strip.last, row + 6);
     }
     strip.columns += 3;
-    if (strip.columns + 3 > solve_panel) subtractStrip(strip);
+    if (strip.columns + 3 > kSolvePanel) subtractStrip(strip);
   }
   subtractStrip(strip);
   for (int j = 0; j < onto_poses_.size(); ++j) {
@@ -145,14 +145,14 @@ bool Solver::isCheaperPosesFirst(const State& state, const Prior& prior) const {
   const double path = 6.0 * static_cast<double>(state.poses.size()),
                dense = 3.0 * static_cast<double>(prior.slots.size()) + path;
   const double onto_path = dense * dense * dense / 6.0 + 1.5 * static_cast<double>(free) * path * path;
-  return PoseElimination::operations(state.poses.size(), prior.slots.size() + free) < worth_changing * onto_path;
+  return PoseElimination::operations(state.poses.size(), prior.slots.size() + free) < kWorthChanging * onto_path;
 }
 
 void Solver::factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
   poses_ = state.poses.size();
   offset_ = static_cast<std::size_t>(prior.landmarkSize());
   poses_first_ = isCheaperPosesFirst(state, prior);
-  if (poses_first_) pose_elimination_.factor(state, prior, equations, datum ? datum_strength : 0.0);
+  if (poses_first_) pose_elimination_.factor(state, prior, equations, datum ? kDatumStrength : 0.0);
   else factorLandmarksFirst(state, prior, equations, datum);
   border_.used = prior.has_offset;
   if (border_.used) factorBorder(state, prior, equations);
@@ -262,7 +262,7 @@ void Solver::factorLandmarksFirst(const State& state, const Prior& prior, const 
   }
   if (datum)
     for (int i = static_cast<int>(offset_); i < static_cast<int>(offset_) + 6; ++i)
-      dense_(i, i) += datum_strength * (1.0 + dense_(i, i));
+      dense_(i, i) += kDatumStrength * (1.0 + dense_(i, i));
   eliminateFree(state, equations);
   cholesky_.factor(dense_, floor_);
 }
@@ -348,7 +348,7 @@ void Solver::archive(urban_nav_core::Archive& archive) {
   archive(poses_, offset_, poses_first_, border_.used, border_.rows, border_.pivot, border_.calibration,
           border_.caution);
   const std::size_t rows = offset_ + 6 * poses_;
-  archive.require(poses_ < most_rows && offset_ < most_rows && (!border_.used || border_.rows.size() == rows),
+  archive.require(poses_ < kMostRows && offset_ < kMostRows && (!border_.used || border_.rows.size() == rows),
                   "a factor is of another size");
   if (poses_ == 0) return;
   if (poses_first_) archive(pose_elimination_);

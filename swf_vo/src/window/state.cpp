@@ -8,8 +8,8 @@ namespace swf_vo {
 namespace {
 
 // A track is seldom longer than this; longer ones grow by doubling.
-constexpr std::size_t usual_track = 16;
-constexpr std::size_t fewest_slots = 64;
+constexpr std::size_t kUsualTrack = 16;
+constexpr std::size_t kFewestSlots = 64;
 
 bool before(const std::pair<LandmarkId, int>& entry, LandmarkId id) { return entry.first < id; }
 
@@ -41,13 +41,13 @@ void State::reserve(std::size_t slots) {
   slots_.reserve(slots);
   free_.reserve(slots);
   for (std::size_t slot = slots; slot-- > had;) {
-    landmarks[slot].seen.reserve(usual_track);
+    landmarks[slot].seen.reserve(kUsualTrack);
     free_.push_back(static_cast<int>(slot));
   }
 }
 
 int State::add(LandmarkId landmark) {
-  if (free_.empty()) reserve(std::max(fewest_slots, 2 * landmarks.size()));
+  if (free_.empty()) reserve(std::max(kFewestSlots, 2 * landmarks.size()));
   const int slot = free_.back();
   free_.pop_back();
   slots_.insert(std::lower_bound(slots_.begin(), slots_.end(), landmark, before), {landmark, slot});

@@ -9,9 +9,9 @@
 namespace swf_vo {
 namespace {
 
-constexpr double rig_focal_px = 400.0;
-const urban_nav_core::StereoCamera rig_camera = {{rig_focal_px, rig_focal_px, 255.5, 191.5, 512, 384}, 0.12};
-constexpr RigRows::Priors rig_priors = {1e-3, 1e-4};
+constexpr double kRigFocalPx = 400.0;
+const urban_nav_core::StereoCamera kRigCamera = {{kRigFocalPx, kRigFocalPx, 255.5, 191.5, 512, 384}, 0.12};
+constexpr RigRows::Priors kRigPriors = {1e-3, 1e-4};
 
 struct RigTruth {
   double offset_px = 0.0, roll = 0.0, delay_s = 0.0;
@@ -21,7 +21,7 @@ struct RigTruth {
 };
 
 RigConstants learnRig(const RigTruth& rig, int frames, std::uint32_t seed = 1) {
-  RigRows rows(rig_priors, rig_camera);
+  RigRows rows(kRigPriors, kRigCamera);
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -33,9 +33,9 @@ RigConstants learnRig(const RigTruth& rig, int frames, std::uint32_t seed = 1) {
     for (int i = 0; i < 10; ++i) {
       RigRows::Difference one;
       one.direction = {0.7 * uniform(random), 0.5 * uniform(random)};
-      one.flow_px_s = rig.moving ? rig_focal_px * (pitch_rate + 0.1 * one.direction.y()) : 0.0;
+      one.flow_px_s = rig.moving ? kRigFocalPx * (pitch_rate + 0.1 * one.direction.y()) : 0.0;
       one.px =
-          rig.offset_px - rig.roll * rig_focal_px * one.direction.x() + rig.delay_s * one.flow_px_s +
+          rig.offset_px - rig.roll * kRigFocalPx * one.direction.x() + rig.delay_s * one.flow_px_s +
           0.1 * normal(random) +
           places[static_cast<int>(5.0 * (one.direction.x() + 0.8))][static_cast<int>(3.75 * (one.direction.y() + 0.8))];
       if (uniform(random) < 2.0 * rig.outliers - 1.0) one.px = 6.0 * uniform(random);
@@ -47,11 +47,11 @@ RigConstants learnRig(const RigTruth& rig, int frames, std::uint32_t seed = 1) {
 }
 
 TEST(RigRows, KnowsItsPriorsBeforeAnythingIsSeen) {
-  RigRows rows(rig_priors, rig_camera);
+  RigRows rows(kRigPriors, kRigCamera);
   EXPECT_EQ(rows.evaluate().roll_rad, 0.0);
   rows.learn();
-  EXPECT_NEAR(rows.evaluate().roll_sigma_rad, rig_priors.roll, 1e-9);
-  EXPECT_NEAR(rows.evaluate().delay_sigma_s, rig_priors.delay_s, 1e-9);
+  EXPECT_NEAR(rows.evaluate().roll_sigma_rad, kRigPriors.roll, 1e-9);
+  EXPECT_NEAR(rows.evaluate().delay_sigma_s, kRigPriors.delay_s, 1e-9);
 }
 
 TEST(RigRows, FindsRollAndDelayBesideAnOffset) {
@@ -78,7 +78,7 @@ TEST(RigRows, StandingStillSaysNothingOfTheDelay) {
   RigTruth rig{0.1, 5e-4, 3e-3};
   rig.moving = false;
   const RigConstants found = learnRig(rig, 300);
-  EXPECT_NEAR(found.delay_sigma_s, rig_priors.delay_s, 1e-3 * rig_priors.delay_s);
+  EXPECT_NEAR(found.delay_sigma_s, kRigPriors.delay_s, 1e-3 * kRigPriors.delay_s);
   EXPECT_NEAR(found.delay_s, 0.0, 1e-9);
   EXPECT_NEAR(found.roll_rad, 5e-4, 3e-5);
 }
@@ -89,7 +89,7 @@ double varianceRatio(double place_px) {
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     std::mt19937 random(1000 + seed);
     RigTruth rig;
-    rig.roll = std::normal_distribution<double>(0.0, rig_priors.roll)(random);
+    rig.roll = std::normal_distribution<double>(0.0, kRigPriors.roll)(random);
     rig.place_px = place_px;
     const RigConstants found = learnRig(rig, 60, seed);
     squares += (found.roll_rad - rig.roll) * (found.roll_rad - rig.roll);

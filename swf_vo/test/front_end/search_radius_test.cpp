@@ -8,7 +8,7 @@ namespace {
 
 using urban_nav_core::Pose;
 
-constexpr double usual = 24.0;
+constexpr double kUsual = 24.0;
 
 /// Landmarks straight ahead at these depths, m.
 std::vector<Match> landmarksAt(const std::vector<double>& depths) {
@@ -21,7 +21,7 @@ std::vector<Match> landmarksAt(const std::vector<double>& depths) {
   return matches;
 }
 
-SearchRadius makeRadius() { return {usual, {300.0, 300.0, 191.5, 143.5, 384, 288}, 100}; }
+SearchRadius makeRadius() { return {kUsual, {300.0, 300.0, 191.5, 143.5, 384, 288}, 100}; }
 
 TEST(SearchRadius, WidensToTheUncertaintyOfThePrediction) {
   SearchRadius radius = makeRadius();
@@ -62,7 +62,7 @@ TEST(SearchRadius, FollowsTheErrorsOfTheLastFrame) {
   EXPECT_GT(radius.px(), calm);
   errors.assign(100, 1000.0);
   radius.learn(errors);
-  EXPECT_EQ(radius.px(), usual) << "the limit";
+  EXPECT_EQ(radius.px(), kUsual) << "the limit";
 }
 
 }  // namespace

@@ -15,28 +15,28 @@ namespace {
 using urban_nav_core::ImageView;
 using urban_nav_core::StereoPair;
 
-constexpr int checked_width = 512, checked_height = 384;
+constexpr int kCheckedWidth = 512, kCheckedHeight = 384;
 
 /// A wall of random blobs seen by both cameras at one disparity, with noise of its own in every frame.
 struct CheckScene {
   std::vector<std::uint8_t> left, right;
 
   CheckScene(unsigned seed, double disparity, double gain = 1.0, double shift = 0.0, double softness = 1.0)
-      : left(checked_width * checked_height), right(checked_width * checked_height) {
+      : left(kCheckedWidth * kCheckedHeight), right(kCheckedWidth * kCheckedHeight) {
     std::mt19937 noise(seed);
     std::normal_distribution<double> grey(0.0, 1.0);
-    for (int v = 0; v < checked_height; ++v)
-      for (int u = 0; u < checked_width; ++u) {
-        left[static_cast<std::size_t>(v * checked_width + u)] =
+    for (int v = 0; v < kCheckedHeight; ++v)
+      for (int u = 0; u < kCheckedWidth; ++u) {
+        left[static_cast<std::size_t>(v * kCheckedWidth + u)] =
             clip(gain * value(u + shift, v, softness) + grey(noise));
-        right[static_cast<std::size_t>(v * checked_width + u)] =
+        right[static_cast<std::size_t>(v * kCheckedWidth + u)] =
             clip(gain * value(u + shift + disparity, v, softness) + grey(noise));
       }
   }
   StereoPair pair(std::int64_t stamp = 0) const {
     return {stamp,
-            {left.data(), checked_width, checked_height, checked_width},
-            {right.data(), checked_width, checked_height, checked_width}};
+            {left.data(), kCheckedWidth, kCheckedHeight, kCheckedWidth},
+            {right.data(), kCheckedWidth, kCheckedHeight, kCheckedWidth}};
   }
   StereoPair exchanged() const { return {0, pair().right, pair().left}; }
 
@@ -124,7 +124,7 @@ CheckScene stepped(unsigned seed, int times) {
     for (std::uint8_t& grey : *image) grey = static_cast<std::uint8_t>(grey / 24 * 24);
     for (int i = 0; i < 2 * times; ++i) {
       const std::vector<std::uint8_t> before = *image;
-      const std::size_t step = i % 2 == 0 ? 1 : checked_width;
+      const std::size_t step = i % 2 == 0 ? 1 : kCheckedWidth;
       for (std::size_t at = 2 * step; at + 2 * step < before.size(); ++at)
         (*image)[at] = static_cast<std::uint8_t>(
             (before[at - 2 * step] + before[at - step] + before[at] + before[at + step] + before[at + 2 * step] + 2) /

@@ -53,12 +53,12 @@ TEST(RowCheck, SaysHowFarAnImageIsShifted) {
 
 // A quarter of the width is as far from the axis as the median point of an image.
 TEST(RowCheck, SeesARoll) {
-  constexpr double roll = 0.05;
+  constexpr double kRoll = 0.05;
   StereoFrame frame = roomPair();
-  frame.right = displaced(frame.right, roll, 0.0);
+  frame.right = displaced(frame.right, kRoll, 0.0);
   const auto disagree = RowCheck().measure(frame.pair());
   ASSERT_TRUE(disagree.has_value());
-  EXPECT_NEAR(*disagree, roll * 0.25 * frame.left.width, 0.5 * roll * 0.25 * frame.left.width);
+  EXPECT_NEAR(*disagree, kRoll * 0.25 * frame.left.width, 0.5 * kRoll * 0.25 * frame.left.width);
 }
 
 TEST(RowCheck, SaysNothingOfImagesThatAreNoPair) {

@@ -70,15 +70,15 @@ Graph* SwfVoNodelet::graph_ = nullptr;
 RenderedSequence* SwfVoNodelet::sequence_ = nullptr;
 
 TEST_F(SwfVoNodelet, AgreesWithTheCoreToTheLastBit) {
-  constexpr int count = 24;
-  ASSERT_TRUE(play(0, count));
+  constexpr int kCount = 24;
+  ASSERT_TRUE(play(0, kCount));
   ASSERT_TRUE(graph().call("reset"));  // what is in the window leaves
-  ASSERT_TRUE(Graph::until([&] { return graph().relative.size() == count - 1; })) << graph().relative.size();
-  ASSERT_TRUE(Graph::until([&] { return graph().odometry.size() == count && graph().transforms.size() == count; }));
+  ASSERT_TRUE(Graph::until([&] { return graph().relative.size() == kCount - 1; })) << graph().relative.size();
+  ASSERT_TRUE(Graph::until([&] { return graph().odometry.size() == kCount && graph().transforms.size() == kCount; }));
 
   SwfVo filter(Parameters(), camera(), mounting());
   std::vector<Settled> settled;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kCount; ++i) {
     const Frame& frame = filter.process(sequence().frame(i).pair());
     settled.insert(settled.end(), frame.settled.begin(), frame.settled.end());
     const auto n = static_cast<std::size_t>(i);

@@ -39,7 +39,7 @@ struct Generations {
 /// Generations of landmarks on ten surfaces that measure one rate each, which is estimated from them: what is left of
 /// their scores at the estimate.
 Generations generations(int count, int landmarks, const Errors& errors, const DriftSandwich& before = {}) {
-  constexpr double shift_weight = 3.0, turn_weight = 200.0;
+  constexpr double kShiftWeight = 3.0, kTurnWeight = 200.0;
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   struct Surface {
@@ -56,7 +56,7 @@ Generations generations(int count, int landmarks, const Errors& errors, const Dr
         surface.direction = Eigen::Vector2d(0.5 * normal(generator), 0.3 * normal(generator));
         for (int i = 0; i < 6; ++i)
           surface.error[i] =
-              normal(generator) * errors.shared / ((i < 3 ? shift_weight : turn_weight) * std::sqrt(1.5 * landmarks));
+              normal(generator) * errors.shared / ((i < 3 ? kShiftWeight : kTurnWeight) * std::sqrt(1.5 * landmarks));
       }
     std::vector<DriftScore> scores(static_cast<std::size_t>(landmarks));
     Matrix6d all = Matrix6d::Zero();
@@ -65,7 +65,7 @@ Generations generations(int count, int landmarks, const Errors& errors, const Dr
       DriftScore& one = scores[k];
       const Surface& surface = surfaces[k % surfaces.size()];
       Eigen::Matrix<double, 6, 3> J;
-      for (int i = 0; i < 18; ++i) J(i % 6, i / 6) = normal(generator) * (i % 6 < 3 ? shift_weight : turn_weight);
+      for (int i = 0; i < 18; ++i) J(i % 6, i / 6) = normal(generator) * (i % 6 < 3 ? kShiftWeight : kTurnWeight);
       // Half of the landmarks see the translation alone, half the rotation alone.
       const bool moved = normal(generator) > 0.0;
       if (moved) J.bottomRows<3>().setZero();
@@ -202,17 +202,17 @@ struct Ratios {
   double rotation() const { return squared[1] / stated[1]; }
 };
 
-constexpr int settled_frame = 100, lag = 50, ways_end = 290;
+constexpr int kSettledFrame = 100, kLag = 50, kWaysEnd = 290;
 
 Ratios againstTruth(double px_a_frame, TrackMotion motion, bool robust) {
   Ratios ratios;
   for (std::uint64_t seed = 40; seed < 48; ++seed) {
     const Tracks tracks = drifting(px_a_frame, motion, seed);
     const OdometryChain chain = odometry(tracks, robust);
-    for (int i = settled_frame; i + lag < ways_end; i += 10) {
-      const PoseWithCovariance way = *chain.between(i + 1, i + lag + 1);
+    for (int i = kSettledFrame; i + kLag < kWaysEnd; i += 10) {
+      const PoseWithCovariance way = *chain.between(i + 1, i + kLag + 1);
       const auto at = [&](int frame) { return tracks.frames[static_cast<std::size_t>(frame)].T_world_camera; };
-      ratios.add(urban_nav_core::boxMinus(at(i).inverse() * at(i + lag), way.pose), way.covariance);
+      ratios.add(urban_nav_core::boxMinus(at(i).inverse() * at(i + kLag), way.pose), way.covariance);
     }
   }
   return ratios;
@@ -241,8 +241,8 @@ TEST(DriftSandwich, AgreesWithTheJackknifeOfOddAndEvenLandmarks) {
       const Tracks tracks = drifting(0.03, TrackMotion::Turning, seed);
       const OdometryChain odd = odometry(tracks, robust, [](const Observation& o) { return o.landmark % 2 == 1; });
       const OdometryChain even = odometry(tracks, robust, [](const Observation& o) { return o.landmark % 2 == 0; });
-      for (int i = settled_frame; i + lag < ways_end; i += 10) {
-        const PoseWithCovariance a = *odd.between(i + 1, i + lag + 1), b = *even.between(i + 1, i + lag + 1);
+      for (int i = kSettledFrame; i + kLag < kWaysEnd; i += 10) {
+        const PoseWithCovariance a = *odd.between(i + 1, i + kLag + 1), b = *even.between(i + 1, i + kLag + 1);
         ratios.add(urban_nav_core::boxMinus(a.pose, b.pose), a.covariance + b.covariance);
       }
     }

@@ -15,13 +15,13 @@ namespace {
 using urban_nav_core::testing::simulateTracks;
 using urban_nav_core::testing::TrackOptions;
 
-constexpr double sigma_px = 0.1;
+constexpr double kSigmaPx = 0.1;
 
 TrackOptions sixtyFeatures(std::uint64_t seed) {
   TrackOptions options;
   options.frames = 60;
   options.features = 60;
-  options.sigma_px = sigma_px;
+  options.sigma_px = kSigmaPx;
   options.seed = seed;
   return options;
 }
@@ -35,7 +35,7 @@ std::map<LandmarkId, int> driftingLandmarks(const urban_nav_core::testing::Track
   for (std::size_t i = 0; i < tracks.frames.size(); ++i) {
     run.beginStep();
     for (Observation observation : run.observations(i)) {
-      observation.sigma_px = sigma_px;
+      observation.sigma_px = kSigmaPx;
       const double by = slide(observation.landmark, i);
       observation.z += Eigen::Vector3d(by, 0.0, by);
       run.window.observe(observation);
@@ -51,7 +51,7 @@ TEST(DriftingLandmarks, FindsWhatSlidesSlowly) {
   const auto tracks = simulateTracks(sixtyFeatures(3));
   const auto sliding = [](LandmarkId landmark) { return landmark < 30 && landmark % 10 == 0; };
   const auto found = driftingLandmarks(tracks, [&](LandmarkId landmark, std::size_t i) {
-    return sliding(landmark) ? 0.8 * sigma_px * static_cast<double>(i) : 0.0;
+    return sliding(landmark) ? 0.8 * kSigmaPx * static_cast<double>(i) : 0.0;
   });
   for (const LandmarkId landmark : {0, 10, 20}) {
     std::size_t seen = 0;

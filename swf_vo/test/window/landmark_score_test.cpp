@@ -19,7 +19,7 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-constexpr double step_rad = 0.02;  // view change of a step
+constexpr double kStepRad = 0.02;  // view change of a step
 
 const urban_nav_core::StereoCamera& camera() {
   static const urban_nav_core::StereoCamera camera{{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.12};
@@ -42,7 +42,7 @@ struct SeenLandmark {
       PoseBlock pose;
       pose.frame = i;
       // What is true is the estimate moved by the drift.
-      pose.estimate = boxPlus(truth, -(step_rad * i) * gauge::ofPose(truth, Vector3d::Zero()) * drift);
+      pose.estimate = boxPlus(truth, -(kStepRad * i) * gauge::ofPose(truth, Vector3d::Zero()) * drift);
       pose.linearised = pose.estimate;
       poses.push_back(pose);
       Anchor anchor;
@@ -64,7 +64,7 @@ struct SeenLandmark {
     LandmarkScore score;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       State state;
-      score.add(landmark, poses[i], from + step_rad * static_cast<double>(i),
+      score.add(landmark, poses[i], from + kStepRad * static_cast<double>(i),
                 cost.sensorTerm(state, landmark, landmark.seen[i], poses[i]));
     }
     return score;
@@ -88,7 +88,7 @@ TEST(LandmarkScore, LandmarksTogetherFindTheDrift) {
     const DriftScore one = seen.score().evaluate(Pose());
     information += one.information;
     score += one.score;
-    EXPECT_NEAR(one.life, 9 * step_rad, 1e-12);
+    EXPECT_NEAR(one.life, 9 * kStepRad, 1e-12);
   }
   const Vector6d found = information.ldlt().solve(score);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
@@ -97,12 +97,12 @@ TEST(LandmarkScore, LandmarksTogetherFindTheDrift) {
 TEST(LandmarkScore, LandmarksTogetherFindDriftAndOffset) {
   Vector6d drift;
   drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;
-  constexpr double offset_px = 0.02;
+  constexpr double kOffsetPx = 0.02;
   Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
   Eigen::Matrix<double, 7, 1> score = Eigen::Matrix<double, 7, 1>::Zero();
   for (const Vector3d& point : somePoints()) {
     SeenLandmark seen(point, 10, drift);
-    for (Measurement& measurement : seen.landmark.seen) measurement.z += offset_px * Vector3d::UnitZ();
+    for (Measurement& measurement : seen.landmark.seen) measurement.z += kOffsetPx * Vector3d::UnitZ();
     const DriftScore one = seen.score().evaluate(Pose());
     information.topLeftCorner<6, 6>() += one.information;
     information.topRightCorner<6, 1>() += one.offset_cross;
@@ -113,7 +113,7 @@ TEST(LandmarkScore, LandmarksTogetherFindDriftAndOffset) {
   }
   const Eigen::Matrix<double, 7, 1> found = information.ldlt().solve(score);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
-  EXPECT_NEAR(found[6], -offset_px, 0.05 * offset_px) << "a larger offset moves what the right image shows to the left";
+  EXPECT_NEAR(found[6], -kOffsetPx, 0.05 * kOffsetPx) << "a larger offset moves what the right image shows to the left";
 }
 
 TEST(LandmarkScore, IsSaidAboutTheCamera) {
@@ -149,14 +149,14 @@ TEST(LandmarkScore, WhereTheLandmarkIsTakenToBeDoesNotMatter) {
 
 TEST(LandmarkScore, HasTheVarianceOfItsInformation) {
   Matrix6d squares = Matrix6d::Zero(), information = Matrix6d::Zero();
-  constexpr int runs = 2000;
-  for (unsigned seed = 0; seed < runs; ++seed) {
+  constexpr int kRuns = 2000;
+  for (unsigned seed = 0; seed < kRuns; ++seed) {
     const DriftScore one = SeenLandmark({0.5, 0.2, 4.0}, 10, Vector6d::Zero(), 0.3, seed).score().evaluate(Pose());
-    squares += one.score * one.score.transpose() / runs;
+    squares += one.score * one.score.transpose() / kRuns;
     information = one.information;
   }
   // Of one variance the estimate is off by the root of 2 / runs.
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares(i, i) / information(i, i), 1.0, 5.0 * std::sqrt(2.0 / runs)) << i;
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares(i, i) / information(i, i), 1.0, 5.0 * std::sqrt(2.0 / kRuns)) << i;
 }
 
 TEST(LandmarkScore, AgeingLosesInformationAndIsAdditive) {
@@ -182,7 +182,7 @@ TEST(LandmarkScore, AgedBetweenMeasurementsItKnowsLess) {
   for (std::size_t i = 0; i < seen.poses.size(); ++i) {
     State state;
     aged.age(1e-6 * Eigen::Matrix2d::Identity());
-    aged.add(seen.landmark, seen.poses[i], step_rad * static_cast<double>(i),
+    aged.add(seen.landmark, seen.poses[i], kStepRad * static_cast<double>(i),
              cost.sensorTerm(state, seen.landmark, seen.landmark.seen[i], seen.poses[i]));
   }
   const Matrix6d lost = seen.score().evaluate(Pose()).information - aged.evaluate(Pose()).information;

@@ -14,7 +14,7 @@ namespace {
 
 using urban_nav_core::Vector6d;
 
-constexpr double caution_alone = 400.0;
+constexpr double kCautionAlone = 400.0;
 
 struct OffsetErrors {
   double each = 1.0;      ///< of a measurement, standard deviations
@@ -60,15 +60,15 @@ OffsetSandwich learnOffset(int landmarks, const OffsetErrors& errors) {
 }
 
 TEST(OffsetSandwich, IsAsTakenBeforeLandmarksHaveDied) {
-  EXPECT_EQ(OffsetSandwich().ratio(caution_alone), caution_alone);
+  EXPECT_EQ(OffsetSandwich().ratio(kCautionAlone), kCautionAlone);
 }
 
 TEST(OffsetSandwich, GoesToOneWhereTheModelIsRight) {
   const OffsetSandwich sandwich = learnOffset(4000, {});
   // Forty places, whose landmarks count together: the weight of what is taken is 4 to 40.
-  EXPECT_LT(sandwich.ratio(caution_alone), 4.0);
+  EXPECT_LT(sandwich.ratio(kCautionAlone), 4.0);
   EXPECT_NEAR(sandwich.ratio(1.0), 1.0, 0.3);
-  EXPECT_GT(learnOffset(30, {}).ratio(caution_alone), sandwich.ratio(caution_alone));
+  EXPECT_GT(learnOffset(30, {}).ratio(kCautionAlone), sandwich.ratio(kCautionAlone));
 }
 
 TEST(OffsetSandwich, FollowsTheVarianceOfErrors) {

@@ -33,14 +33,14 @@ Vector6d poseTangent(double x, double y, double z, double a, double b, double c)
 }
 
 // Far from the anchor as well: half a metre and 40 deg.
-const Vector6d offsets[] = {Vector6d::Zero(), poseTangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02),
-                            poseTangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
-const Vector3d thetas[] = {{0.1, -0.2, 0.3}, {-0.3, 0.1, 0.01}, {0.2, 0.2, 0.0}, {0.0, 0.1, -0.02}, {0.1, 0.0, 0.5}};
+const Vector6d kOffsets[] = {Vector6d::Zero(), poseTangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02),
+                             poseTangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
+const Vector3d kThetas[] = {{0.1, -0.2, 0.3}, {-0.3, 0.1, 0.01}, {0.2, 0.2, 0.0}, {0.0, 0.1, -0.02}, {0.1, 0.0, 0.5}};
 
 TEST(SensorModel, JacobiansAreThoseOfThePrediction) {
   const ModelScene scene;
-  for (const Vector6d& offset : offsets)
-    for (const Vector3d& theta : thetas) {
+  for (const Vector6d& offset : kOffsets)
+    for (const Vector3d& theta : kThetas) {
       const Pose pose = boxPlus(scene.T_odom_anchor, offset);
       SensorModel::Linearised at;
       ASSERT_TRUE(scene.model.linearise(scene.anchor, theta, PoseMatrices(pose), at));
@@ -68,7 +68,7 @@ TEST(SensorModel, AgreesWithTheCameraAndWithItsOwnInverse) {
   ASSERT_TRUE(scene.model.predict(scene.anchor, theta, PoseMatrices(scene.T_odom_anchor), again));
   EXPECT_LT((again - z).norm(), 1e-10);
   const Eigen::Vector4d point = scene.anchor.homogeneous(theta);
-  const Pose elsewhere = boxPlus(scene.T_odom_anchor, offsets[1]);
+  const Pose elsewhere = boxPlus(scene.T_odom_anchor, kOffsets[1]);
   const auto expected = scene.camera.project(elsewhere.inverse() * Vector3d(point.head<3>() / point.w()));
   ASSERT_TRUE(expected && scene.model.predict(scene.anchor, theta, PoseMatrices(elsewhere), again));
   EXPECT_LT((again - *expected).norm(), 1e-10);
@@ -77,7 +77,7 @@ TEST(SensorModel, AgreesWithTheCameraAndWithItsOwnInverse) {
 TEST(SensorModel, MovingEverythingTogetherChangesNothing) {
   const ModelScene scene;
   const Vector3d theta(0.1, -0.2, 0.3);
-  const Pose pose = boxPlus(scene.T_odom_anchor, offsets[2]);
+  const Pose pose = boxPlus(scene.T_odom_anchor, kOffsets[2]);
   SensorModel::Linearised at;
   ASSERT_TRUE(scene.model.linearise(scene.anchor, theta, PoseMatrices(pose), at));
   const Eigen::Vector4d h = scene.anchor.homogeneous(theta);

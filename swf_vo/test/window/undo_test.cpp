@@ -12,9 +12,9 @@ namespace {
 
 using urban_nav_core::Matrix6d;
 
-constexpr std::size_t touched_frame = 14, change_frame = 18, last_frame = 24;
-constexpr std::size_t slides_from = 10, first_undone = 12;  // from there on every frame of six can be gone back to
-constexpr double px_a_frame = 0.4;
+constexpr std::size_t kTouchedFrame = 14, kChangeFrame = 18, kLastFrame = 24;
+constexpr std::size_t kSlidesFrom = 10, kFirstUndone = 12;  // from there on every frame of six can be gone back to
+constexpr double kPxAFrame = 0.4;
 
 urban_nav_core::testing::Tracks someTracks() {
   urban_nav_core::testing::TrackOptions motion;
@@ -34,7 +34,7 @@ WindowOptions sixPoses() {
 }
 
 // A landmark, another than `but`, that was seen before and after the touched frame.
-LandmarkId victim(const urban_nav_core::testing::Tracks& tracks, std::size_t touched = touched_frame,
+LandmarkId victim(const urban_nav_core::testing::Tracks& tracks, std::size_t touched = kTouchedFrame,
                   LandmarkId but = -1) {
   for (const auto& sighting : tracks.frames[touched].sightings) {
     int seen = 0;
@@ -46,7 +46,7 @@ LandmarkId victim(const urban_nav_core::testing::Tracks& tracks, std::size_t tou
 }
 
 void expectSame(const Window& a, const Window& b, double tolerance) {
-  for (std::size_t i = last_frame - 5; i <= last_frame; ++i) {
+  for (std::size_t i = kLastFrame - 5; i <= kLastFrame; ++i) {
     const FrameId frame = static_cast<FrameId>(i);
     ASSERT_TRUE(a.hasPose(frame) && b.hasPose(frame));
     EXPECT_TRUE(urban_nav_core::isApprox(a.pose(frame), b.pose(frame), tolerance)) << i;
@@ -60,12 +60,12 @@ TEST(Undo, WithdrawnMeasurementLeavesNoTrace) {
   const LandmarkId landmark = victim(tracks);
   ASSERT_GE(landmark, 0);
   const auto without = [&](const Observation& o) {
-    return o.landmark != landmark || o.frame != static_cast<FrameId>(touched_frame);
+    return o.landmark != landmark || o.frame != static_cast<FrameId>(kTouchedFrame);
   };
   TrackRunner had(tracks, sixPoses()), never(tracks, sixPoses()), always(tracks, sixPoses());
-  for (std::size_t i = 0; i <= last_frame; ++i) {
-    if (i == change_frame) {
-      EXPECT_TRUE(had.window.withdraw(landmark, static_cast<FrameId>(touched_frame)));
+  for (std::size_t i = 0; i <= kLastFrame; ++i) {
+    if (i == kChangeFrame) {
+      EXPECT_TRUE(had.window.withdraw(landmark, static_cast<FrameId>(kTouchedFrame)));
     }
     had.step();
     never.step(without);
@@ -81,13 +81,13 @@ TEST(Undo, LateMeasurementCountsAsIfInTime) {
   const LandmarkId landmark = victim(tracks);
   Observation late;
   const auto without = [&](const Observation& o) {
-    if (o.landmark != landmark || o.frame != static_cast<FrameId>(touched_frame)) return true;
+    if (o.landmark != landmark || o.frame != static_cast<FrameId>(kTouchedFrame)) return true;
     late = o;
     return false;
   };
   TrackRunner had(tracks, sixPoses()), always(tracks, sixPoses());
-  for (std::size_t i = 0; i <= last_frame; ++i) {
-    if (i == change_frame) {
+  for (std::size_t i = 0; i <= kLastFrame; ++i) {
+    if (i == kChangeFrame) {
       EXPECT_TRUE(had.window.observe(late));
     }
     had.step(without);
@@ -101,13 +101,13 @@ TEST(Undo, ALandmarkTakenBackInTheMiddleOfAStepIsGone) {
   const LandmarkId landmark = victim(tracks);
   TrackRunner had(tracks, sixPoses()), never(tracks, sixPoses());
   // As far back as the window reaches: what was marginalised earlier stays.
-  const FrameId oldest = static_cast<FrameId>(touched_frame + 3) - 5;
+  const FrameId oldest = static_cast<FrameId>(kTouchedFrame + 3) - 5;
   const auto before = [&](const Observation& o) { return o.landmark != landmark || o.frame < oldest; };
-  for (std::size_t i = 0; i <= last_frame; ++i) {
+  for (std::size_t i = 0; i <= kLastFrame; ++i) {
     had.beginStep();
     for (const Observation& observation : had.observations(i))
-      if (i <= touched_frame + 3 || observation.landmark != landmark) had.window.observe(observation);
-    if (i == touched_frame + 3) had.window.withdrawAll(landmark);
+      if (i <= kTouchedFrame + 3 || observation.landmark != landmark) had.window.observe(observation);
+    if (i == kTouchedFrame + 3) had.window.withdrawAll(landmark);
     had.endStep();
     never.step(before);
   }
@@ -126,7 +126,7 @@ class Sliding {
 
   void step(const Wanted& wanted) {
     observe(wanted);
-    if (run_.at() < first_undone) return;
+    if (run_.at() < kFirstUndone) return;
     for (const LandmarkId landmark : run_.window.driftingLandmarks()) {
       given_up[landmark] = run_.at();
       run_.window.withdrawAll(landmark);
@@ -153,8 +153,8 @@ class Sliding {
     run_.beginStep();
     for (Observation observation : run_.observations(next_)) {
       observation.sigma_px = sigma_px_;
-      const double by = observation.landmark == slides_ && next_ > slides_from
-                            ? px_a_frame * static_cast<double>(next_ - slides_from)
+      const double by = observation.landmark == slides_ && next_ > kSlidesFrom
+                            ? kPxAFrame * static_cast<double>(next_ - kSlidesFrom)
                             : 0.0;
       observation.z += Eigen::Vector3d(by, 0.0, by);
       if (given_up.count(observation.landmark) == 0 && wanted(observation)) run_.window.observe(observation);
@@ -183,9 +183,9 @@ TEST(Undo, StrayLeavesNoTraceInTheWindow) {
   const auto tracks = manyTracks();
   const LandmarkId stray = victim(tracks);
   Sliding had(tracks, stray), never(tracks, stray);
-  for (std::size_t i = 0; i <= last_frame; ++i) had.step(everything);
+  for (std::size_t i = 0; i <= kLastFrame; ++i) had.step(everything);
   ASSERT_EQ(had.given_up.count(stray), 1U);
-  for (std::size_t i = 0; i <= last_frame; ++i) never.stepWithout(had.given_up, everything);
+  for (std::size_t i = 0; i <= kLastFrame; ++i) never.stepWithout(had.given_up, everything);
   expectSame(had.window(), never.window(), 1e-9);
 }
 
@@ -194,7 +194,7 @@ TEST(Undo, WithdrawnAndLateMeasurementsCountRightAroundAStray) {
   const auto tracks = manyTracks();
   const LandmarkId stray = victim(tracks);
   Sliding always(tracks, stray);
-  for (std::size_t i = 0; i <= last_frame; ++i) always.step(everything);
+  for (std::size_t i = 0; i <= kLastFrame; ++i) always.step(everything);
   ASSERT_EQ(always.given_up.count(stray), 1U);
   const std::size_t given_up = always.given_up[stray], touched = given_up - 2, change = given_up + 2;
   const LandmarkId landmark = victim(tracks, touched, stray);
@@ -207,7 +207,7 @@ TEST(Undo, WithdrawnAndLateMeasurementsCountRightAroundAStray) {
     return false;
   };
   Sliding withdrawn(tracks, stray), inserted(tracks, stray), never(tracks, stray);
-  for (std::size_t i = 0; i <= last_frame; ++i) {
+  for (std::size_t i = 0; i <= kLastFrame; ++i) {
     if (i == change) {
       EXPECT_TRUE(withdrawn.window().withdraw(landmark, static_cast<FrameId>(touched)));
       EXPECT_TRUE(inserted.window().observe(late));

@@ -88,12 +88,12 @@ TEST(Window, IsConsistent) {
   // Eight runs in place of the bench's fifty: a wide band (99.99 % of the mean of eight chi-squares of six).
   double now = 0.0, relative = 0.0;
   int steps = 0;
-  constexpr int runs = 8;
-  for (int seed = 0; seed < runs; ++seed) {
+  constexpr int kRuns = 8;
+  for (int seed = 0; seed < kRuns; ++seed) {
     const auto tracks = simulateTracks(makeTracks(100, 0.5, static_cast<std::uint64_t>(50 + seed)));
     TrackRunner run(tracks, WindowOptions());
     while (!run.done()) run.step();
-    now += poseNees(run.truth(), run.window.newest()) / runs;
+    now += poseNees(run.truth(), run.window.newest()) / kRuns;
     for (std::size_t i = 1; i < run.settled.size(); ++i, ++steps)
       relative += poseNees(tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera,
                            {run.settled[i].T_previous_camera, run.settled[i].relative_covariance});

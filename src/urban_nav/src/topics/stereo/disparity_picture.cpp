@@ -30,8 +30,8 @@ cv::Mat coloured(const DisparityImage& image, const cv::Mat& levels, int colour_
 }
 
 void mark(cv::Mat& picture, int u, int v, const cv::Vec3b& colour) {
-  for (int y = v; y < std::min(v + NearScene::step, picture.rows); ++y)
-    for (int x = u; x < std::min(u + NearScene::step, picture.cols); ++x) {
+  for (int y = v; y < std::min(v + NearScene::kStep, picture.rows); ++y)
+    for (int x = u; x < std::min(u + NearScene::kStep, picture.cols); ++x) {
       cv::Vec3b& pixel = picture.at<cv::Vec3b>(y, x);
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((pixel[c] + colour[c]) / 2);
     }
