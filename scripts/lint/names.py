@@ -13,7 +13,7 @@ CONSTANT = r"k(?:[A-Z][A-Za-z0-9]*|[A-Z]_[a-z]\w*)$"
 # What a template or a library asks for by this name: members of nodelet classes (docs/adding_a_stage.md), of traits.
 GIVEN_NAMES = {"name", "topic", "value"}
 # Packages whose constants are still to be renamed; a package that is done is removed here.
-UNRENAMED = {"pose_graph", "swf_vo", "dense_stereo", "src/urban_nav"}
+UNRENAMED = {"src/urban_nav"}
 
 
 def of_functions(tree):

@@ -9,7 +9,7 @@
 namespace dense_stereo {
 
 /// Returns the local matcher of Newman et al. 2009, section 6.2, if `Parameters::method` names it ("paper"); null,
-/// which stands for the stage's own matcher, otherwise. For the constructors of DenseStereo and NearSceneEstimator.
+/// which means the stage's own matcher, otherwise. For the constructors of DenseStereo and NearSceneEstimator.
 std::unique_ptr<Matcher> makePaperMatcher(const Parameters& parameters);
 
 }  // namespace dense_stereo

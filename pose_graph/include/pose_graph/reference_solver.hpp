@@ -20,7 +20,7 @@ struct ReferenceSolver {
 using ReferenceSolvers = std::vector<ReferenceSolver>;
 
 /// Returns the solver that a value of pose_graph.solver selects; null: the stage's own, gauss_newton. Throws UserError,
-/// with the allowed values, if it is none of `references` either.
+/// with the allowed values, if `references` has no such name either.
 const ReferenceSolver* findReference(const std::string& name, const ReferenceSolvers& references);
 
 }  // namespace pose_graph

@@ -15,7 +15,7 @@ namespace {
 using urban_nav_core::expSo3;
 using urban_nav_core::Pose;
 
-urban_nav_core::StampNs stampOf(int pose) { return 1'225'800'000'000'000'000 + pose * 100'000'000LL; }
+urban_nav_core::StampNs poseStamp(int pose) { return 1'225'800'000'000'000'000 + pose * 100'000'000LL; }
 
 /// A curve of steps of a metre.
 Pose curveStep() { return Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 0.15)), Eigen::Vector3d(1.0, 0.0, 0.0)); }
@@ -33,8 +33,8 @@ class NamedNodelet : public urban_nav_ros::testing::Listener {
   void drive(int from, int to) {
     for (int i = from; i < to; ++i) {
       urban_nav_core::RelativePose step;
-      step.from = stampOf(i);
-      step.to = stampOf(i + 1);
+      step.from = poseStamp(i);
+      step.to = poseStamp(i + 1);
       step.T_from_to = curveStep();
       step.covariance = 1e-4 * urban_nav_core::Matrix6d::Identity();
       step.source = "swf_vo";
@@ -43,12 +43,12 @@ class NamedNodelet : public urban_nav_ros::testing::Listener {
   }
   void sendOdometry(int pose) {
     nav_msgs::Odometry message;
-    message.header.stamp = urban_nav_ros::toRosTime(stampOf(pose));
+    message.header.stamp = urban_nav_ros::toRosTime(poseStamp(pose));
     message.pose.pose = urban_nav_ros::toPoseMessage(Pose());
     odometry_.publish(message);
   }
   /// Child of a transform whose parent is `map_frame`; empty: none came.
-  std::string childOf(const std::string& map_frame) const {
+  std::string findChild(const std::string& map_frame) const {
     for (const tf2_msgs::TFMessage& message : transforms)
       for (const auto& transform : message.transforms)
         if (transform.header.frame_id == map_frame) return transform.child_frame_id;
@@ -82,7 +82,7 @@ class RenamedNodelet : public NamedNodelet {
     for (int i = 0; i <= poses; ++i, T_first_body = T_first_body * curveStep()) {
       const Eigen::Vector3d up_camera = camera_.R().transpose() * T_first_body.R().transpose() * up;
       urban_nav_msgs::GroundPlane plane;
-      plane.header.stamp = urban_nav_ros::toRosTime(stampOf(i));
+      plane.header.stamp = urban_nav_ros::toRosTime(poseStamp(i));
       plane.header.frame_id = "body_camera";
       plane.up.x = up_camera.x();
       plane.up.y = up_camera.y();
@@ -99,7 +99,7 @@ class RenamedNodelet : public NamedNodelet {
 };
 
 /// Length of what a nodelet has of the drive; a step that it has not is no movement.
-double metresOf(const std::string& name) {
+double pathMetres(const std::string& name) {
   urban_nav_msgs::GetTrajectory call;
   EXPECT_TRUE(ros::service::call(name + "/pose_graph/get_trajectory", call));
   double metres = 0.0;
@@ -127,9 +127,9 @@ TEST(NodeletParameters, NameFramesAndSpaceThePath) {
   };
   EXPECT_TRUE(nodelet.until(isLevel)) << "by base_frame and the static tf of the camera";
   nodelet.sendOdometry(0);
-  EXPECT_TRUE(nodelet.until([&] { return nodelet.childOf("world") == "wheels"; }));
+  EXPECT_TRUE(nodelet.until([&] { return nodelet.findChild("world") == "wheels"; }));
   const auto isWhole = [&] {
-    return nodelet.paths.back().poses.back().header.stamp == urban_nav_ros::toRosTime(stampOf(kPoses));
+    return nodelet.paths.back().poses.back().header.stamp == urban_nav_ros::toRosTime(poseStamp(kPoses));
   };
   ASSERT_TRUE(!nodelet.paths.empty() && nodelet.until(isWhole));
   const nav_msgs::Path& path = nodelet.paths.back();
@@ -152,7 +152,7 @@ TEST(NodeletParameters, LeaveOutTransformsGroundAndPictures) {
   }
   EXPECT_EQ(nodelet.paths.size(), 1U) << "one an hour";
   EXPECT_EQ(ground.getNumSubscribers(), 0U);
-  EXPECT_EQ(nodelet.childOf("quiet_map"), "");
+  EXPECT_EQ(nodelet.findChild("quiet_map"), "");
 }
 
 TEST(NodeletParameters, LimitTheInputsThatWait) {
@@ -163,10 +163,10 @@ TEST(NodeletParameters, LimitTheInputsThatWait) {
   ASSERT_TRUE(few.call("reset"));
   all.drive(0, kSteps);
   few.drive(0, kSteps);
-  EXPECT_TRUE(all.until([&] { return metresOf("renamed") > kSteps - 0.5; }));
-  EXPECT_TRUE(few.until([&] { return metresOf("quiet") > 0.5; }));
+  EXPECT_TRUE(all.until([&] { return pathMetres("renamed") > kSteps - 0.5; }));
+  EXPECT_TRUE(few.until([&] { return pathMetres("quiet") > 0.5; }));
   ros::WallDuration(0.5).sleep();
-  EXPECT_LT(metresOf("quiet"), kSteps - 0.5) << "the oldest of more than two that wait are dropped";
+  EXPECT_LT(pathMetres("quiet"), kSteps - 0.5) << "the oldest of more than two that wait are dropped";
 }
 
 }  // namespace
