@@ -9,7 +9,7 @@ namespace {
 
 using urban_nav_core::Pose;
 
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kShakeDegree = M_PI / 180.0;
 
 struct Shaking {
   double step_deg;  ///< largest angle between two frames
@@ -24,7 +24,7 @@ TEST_P(Shaken, EndsWithinAPerCentOfThePath) {
   options.camera = roomCamera();
   options.rate = kRate;
   options.exposure = GetParam().exposure;
-  const double angle = GetParam().step_deg * kDegree * kRate / (2.0 * M_PI * kHz);
+  const double angle = GetParam().step_deg * kShakeDegree * kRate / (2.0 * M_PI * kHz);
   urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom(),
                                                      urban_nav_core::testing::shake({0.0, 0.0, 1.1}, 0.15, angle, kHz),
                                                      options);

@@ -13,7 +13,7 @@ constexpr double kFirst = 3.0;  // of the usual radius, while the motion is not 
 constexpr double kLeast = 8.0, kPerError = 3.0, kOffset = 4.0;
 constexpr double kSigmas = 2.0;
 // Share of the width: about as far as the nearest landmarks stand apart in the two images.
-constexpr double kWidest = 0.16;
+constexpr double kWidestSearch = 0.16;
 
 /// Returns a quantile; reorders the values, of which there is at least one.
 double takeQuantile(std::vector<double>& values, std::size_t percent) {
@@ -55,7 +55,7 @@ void SearchRadius::learn(std::vector<double>& errors) {
 
 double SearchRadius::anywhere() const { return std::max(kFirst * usual_, widest()); }
 
-double SearchRadius::widest() const { return kWidest * camera_.width; }
+double SearchRadius::widest() const { return kWidestSearch * camera_.width; }
 
 void SearchRadius::archive(urban_nav_core::Archive& archive) {
   archive(radius_);
