@@ -93,7 +93,7 @@ bool PoseEstimator::residual(const Item& item, const Pose& T_camera_odom, Eigen:
   return true;
 }
 
-Pose PoseEstimator::descend(Pose T, int steps, const std::array<int, sample_size>* only) const {
+Pose PoseEstimator::descend(Pose T, int steps, const std::array<int, kSampleSize>* only) const {
   const Pose anchor = T;
   for (int step = 0; step < steps; ++step) {
     Matrix6d H = Matrix6d::Zero();
