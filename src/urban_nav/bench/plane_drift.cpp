@@ -17,6 +17,7 @@
 
 #include "base/console.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
+#include "map/closure_rows.hpp"
 #include "support/laser_sessions.hpp"
 #include "topics/graph/plane_closures.hpp"
 #include "topics/loops/loops_run.hpp"
@@ -27,6 +28,8 @@
 
 namespace urban_nav::bench {
 
+using urban_nav_core::ClosureRow;
+using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
@@ -95,35 +98,34 @@ std::vector<std::pair<std::size_t, std::size_t>> findRevisits(const Trajectory& 
 
 ClosureRow makeCandidate(const Trajectory& truth, std::size_t a, std::size_t b) {
   ClosureRow row;
-  row.session_a = row.session_b = "drive";
-  row.stamp_a = truth[a].stamp;
-  row.stamp_b = truth[b].stamp;
+  row.a = {"drive", truth[a].stamp};
+  row.b = {"drive", truth[b].stamp};
   return row;
 }
 
-std::vector<ClosureRow> drawClosures(const Trajectory& truth, unsigned seed) {
+std::vector<MetricClosure> drawClosures(const Trajectory& truth, unsigned seed) {
   std::mt19937 random(seed + 1000);
   std::normal_distribution<double> normal(0.0, 1.0);
-  std::vector<ClosureRow> rows;
+  std::vector<MetricClosure> closures;
   for (const auto& [a, b] : findRevisits(truth)) {
     ClosureRow row = makeCandidate(truth, a, b);
-    row.kind = "stereo";
+    row.method = urban_nav_core::ClosureMethod::Stereo;
     Vector6d error = Vector6d::NullaryExpr([&](Eigen::Index) { return normal(random); });
     error.head<3>() *= kClosureM;
     error.tail<3>() *= kClosureRad;
     row.T_a_b = urban_nav_core::boxPlus(truth[a].pose.inverse() * truth[b].pose, error);
     row.sigma_m = kClosureM;
     row.sigma_rad = kClosureRad;
-    rows.push_back(row);
+    closures.push_back(toMetricClosure(row));
   }
-  return rows;
+  return closures;
 }
 
-std::vector<ClosureRow> measureClosures(const Trajectory& truth, const SessionOdometry& odometry, Store& store) {
-  std::vector<ClosureRow> rows;
-  for (const auto& [a, b] : findRevisits(truth)) rows.push_back(makeCandidate(truth, a, b));
+std::vector<MetricClosure> measureClosures(const Trajectory& truth, const SessionOdometry& odometry, Store& store) {
+  std::vector<MetricClosure> candidates;
+  for (const auto& [a, b] : findRevisits(truth)) candidates.push_back(toMetricClosure(makeCandidate(truth, a, b)));
   Console console;
-  return runLoops({}, {}, {}, {{"drive", kBenchSession, &odometry}}, store, std::move(rows), console).closures;
+  return runLoops({}, {}, {}, {{"drive", kBenchSession, &odometry}}, store, candidates, console).closures;
 }
 
 struct Figures {
@@ -191,7 +193,7 @@ double compare(const std::string& bag, unsigned trials, bool by_icp, urban_nav_c
       Figures sum;
       for (unsigned seed = 1; seed <= trials; ++seed) {
         const SessionOdometry odometry = makeOdometry(truth, seed);
-        std::vector<ClosureRow> closures;
+        std::vector<MetricClosure> closures;
         if (has_closures) closures = by_icp ? measureClosures(truth, odometry, store) : drawClosures(truth, seed);
         const GraphRun run =
             runGraph({}, {&odometry}, {"drive"}, closures, {}, {}, {}, has_planes ? find_planes : PlaneFinder());

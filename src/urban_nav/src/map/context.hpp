@@ -8,7 +8,7 @@
 
 #include "base/console.hpp"
 #include "evaluation/evaluation.hpp"
-#include "map/closures_file.hpp"
+#include "map/closure_rows.hpp"
 #include "map/map_options.hpp"
 #include "map/previous_sessions.hpp"
 #include "map/session_trajectory.hpp"
@@ -46,7 +46,9 @@ struct MapContext {
   PreviousSessions previous;       ///< of the store given by --store, if a stage uses them
   std::vector<std::string> names;  ///< over all sessions, as closures.csv names them
 
-  std::vector<ClosureRow> closures;             ///< candidates, then with transforms, then with verdicts
+  std::vector<urban_nav_core::MetricClosure> closures;  ///< candidates, then with transforms; those of previous runs
+                                                        ///< before them when the pose graph is relaxed
+  std::vector<ClosureAssessment> assessments;           ///< one for each closure; empty until the pose graph is relaxed
   std::vector<SessionTrajectory> trajectories;  ///< over all sessions; by stage vo, then by graph and localization
   bool relaxed = false;                         ///< the trajectories are those of the pose graph
   std::vector<urban_nav_core::Trajectory>

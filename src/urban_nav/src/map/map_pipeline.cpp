@@ -36,7 +36,9 @@ class MapRun {
         stages_(selectStages(all_stages_, options, console)),
         folder_(options.out) {
     if (!options.truth.empty()) urban_nav_input::readTrajectory(options.truth);  // reports a bad file before the work
-    if (!options.closures.empty()) context_.closures = readClosures(options.closures);
+    if (!options.closures.empty())
+      for (const urban_nav_core::ClosureRow& row : urban_nav_core::readClosures(options.closures))
+        context_.closures.push_back(toMetricClosure(row));
     for (urban_nav_input::InputSession& input : urban_nav_input::findSessions(options.inputs, options.source.topics)) {
       context_.sessions.emplace_back();
       context_.sessions.back().input = std::move(input);
@@ -85,8 +87,8 @@ class MapRun {
     }
     if (uses_previous) context_.previous = readPreviousSessions(*context_.store, own_ids);
     context_.names = urban_nav_input::sessionNames(inputs, context_.previous.names);
-    for (ClosureRow& row : context_.closures)
-      for (std::string* session : {&row.session_a, &row.session_b})
+    for (urban_nav_core::MetricClosure& closure : context_.closures)
+      for (std::string* session : {&closure.a.session, &closure.b.session})
         *session = urban_nav_input::sessionMeant(*session, context_.names, context_.previous.names.size());
   }
 

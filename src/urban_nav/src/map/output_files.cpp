@@ -64,7 +64,8 @@ void writeOutputFiles(const OutputFolder& folder, const MapContext& context,
                       const std::vector<StageResult>& results) {
   const std::vector<const SessionOdometry*> runs = context.runs();
   std::vector<OutputFile> files = trajectoryFiles(runs, context.trajectories);
-  if (usesClosures(selected)) files.push_back({kClosuresFile, [&] { return printClosures(context.closures); }});
+  if (usesClosures(selected))
+    files.push_back({kClosuresFile, [&] { return printClosureRows(context.closures, context.assessments); }});
   for (const StageResult& result : results) files.insert(files.end(), result.files.begin(), result.files.end());
   std::set<std::string> written;
   for (const StageResult& result : results) written.insert(result.written_files.begin(), result.written_files.end());

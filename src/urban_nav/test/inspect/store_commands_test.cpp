@@ -8,7 +8,6 @@
 #include "inspect/inspect.hpp"
 #include "inspect/store_export.hpp"
 #include "inspect/store_info.hpp"
-#include "map/closures_file.hpp"
 #include "map/map_command.hpp"
 #include "topics/places/place_export.hpp"
 #include "urban_nav_core/io/csv.hpp"
@@ -160,7 +159,7 @@ TEST_F(StoreCommands, MapRelaxesTheSessionsOfAStoreWithNewOnes) {
          {"trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "graph.g2o"})
       EXPECT_TRUE(readFile(out + "/" + name) == readFile(file(std::string("at_once/") + name)))
           << name << ", " << closures;
-    EXPECT_EQ(parseClosures(readFile(out + "/closures.csv"), "").size(), 6U);
+    EXPECT_EQ(urban_nav_core::parseClosures(readFile(out + "/closures.csv"), "").size(), 6U);
     EXPECT_TRUE(readFile(out + "/trajectory_2.tum").empty()) << "it joined";
     const auto joined = [&](const std::string& db) { return lookIntoStore(db).joined; };
     EXPECT_EQ(joined(out + "/session.db").size(), joined(file("at_once/session.db")).size());

@@ -88,7 +88,7 @@ TEST_F(OutputFilesTest, AMapHasItsSessionsInOneFile) {
   EXPECT_FALSE(has("trajectory_2.tum"));
   const std::string text = readFile(out.file("trajectory.tum"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
-  EXPECT_EQ(readFile(out.file("closures.csv")), printClosures({}));
+  EXPECT_EQ(readFile(out.file("closures.csv")), urban_nav_core::printClosures({}));
 }
 
 TEST_F(OutputFilesTest, PreviousSessionsStayAsTheyAre) {

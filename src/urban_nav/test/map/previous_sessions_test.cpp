@@ -89,13 +89,14 @@ TEST_F(PreviousSessionsTest, BringsClosuresBetweenTheSessionsThatStay) {
   EXPECT_TRUE(holdsClosures(store));
   const PreviousSessions earlier = readPreviousSessions(store, {"w"});
   EXPECT_EQ(earlier.names, (std::vector<std::string>{"monday", "monday_2"}));
-  const std::vector<PreviousClosure> closures = closuresBetween(store, earlier.ids, earlier.names);
-  ASSERT_EQ(closures.size(), 2U);
-  EXPECT_EQ(closures[0].closure.b.session, "monday_2");
-  EXPECT_EQ(closures[0].row.kind, "stereo");
-  EXPECT_EQ(closures[0].row.T_a_b->t().x(), 2.0);
-  EXPECT_EQ(closures[0].closure.measured.information, 4.0 * Matrix6d::Identity());
-  EXPECT_EQ(closures[1].closure.kind, EdgeKind::Asserted);
+  const PreviousClosures closures = closuresBetween(store, earlier.ids, earlier.names);
+  ASSERT_EQ(closures.offered.size(), 2U);
+  ASSERT_EQ(closures.in_graph.size(), 2U);
+  EXPECT_EQ(closures.in_graph[0].b.session, "monday_2");
+  EXPECT_EQ(closures.offered[0].method, urban_nav_core::ClosureMethod::Stereo);
+  EXPECT_EQ(closures.offered[0].measured.T_a_b.t().x(), 2.0);
+  EXPECT_EQ(closures.in_graph[0].measured.information, 4.0 * Matrix6d::Identity());
+  EXPECT_EQ(closures.in_graph[1].kind, EdgeKind::Asserted);
   EXPECT_EQ(readPreviousSessions(store, {}).names.back(), "w") << "a session without a name is called by its id";
   EXPECT_TRUE(readPreviousSessions(store, {"m", "t", "w"}).runs.empty());
 }

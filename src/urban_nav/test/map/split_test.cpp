@@ -12,7 +12,6 @@
 #include "convert/convert.hpp"
 #include "inspect/store_info.hpp"
 #include "map/bag_checkpoint.hpp"
-#include "map/closures_file.hpp"
 #include "map/map_pipeline.hpp"
 #include "map/store_keys.hpp"
 #include "support/child.hpp"
@@ -177,11 +176,10 @@ TEST_F(Split, KeepsTheWordsOfKeyframesBesidePanoramas) {
 // What ties moments of the first bag together still does when the others have come.
 TEST_F(Split, KeepsTheClosuresOfTheBagsBefore) {
   const urban_nav_core::Trajectory way = urban_nav_core::readTum(whole() + "/trajectory.tum");
-  ClosureRow row;
-  row.session_a = row.session_b = "part_0";
-  row.stamp_a = way[2].stamp;
-  row.stamp_b = way[12].stamp;
-  row.kind = "stereo";
+  urban_nav_core::ClosureRow row;
+  row.a = {"part_0", way[2].stamp};
+  row.b = {"part_0", way[12].stamp};
+  row.method = urban_nav_core::ClosureMethod::Stereo;
   row.T_a_b = way[2].pose.inverse() * way[12].pose *
               urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), {0.002, 0.001, 0.0});
   urban_nav_input::testing::writeFile(folder.file("closures.csv"), printClosures({row}));

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "map/closures_file.hpp"
+#include "map/closure_rows.hpp"
 #include "map/session_odometry.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/closure.hpp"
 
 namespace urban_nav::testing {
 
@@ -45,19 +46,17 @@ inline SessionOdometry driveCircle(int first, int last, double turn) {
   return run;
 }
 
-/// A stereo closure between two moments of the circle, exact.
-inline ClosureRow closure(const std::string& a, double step_a, const std::string& b, double step_b) {
-  ClosureRow row;
-  row.session_a = a;
-  row.session_b = b;
-  row.stamp_a = static_cast<urban_nav_core::StampNs>(step_a * static_cast<double>(kStep));
-  row.stamp_b = static_cast<urban_nav_core::StampNs>(step_b * static_cast<double>(kStep));
-  row.kind = "stereo";
+/// A stereo closure between two moments of the circle, exact, as from a file that states 0.02 m and 0.005 rad.
+inline urban_nav_core::MetricClosure closure(const std::string& a, double step_a, const std::string& b, double step_b) {
+  urban_nav_core::ClosureRow row;
+  row.a = {a, static_cast<urban_nav_core::StampNs>(step_a * static_cast<double>(kStep))};
+  row.b = {b, static_cast<urban_nav_core::StampNs>(step_b * static_cast<double>(kStep))};
+  row.method = urban_nav_core::ClosureMethod::Stereo;
   row.T_a_b = truthAt(step_a).inverse() * truthAt(step_b);
   row.sigma_m = 0.02;
   row.sigma_rad = 0.005;
   row.where = a + std::to_string(step_a) + b + std::to_string(step_b);
-  return row;
+  return toMetricClosure(row);
 }
 
 }  // namespace urban_nav::testing

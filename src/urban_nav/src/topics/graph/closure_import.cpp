@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -15,14 +15,14 @@ namespace urban_nav {
 
 using pose_graph::Closure;
 using pose_graph::EdgeKind;
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Matrix6d;
+using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 
 namespace {
-
-// Of a transform whose file has no sigma: five times what loop closure by stereo reaches (paper, section 4.1).
-constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
 
 /// Identity of a closure in the graph, and its numbers; sessions by their index.
 using Place = std::tuple<std::size_t, StampNs, std::size_t, StampNs, EdgeKind>;
@@ -41,22 +41,19 @@ class ClosureImport {
     for (const SessionOdometry* one : runs) odometry_.push_back(odometryChain(*one));
   }
 
-  /// Adds a row of the file. `row`: its index in GraphRun::closures. Returns why it cannot be used; empty if it can.
-  std::string add(std::size_t row, const ClosureRow& offered) {
-    for (const std::string* name : {&offered.session_a, &offered.session_b})
+  /// Takes a closure of this run. `index`: in GraphRun::closures. Returns why it cannot be used; empty if it can.
+  std::string add(std::size_t index, const MetricClosure& offered) {
+    for (const std::string* name : {&offered.a.session, &offered.b.session})
       if (findPlace(*name) == sessions_.size())
         return "no session \"" + *name + "\" in this map; there are: " + listing();
-    if (offered.measured && offered.measured->verdict != urban_nav_core::ClosureVerdict::Accepted)
-      return offered.measured->reason_name + ": " + offered.measured->sentence;
-    if (!offered.T_a_b) return "no transform in the file, and no stage that finds one";
+    if (offered.verdict == ClosureVerdict::Rejected) return offered.reason_name + ": " + offered.sentence;
+    if (offered.verdict == ClosureVerdict::Waiting) return "no transform in the file, and no stage that finds one";
     Closure closure;
     Matrix6d from_offered = Matrix6d::Identity();  // d_offered = from_offered d, of perturbations of T_a_b
-    Pose T_a_b = *offered.T_a_b;
+    Pose T_a_b = offered.measured.T_a_b;
     for (const bool at_a : {true, false}) {
-      const std::string& name = at_a ? offered.session_a : offered.session_b;
-      const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
-      const std::size_t session = findPlace(name);
-      const auto moment = odometry_[session].nearestFrame(stamp);
+      const auto& [name, stamp] = at_a ? offered.a : offered.b;
+      const auto moment = odometry_[findPlace(name)].nearestFrame(stamp);
       if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
       (at_a ? closure.a : closure.b) = {name, moment->frame};
       const Pose& T_frame_pose = moment->T_frame_pose;
@@ -65,53 +62,41 @@ class ClosureImport {
                            : Matrix6d(2.0 * Matrix6d::Identity() - compose(T_a_b, T_pose_frame).J1);
       T_a_b = at_a ? T_frame_pose * T_a_b : T_a_b * T_pose_frame;
     }
-    closure.kind = offered.kind == "icp" ? EdgeKind::Icp : EdgeKind::Stereo;
-    closure.source = offered.where;
-    closure.measured.T_a_b = T_a_b;
-    if (offered.measured) {
-      closure.odometry_gate = offered.measured->odometry_gate;
-      closure.measured.information =
-          urban_nav_core::transformInformation(from_offered, offered.measured->measured.information);
-    } else {
-      const double sigma_m = offered.sigma_m > 0.0 ? offered.sigma_m : kUnknownSigmaM;
-      const double sigma_rad = offered.sigma_rad > 0.0 ? offered.sigma_rad : kUnknownSigmaRad;
-      closure.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
-      closure.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
-    }
-    offers_.push_back({toKey(closure), row, closure});
+    closure.kind = offered.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
+    closure.source = offered.source;
+    closure.odometry_gate = offered.odometry_gate;
+    closure.measured = {T_a_b, offered.measured.information};
+    // What a file states is the same on all axes: it holds at the nearest frames as it is.
+    if (isMeasured(offered))
+      closure.measured.information = urban_nav_core::transformInformation(from_offered, offered.measured.information);
+    closures_.emplace(toKey(closure), std::make_pair(index, closure));
     return {};
   }
 
-  /// Adds previous closures but those that a row of the file replaces. Asserted ones are of another kind and stay.
-  void add(const std::vector<PreviousClosure>& previous) {
-    std::set<Place> in_file;
-    for (const Offer& offer : offers_) in_file.insert(offer.key.first);
-    for (std::size_t row = 0; row < previous.size(); ++row) {
-      const Key key = toKey(previous[row].closure);
-      if (in_file.count(key.first) == 0) offers_.push_back({key, row, previous[row].closure});
+  /// Takes previous closures, except those that a closure of this run replaces. Asserted ones are of another kind and
+  /// stay.
+  void add(const std::vector<Closure>& previous) {
+    std::set<Place> replaced;
+    for (const auto& [key, closure] : closures_) replaced.insert(key.first);
+    for (std::size_t i = 0; i < previous.size(); ++i) {
+      const Key key = toKey(previous[i]);
+      if (replaced.count(key.first) == 0) closures_.emplace(key, std::make_pair(i, previous[i]));
     }
   }
 
-  ClosureIds addTo(GraphRun& run) {
-    std::stable_sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) { return a.key < b.key; });
-    ClosureIds ids;
-    for (const Offer& offer : offers_) {
+  void addTo(GraphRun& run) const {
+    for (const auto& [key, indexed] : closures_) {
+      const auto& [index, closure] = indexed;
       try {
-        ids[offer.row] = run.graph.addClosure(offer.closure);
+        run.assessments[index].id = run.graph.addClosure(closure);
       } catch (const urban_nav_core::UserError& error) {
-        run.closures[offer.row].reason = error.what();
+        run.assessments[index].reason = error.what();
       }
     }
-    return ids;
   }
 
  private:
   using Key = std::pair<Place, Numbers>;
-  struct Offer {
-    Key key;
-    std::size_t row;
-    Closure closure;
-  };
 
   std::size_t findPlace(const std::string& session) const {
     return static_cast<std::size_t>(std::find(sessions_.begin(), sessions_.end(), session) - sessions_.begin());
@@ -129,25 +114,21 @@ class ClosureImport {
 
   const std::vector<std::string>& sessions_;
   std::vector<urban_nav_core::OdometryChain> odometry_;
-  std::vector<Offer> offers_;
+  std::multimap<Key, std::pair<std::size_t, Closure>> closures_;  // with their indices; equal keys in order of addition
 };
 
 }  // namespace
 
-ClosureIds importClosures(GraphRun& run, const std::vector<const SessionOdometry*>& runs,
-                          const std::vector<ClosureRow>& rows, const std::vector<PreviousClosure>& previous) {
+void importClosures(GraphRun& run, const std::vector<const SessionOdometry*>& runs,
+                    const std::vector<MetricClosure>& closures, const PreviousClosures& previous) {
+  run.closures = previous.offered;
+  run.closures.insert(run.closures.end(), closures.begin(), closures.end());
+  run.assessments.resize(run.closures.size());
   ClosureImport import(run.sessions, runs);
-  for (const PreviousClosure& each : previous) {
-    run.closures.push_back(each.row);
-    run.closures.back().reason.clear();
-  }
-  for (const ClosureRow& row : rows) {
-    const std::string reason = import.add(run.closures.size(), row);
-    run.closures.push_back(row);
-    run.closures.back().reason = reason;
-  }
-  import.add(previous);
-  return import.addTo(run);
+  for (std::size_t i = previous.offered.size(); i < run.closures.size(); ++i)
+    run.assessments[i].reason = import.add(i, run.closures[i]);
+  import.add(previous.in_graph);
+  import.addTo(run);
 }
 
 }  // namespace urban_nav

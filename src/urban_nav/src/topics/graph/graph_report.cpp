@@ -107,10 +107,10 @@ PageTable closuresTable(const GraphRun& graph) {
                             "; all are in closures.csv."
                       : "All of them, in seconds from the first pose of their session; by stamps in closures.csv."};
   for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
-    const ClosureRow& row = graph.closures[i];
-    table.rows.push_back({timeText(graph, row.session_a, row.stamp_a), timeText(graph, row.session_b, row.stamp_b),
-                          urban_nav_core::formatNumber(row.probability, 3), row.kind, row.verdict,
-                          urban_nav_core::formatNumber(row.weight, 3), row.reason});
+    const urban_nav_core::ClosureRow row = toRow(graph.closures[i], graph.assessments[i]);
+    table.rows.push_back({timeText(graph, row.a.session, row.a.stamp), timeText(graph, row.b.session, row.b.stamp),
+                          urban_nav_core::formatNumber(row.probability, 3), toString(row.method),
+                          toString(row.verdict.value()), urban_nav_core::formatNumber(row.weight, 3), row.reason});
   }
   return table;
 }

@@ -22,6 +22,7 @@ using pose_graph::PoseGraph;
 using pose_graph::Track;
 using urban_nav_core::Matrix3d;
 using urban_nav_core::Matrix6d;
+using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::Trajectory;
 
@@ -41,28 +42,28 @@ double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-void judge(GraphRun& run, const ClosureIds& ids, std::size_t known) {
+/// Copies the verdicts of the graph. `previous`: how many of the closures are of previous runs; those that a new one
+/// replaces are removed.
+void assessClosures(GraphRun& run, std::size_t previous) {
+  std::vector<MetricClosure> closures;
+  std::vector<ClosureAssessment> assessments;
   std::size_t refused = 0;
   std::string first;
-  std::vector<ClosureRow> judged;
   for (std::size_t i = 0; i < run.closures.size(); ++i) {
-    ClosureRow row = run.closures[i];
-    const auto id = ids.find(i);
-    if (id != ids.end()) {
-      const Closure& closure = run.graph.closures().at(id->second);
-      row.verdict = closure.verdict == urban_nav_core::ClosureVerdict::Accepted ? "accepted" : "rejected";
-      row.reason = closure.reason;
-      row.weight = closure.weight;
-      row.id = id->second;
-    } else if (row.reason.empty() && i < known) {
-      continue;  // the file has it too
-    } else {
-      row.verdict = "rejected";
-      if (refused++ == 0) first = row.reason;
+    ClosureAssessment& assessment = run.assessments[i];
+    if (assessment.id != 0) {
+      const Closure& closure = run.graph.closures().at(assessment.id);
+      assessment = {assessment.id, closure.verdict, closure.reason, closure.weight};
+    } else if (assessment.reason.empty() && i < previous) {
+      continue;
+    } else if (refused++ == 0) {
+      first = assessment.reason;
     }
-    judged.push_back(row);
+    closures.push_back(std::move(run.closures[i]));
+    assessments.push_back(std::move(assessment));
   }
-  run.closures = std::move(judged);
+  run.closures = std::move(closures);
+  run.assessments = std::move(assessments);
   if (refused > 0) run.warnings.push_back(std::to_string(refused) + " closures could not be used; the first: " + first);
 }
 
@@ -277,8 +278,8 @@ Trajectory GraphRun::trajectory(std::size_t session) const {
 }
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const SessionOdometry*>& runs,
-                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds, const SessionFixes& fixes,
+                  const std::vector<std::string>& sessions, const std::vector<MetricClosure>& closures,
+                  const PreviousClosures& previous, const SessionGrounds& grounds, const SessionFixes& fixes,
                   const PlaneFinder& find_planes) {
   GraphRun made;
   made.graph = PoseGraph(parameters);
@@ -289,12 +290,12 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
       made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
     if (s < fixes.size()) made.graph.putFixes(sessions[s], fixes[s]);
   }
-  const ClosureIds ids = importClosures(made, runs, closures, known);
+  importClosures(made, runs, closures, previous);
   const auto begin = Clock::now();
   made.relaxed = relax(made.graph, runs);
   made.ms = millisecondsSince(begin);
   if (find_planes) relaxWithPlanes(made, runs, find_planes);
-  judge(made, ids, known.size());
+  assessClosures(made, previous.offered.size());
   addFixWarnings(parameters, made);
   const auto relaxed = Clock::now();
   made.covariances = computeCovariances(made.graph, sessions);

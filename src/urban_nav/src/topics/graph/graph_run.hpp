@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "map/closures_file.hpp"
+#include "map/closure_rows.hpp"
 #include "map/previous_sessions.hpp"
 #include "map/session_odometry.hpp"
 #include "pose_graph/ground_level.hpp"
@@ -35,8 +35,9 @@ struct PlaneUse {
 struct GraphRun {
   pose_graph::PoseGraph graph{pose_graph::Parameters()};
   pose_graph::Relaxed relaxed;
-  std::vector<std::string> sessions;  ///< names, in the order of the runs
-  std::vector<ClosureRow> closures;   ///< with their verdicts: those of previous runs, then those of the file
+  std::vector<std::string> sessions;                    ///< names, in the order of the runs
+  std::vector<urban_nav_core::MetricClosure> closures;  ///< those of previous runs, then those of this one
+  std::vector<ClosureAssessment> assessments;           ///< one for each of `closures`
   std::vector<std::string> warnings;
   double ms = 0.0, ms_covariances = 0.0;  ///< durations of the relaxation and of the marginal covariances
   PlaneUse planes;
@@ -75,13 +76,13 @@ struct PlaneClosures {
 using PlaneFinder = std::function<PlaneClosures(const GraphRun&)>;
 
 /// Relaxes the smoothed odometry chains of the runs with the closures. A closure between two frames is carried to the
-/// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A closure in
-/// the file replaces a previous one between the same poses and of the same kind. The poses do not depend on the order
-/// of the closures, bit by bit. `find_planes`: called with the relaxed graph; what it finds takes part in a second
+/// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A new
+/// closure replaces a previous one between the same poses and of the same kind. The poses do not depend on the order of
+/// the closures, bit by bit. `find_planes`: called with the relaxed graph; what it finds takes part in a second
 /// relaxation, and, if that has moved the poses, what it finds then in a third one, in place of the first.
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const SessionOdometry*>& runs,
-                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& previous = {}, const SessionGrounds& grounds = {},
+                  const std::vector<std::string>& sessions, const std::vector<urban_nav_core::MetricClosure>& closures,
+                  const PreviousClosures& previous = {}, const SessionGrounds& grounds = {},
                   const SessionFixes& fixes = {}, const PlaneFinder& find_planes = {});
 
 }  // namespace urban_nav

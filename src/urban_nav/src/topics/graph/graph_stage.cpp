@@ -25,7 +25,7 @@ namespace {
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
 /// Returns the closures that the store holds between previous sessions and continued ones.
-std::vector<PreviousClosure> previousClosures(const MapContext& context) {
+PreviousClosures previousClosures(const MapContext& context) {
   std::vector<urban_nav_store::SessionId> ids = context.previous.ids;
   std::vector<std::string> names = context.previous.names;
   for (std::size_t i = 0; i < context.sessions.size(); ++i) {
@@ -36,20 +36,26 @@ std::vector<PreviousClosure> previousClosures(const MapContext& context) {
   return closuresBetween(*context.store, ids, names);
 }
 
-/// Takes the constraints from planes out of closures of earlier runs.
-std::vector<pose_graph::Closure> takePlanes(std::vector<PreviousClosure>& closures) {
-  const auto is_other = [](const PreviousClosure& each) { return each.closure.kind != pose_graph::EdgeKind::Plane; };
-  const auto first = std::stable_partition(closures.begin(), closures.end(), is_other);
+/// Removes the constraints from planes from closures of earlier runs, and returns them.
+std::vector<pose_graph::Closure> takePlanes(PreviousClosures& closures) {
+  PreviousClosures others;
   std::vector<pose_graph::Closure> planes;
-  for (auto each = first; each != closures.end(); ++each) planes.push_back(each->closure);
-  closures.erase(first, closures.end());
+  for (std::size_t i = 0; i < closures.in_graph.size(); ++i) {
+    if (closures.in_graph[i].kind == pose_graph::EdgeKind::Plane) {
+      planes.push_back(closures.in_graph[i]);
+    } else {
+      others.offered.push_back(closures.offered[i]);
+      others.in_graph.push_back(closures.in_graph[i]);
+    }
+  }
+  closures = std::move(others);
   return planes;
 }
 
-/// Returns whether the stage loops has accepted a closure by ICP.
-bool anyMeasuredByIcp(const std::vector<ClosureRow>& closures) {
-  return std::any_of(closures.begin(), closures.end(),
-                     [](const ClosureRow& row) { return row.measured && row.kind == "icp"; });
+/// Returns whether the stage loops has accepted the closure, by ICP.
+bool isMeasuredByIcp(const urban_nav_core::MetricClosure& closure) {
+  return isMeasured(closure) && closure.verdict == urban_nav_core::ClosureVerdict::Accepted &&
+         closure.method == urban_nav_core::ClosureMethod::Icp;
 }
 
 /// Returns the normals of the ground that dense stereo has stored, over all sessions.
@@ -91,20 +97,20 @@ class GraphStage final : public Stage {
   Messages run(MapContext& context) override {
     const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
     const std::vector<const SessionOdometry*> runs = context.runs();
-    std::vector<PreviousClosure> previous = previousClosures(context);
+    PreviousClosures previous = previousClosures(context);
     const PlaneFinder find_planes = makePlaneFinder(context, takePlanes(previous));
     const SessionGrounds grounds = readGrounds(context);
     const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
     run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes);
-    if (anyMeasuredByIcp(context.closures)) {
-      std::vector<ClosureRow> by_stereo;
-      for (const ClosureRow& row : context.closures)
-        if (row.kind != "icp") by_stereo.push_back(row);
+    std::vector<urban_nav_core::MetricClosure> by_stereo = context.closures;
+    by_stereo.erase(std::remove_if(by_stereo.begin(), by_stereo.end(), isMeasuredByIcp), by_stereo.end());
+    if (by_stereo.size() < context.closures.size()) {
       const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous, grounds, fixes);
       for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
     }
     exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
     context.closures = run_->closures;
+    context.assessments = run_->assessments;
     context.trajectories = relaxedTrajectories(*run_, std::move(context.trajectories));
     context.relaxed = true;
     return {describeRun(), run_->warnings};

@@ -9,6 +9,7 @@
 namespace urban_nav {
 
 using pose_graph::Track;
+using urban_nav_core::MetricClosure;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
 using urban_nav_store::SessionId;
@@ -21,28 +22,29 @@ SessionId toId(const GraphRun& run, const std::vector<SessionId>& ids, const std
   return ids[static_cast<std::size_t>(place - run.sessions.begin())];
 }
 
-/// The row as it was offered, and what its stage says of it.
-std::string toEvidence(const ClosureRow& row) {
-  return printClosures({row}) + (row.measured ? row.measured->evidence : "");
+/// Returns the row of closures.csv, and the evidence of the stage that measured the closure.
+std::string toEvidence(const MetricClosure& closure, const ClosureAssessment& assessment) {
+  return printClosureRows({closure}, {assessment}) + closure.evidence;
 }
 
 /// A candidate without a transform: there for its evidence alone.
-void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const ClosureRow& row) {
+void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const MetricClosure& closure,
+                 const ClosureAssessment& assessment) {
   const auto known = [&](const std::string& name) {
     return std::find(run.sessions.begin(), run.sessions.end(), name) != run.sessions.end();
   };
-  if (!known(row.session_a) || !known(row.session_b)) return;
+  if (!known(closure.a.session) || !known(closure.b.session)) return;
   Edge edge;
-  edge.a = {toId(run, ids, row.session_a), row.stamp_a};
-  edge.b = {toId(run, ids, row.session_b), row.stamp_b};
-  edge.kind = row.measured->method == urban_nav_core::ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
-  edge.source = row.where;
-  edge.measured.T_a_b = row.measured->measured.T_a_b;
+  edge.a = {toId(run, ids, closure.a.session), closure.a.stamp};
+  edge.b = {toId(run, ids, closure.b.session), closure.b.stamp};
+  edge.kind = closure.method == urban_nav_core::ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
+  edge.source = closure.source;
+  edge.measured.T_a_b = closure.measured.T_a_b;
   edge.weight = 0.0;
   edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
-  edge.reason = row.reason;
+  edge.reason = assessment.reason;
   store.graph().put(edge);
-  store.graph().putEvidence(edge, toEvidence(row));
+  store.graph().putEvidence(edge, toEvidence(closure, assessment));
 }
 
 void removeClosures(Store& store, const SessionId& id) {
@@ -67,18 +69,19 @@ void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun
     store.sessions().put(urban_nav_store::Anchor{ids[s], ids[run.findMap(s)], revision,
                                                  trajectory.front().pose * track->odom.front().inverse()});
   }
-  std::map<pose_graph::ClosureId, const ClosureRow*> rows;
-  for (const ClosureRow& row : run.closures) rows[row.id] = &row;
+  std::map<pose_graph::ClosureId, std::size_t> index_of;
+  for (std::size_t i = 0; i < run.closures.size(); ++i) index_of[run.assessments[i].id] = i;
   for (const auto& [id, closure] : run.graph.closures()) {
     Edge edge = pose_graph::toEdge(closure);
     edge.a.session = toId(run, ids, closure.a.session);
     edge.b.session = toId(run, ids, closure.b.session);
     store.graph().put(edge);
-    const auto row = rows.find(id);
-    if (row != rows.end()) store.graph().putEvidence(edge, toEvidence(*row->second));
+    if (const auto index = index_of.find(id); index != index_of.end())
+      store.graph().putEvidence(edge, toEvidence(run.closures[index->second], run.assessments[index->second]));
   }
-  for (const ClosureRow& row : run.closures)
-    if (row.id == 0 && row.measured) putRejected(store, run, ids, row);
+  for (std::size_t i = 0; i < run.closures.size(); ++i)
+    if (run.assessments[i].id == 0 && isMeasured(run.closures[i]))
+      putRejected(store, run, ids, run.closures[i], run.assessments[i]);
 }
 
 }  // namespace urban_nav

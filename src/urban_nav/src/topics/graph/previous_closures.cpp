@@ -6,10 +6,14 @@
 #include <string_view>
 
 #include "loop_metric/evidence.hpp"
+#include "map/closure_rows.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureRow;
+using urban_nav_core::MetricClosure;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
 using urban_nav_store::SessionId;
@@ -17,36 +21,45 @@ using urban_nav_store::Store;
 
 namespace {
 
-std::string_view offerIn(std::string_view evidence) {
-  return evidence.substr(0, evidence.size() - loop_metric::evidenceIn(evidence).size());
+/// Returns the row of closures.csv that the evidence of an edge begins with; nullopt: it begins with something else.
+std::optional<ClosureRow> findRow(Store& store, const Edge& edge) {
+  const std::optional<std::string> evidence = store.graph().evidence(edge);
+  if (!evidence) return std::nullopt;
+  const std::string_view text = *evidence;
+  const std::string_view row = text.substr(0, text.size() - loop_metric::evidenceIn(text).size());
+  try {
+    const std::vector<ClosureRow> rows = urban_nav_core::parseClosures(row, edge.source);
+    if (rows.size() == 1) return rows.front();
+  } catch (const urban_nav_core::UserError&) {
+    // the evidence of another stage
+  }
+  return std::nullopt;
 }
 
-/// As it was offered where the store knows; else as it stands in the graph.
-ClosureRow toRow(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
+ClosureMethod toMethod(EdgeKind kind) {
+  if (kind == EdgeKind::Stereo) return ClosureMethod::Stereo;
+  return kind == EdgeKind::Icp ? ClosureMethod::Icp : ClosureMethod::None;
+}
+
+/// Returns the closure as it was offered where the store has that, otherwise as it is in the graph.
+MetricClosure toOffered(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
   ClosureRow row;
-  row.stamp_a = edge.a.stamp;
-  row.stamp_b = edge.b.stamp;
-  row.kind = edge.kind == EdgeKind::Stereo ? "stereo" : edge.kind == EdgeKind::Icp ? "icp" : "none";
+  row.a.stamp = edge.a.stamp;
+  row.b.stamp = edge.b.stamp;
+  row.method = toMethod(edge.kind);
   row.T_a_b = edge.measured.T_a_b;
-  if (const std::optional<std::string> evidence = store.graph().evidence(edge)) {
-    try {
-      const std::vector<ClosureRow> rows = parseClosures(offerIn(*evidence), edge.source);
-      if (rows.size() == 1) row = rows.front();
-    } catch (const urban_nav_core::UserError&) {
-      // evidence of another stage, in its own words
-    }
-  }
-  row.session_a = closure.a.session;
-  row.session_b = closure.b.session;
+  if (const std::optional<ClosureRow> stored = findRow(store, edge)) row = *stored;
+  row.a.session = closure.a.session;
+  row.b.session = closure.b.session;
   row.where = edge.source;
-  return row;
+  return toMetricClosure(row);
 }
 
 }  // namespace
 
-std::vector<PreviousClosure> closuresBetween(Store& store, const std::vector<SessionId>& ids,
-                                             const std::vector<std::string>& names) {
-  std::vector<PreviousClosure> made;
+PreviousClosures closuresBetween(Store& store, const std::vector<SessionId>& ids,
+                                 const std::vector<std::string>& names) {
+  PreviousClosures made;
   std::map<SessionId, std::string> name;
   for (std::size_t i = 0; i < ids.size(); ++i) name[ids[i]] = names[i];
   for (const SessionId& id : ids) {
@@ -63,7 +76,8 @@ std::vector<PreviousClosure> closuresBetween(Store& store, const std::vector<Ses
       closure.kind = edge.kind;
       closure.source = edge.source;
       closure.measured = edge.measured;
-      made.push_back({toRow(store, edge, closure), closure});
+      made.offered.push_back(toOffered(store, edge, closure));
+      made.in_graph.push_back(closure);
     }
   }
   return made;

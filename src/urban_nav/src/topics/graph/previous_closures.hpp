@@ -4,21 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "map/closures_file.hpp"
 #include "pose_graph/pose_graph.hpp"
+#include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 
-/// A closure between stored sessions that an earlier run has added to the graph.
-struct PreviousClosure {
-  ClosureRow row;
-  pose_graph::Closure closure;  ///< sessions by their names
+/// Closures between stored sessions that earlier runs have added to the graph; sessions by their names.
+struct PreviousClosures {
+  std::vector<urban_nav_core::MetricClosure> offered;  ///< as the earlier run has read or measured each; no evidence
+  std::vector<pose_graph::Closure> in_graph;           ///< one for each of `offered`
 };
 
 /// Returns the closures that the store holds between these sessions, asserted ones included. `names`: one per id.
-std::vector<PreviousClosure> closuresBetween(urban_nav_store::Store& store,
-                                             const std::vector<urban_nav_store::SessionId>& ids,
-                                             const std::vector<std::string>& names);
+PreviousClosures closuresBetween(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids,
+                                 const std::vector<std::string>& names);
 
 }  // namespace urban_nav

@@ -13,7 +13,7 @@ namespace urban_nav {
 std::unique_ptr<Stage> makeKeyframesStage();
 
 /// Returns the stage loops: measures the transforms of closure candidates (loop_metric). Replaces MapContext::closures
-/// by rows with transform or reason.
+/// by closures with transform or reason.
 std::unique_ptr<Stage> makeLoopsStage();
 
 /// Returns the command icp: aligns two clouds.

@@ -88,9 +88,9 @@ Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
     lines.kind = Series::Kind::Faint;
     dots.name = *kind == '\0' ? "rejected" : kind;
     dots.colour = lines.colour = colour;
-    for (const ClosureRow& row : run.closures) {
-      if (!row.measured || classify(*row.measured) != kind) continue;
-      const auto a = findPlace(trajectories, row.measured->a), b = findPlace(trajectories, row.measured->b);
+    for (const MetricClosure& closure : run.closures) {
+      if (classify(closure) != kind) continue;
+      const auto a = findPlace(trajectories, closure.a), b = findPlace(trajectories, closure.b);
       if (!a || !b) continue;
       dots.points.push_back(*b);
       if (*kind == '\0') continue;  // a line to a place that is another one says nothing
@@ -105,11 +105,8 @@ Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
 
 PageTable kindsTable(const LoopsRun& run) {
   std::map<std::string, int> counts;
-  for (const ClosureRow& row : run.closures)
-    if (row.measured)
-      ++counts[row.verdict == "accepted" || row.measured->verdict == ClosureVerdict::Accepted
-                   ? classify(*row.measured)
-                   : "rejected: " + row.measured->reason_name];
+  for (const MetricClosure& closure : run.closures)
+    ++counts[closure.verdict == ClosureVerdict::Accepted ? classify(closure) : "rejected: " + closure.reason_name];
   PageTable table{"What became of the candidates",
                   {"", "candidates"},
                   {},

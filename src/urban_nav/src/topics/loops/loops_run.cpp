@@ -73,11 +73,9 @@ class Workers {
   std::vector<std::unique_ptr<Worker>> idle_;  // guarded by mutex_
 };
 
-MetricClosure measure(Worker& worker, const ClosureRow& row) {
-  const urban_nav_core::TopologicalClosure candidate{
-      {row.session_a, row.stamp_a}, {row.session_b, row.stamp_b}, row.probability};
+MetricClosure measure(Worker& worker, const MetricClosure& candidate) {
   try {
-    return worker.stage.measure(candidate, worker.place_data).metric;
+    return worker.stage.measure({candidate.a, candidate.b, candidate.probability}, worker.place_data).metric;
   } catch (const urban_nav_core::DataError& error) {  // what the store holds of this place is damaged
     MetricClosure closure;
     closure.a = candidate.a;
@@ -91,41 +89,30 @@ MetricClosure measure(Worker& worker, const ClosureRow& row) {
   }
 }
 
-void put(ClosureRow& row, MetricClosure closure) {
-  const bool accepted = closure.verdict == ClosureVerdict::Accepted;
-  row.kind = toString(accepted ? closure.method : ClosureMethod::None);
-  row.verdict = toString(closure.verdict);
-  row.reason = accepted ? "" : closure.reason_name + ": " + closure.sentence;
-  row.T_a_b.reset();
-  if (accepted) row.T_a_b = closure.measured.T_a_b;
-  row.where = closure.source;
-  row.measured = std::move(closure);
-}
-
-/// Returns at most `most` rows, evenly spread.
-std::vector<const ClosureRow*> spread(const std::vector<const ClosureRow*>& rows, std::size_t most) {
-  if (rows.size() <= most) return rows;
-  std::vector<const ClosureRow*> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(rows[i * (rows.size() - 1) / (most - 1)]);
+/// Returns at most `most` closures, evenly spread.
+std::vector<const MetricClosure*> spread(const std::vector<const MetricClosure*>& closures, std::size_t most) {
+  if (closures.size() <= most) return closures;
+  std::vector<const MetricClosure*> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(closures[i * (closures.size() - 1) / (most - 1)]);
   return some;
 }
 
-/// Returns pictures of closures accepted by stereo, by ICP, and of rejected ones, each group spread over its rows.
-std::vector<PagePicture> makePictures(const std::vector<ClosureRow>& rows, const StoredPlaceData& place_data,
+/// Returns pictures of closures accepted by stereo, by ICP, and of rejected ones, each group spread over its closures.
+std::vector<PagePicture> makePictures(const std::vector<MetricClosure>& closures, const StoredPlaceData& place_data,
                                       double way) {
-  std::vector<const ClosureRow*> stereo, icp, rejected;
-  for (const ClosureRow& row : rows) {
-    if (!row.measured || !hasPicture(*row.measured)) continue;
-    if (row.measured->verdict != ClosureVerdict::Accepted) rejected.push_back(&row);
-    else (row.measured->method == ClosureMethod::Icp ? icp : stereo).push_back(&row);
+  std::vector<const MetricClosure*> stereo, icp, rejected;
+  for (const MetricClosure& closure : closures) {
+    if (!hasPicture(closure)) continue;
+    if (closure.verdict != ClosureVerdict::Accepted) rejected.push_back(&closure);
+    else (closure.method == ClosureMethod::Icp ? icp : stereo).push_back(&closure);
   }
   std::vector<PagePicture> pictures;
   for (const auto& some :
        {spread(stereo, kStereoPictures), spread(icp, kIcpPictures), spread(rejected, kRejectedPictures)})
-    for (const ClosureRow* row : some)
-      if (auto picture = toPicture(*row->measured, place_data, way)) {
-        picture->caption = (row->measured->verdict == ClosureVerdict::Accepted ? "Accepted: " : "Rejected: ") +
-                           row->measured->sentence;
+    for (const MetricClosure* closure : some)
+      if (auto picture = toPicture(*closure, place_data, way)) {
+        picture->caption =
+            (closure->verdict == ClosureVerdict::Accepted ? "Accepted: " : "Rejected: ") + closure->sentence;
         pictures.push_back(std::move(*picture));
       }
   return pictures;
@@ -134,50 +121,48 @@ std::vector<PagePicture> makePictures(const std::vector<ClosureRow>& rows, const
 }  // namespace
 
 LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera,
-                  const std::vector<CandidateSession>& sessions, Store& store, std::vector<ClosureRow> rows,
-                  Console& console) {
+                  const std::vector<CandidateSession>& sessions, Store& store,
+                  const std::vector<MetricClosure>& candidates, Console& console) {
   LoopsRun run;
-  run.candidates = rows.size();
-  if (rows.empty()) return run;
+  run.candidates = candidates.size();
+  if (candidates.empty()) return run;
   const Clock::time_point begin = Clock::now();
   const StoredPlaceData::Sessions known =
       storedSessions(sessions, store, urban_nav_registration::MountedCamera{camera, T_base_camera});
   const auto make = [&] { return std::make_unique<Worker>(store.path(), known, parameters, camera, T_base_camera); };
   Workers workers;
-  std::vector<MetricClosure> closures(rows.size());
-  std::vector<double> ms(rows.size());
-  Progress progress(console, "loops", "closures", static_cast<std::int64_t>(rows.size()));
-  for (std::size_t first = 0; first < rows.size(); first += kRound) {
-    const std::size_t count = std::min(kRound, rows.size() - first);
+  std::vector<MetricClosure> closures(candidates.size());
+  std::vector<double> ms(candidates.size());
+  Progress progress(console, "loops", "closures", static_cast<std::int64_t>(candidates.size()));
+  for (std::size_t first = 0; first < candidates.size(); first += kRound) {
+    const std::size_t count = std::min(kRound, candidates.size() - first);
     urban_nav_core::forEach(count, 4, [&](std::size_t i) {
       std::unique_ptr<Worker> worker = workers.take(make);
       const Clock::time_point since = Clock::now();
-      closures[first + i] = measure(*worker, rows[first + i]);
+      closures[first + i] = measure(*worker, candidates[first + i]);
       ms[first + i] = closureMilliseconds(since);
       workers.give(std::move(worker));
     });
     progress.update(static_cast<std::int64_t>(first + count));
   }
-  progress.finish(static_cast<std::int64_t>(rows.size()));
+  progress.finish(static_cast<std::int64_t>(candidates.size()));
   {
     const std::unique_ptr<Worker> worker = workers.take(make);
     loop_metric::applyChecks(closures, worker->place_data, parameters);
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool accepted = closures[i].verdict == ClosureVerdict::Accepted;
-    if (!accepted) ++run.rejected;
-    else ++(closures[i].method == ClosureMethod::Stereo ? run.accepted_stereo : run.accepted_icp);
-    put(rows[i], std::move(closures[i]));
+  for (const MetricClosure& closure : closures) {
+    if (closure.verdict != ClosureVerdict::Accepted) ++run.rejected;
+    else ++(closure.method == ClosureMethod::Stereo ? run.accepted_stereo : run.accepted_icp);
   }
   run.ms_median = urban_nav_core::quantile(ms, 0.5);
   run.ms_p99 = urban_nav_core::quantile(ms, 0.99);
   run.ms = closureMilliseconds(begin);
-  run.pictures = makePictures(rows, workers.take(make)->place_data, parameters.registration.cloud_half_length);
+  run.pictures = makePictures(closures, workers.take(make)->place_data, parameters.registration.cloud_half_length);
   for (const CandidateSession& session : sessions)
     if (!known.at(session.name).has_camera)
       run.warnings.push_back("views of session " + session.name +
                              " are not matched: its camera is unknown, or it kept no views");
-  run.closures = std::move(rows);
+  run.closures = std::move(closures);
   return run;
 }
 

@@ -7,8 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "map/closures_file.hpp"
-#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/closures_csv.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -44,7 +43,7 @@ std::optional<double> probabilityIn(const std::string& evidence) {
   const std::string_view row =
       std::string_view(evidence).substr(0, evidence.size() - loop_metric::evidenceIn(evidence).size());
   try {
-    const std::vector<ClosureRow> rows = parseClosures(row, "evidence");
+    const std::vector<urban_nav_core::ClosureRow> rows = urban_nav_core::parseClosures(row, "evidence");
     if (rows.size() == 1) return rows.front().probability;
   } catch (const UserError&) {
     // in the words of another stage

@@ -2,13 +2,17 @@
 #include "base/console.hpp"
 #include "base/json.hpp"
 #include "base/parameters.hpp"
-#include "map/closures_file.hpp"
 #include "topics/places/place_query.hpp"
 #include "topics/places/places_actions.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/closures_csv.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace urban_nav {
+
+using urban_nav_core::ClosureRow;
+using urban_nav_core::ClosureVerdict;
+
 namespace {
 
 int runQuery(const Arguments& arguments, Console& console) {
@@ -24,13 +28,11 @@ int runQuery(const Arguments& arguments, Console& console) {
     if (!found.recognition.match) continue;
     const PlaceQueryRow& earlier = query.rows[found.matched_row];
     ClosureRow row;
-    row.session_a = query.sessions[earlier.session];
-    row.stamp_a = earlier.stamp;
-    row.session_b = query.sessions[found.session];
-    row.stamp_b = found.stamp;
+    row.a = {query.sessions[earlier.session], earlier.stamp};
+    row.b = {query.sessions[found.session], found.stamp};
     row.probability = found.recognition.probability;
     const bool is_accepted = row.probability > threshold;
-    row.verdict = is_accepted ? "accepted" : "rejected";
+    row.verdict = is_accepted ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
     row.reason = is_accepted ? "" : "probability below the threshold";
     accepted += is_accepted ? 1 : 0;
     rows.push_back(std::move(row));

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/store/place_rows.hpp"
@@ -30,17 +30,6 @@ TravelledDistance travelledDistance(const SessionOdometry& run, bool is_previous
       if (row.accepted) travelled.add(row.stamp, row.T_odom_base.t());
   }
   return travelled;
-}
-
-ClosureRow toClosureRow(const urban_nav_core::TopologicalClosure& closure) {
-  ClosureRow row;
-  row.session_a = closure.a.session;
-  row.stamp_a = closure.a.stamp;
-  row.session_b = closure.b.session;
-  row.stamp_b = closure.b.stamp;
-  row.probability = closure.probability;
-  row.where = "places";
-  return row;
 }
 
 /// One run over all sessions.
@@ -89,7 +78,7 @@ class PlaceRecognitionRun {
       result_.ms_inference.push_back(
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
       count(description);
-      for (const auto& closure : output.closures) result_.closures.push_back(toClosureRow(closure));
+      result_.closures.insert(result_.closures.end(), output.closures.begin(), output.closures.end());
       result_.beliefs[s].push_back(std::move(output.belief));
     });
   }
@@ -116,17 +105,12 @@ PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlace
   return PlaceRecognitionRun(parameters, model, context).run();
 }
 
-void addProposed(const std::vector<ClosureRow>& proposed, std::vector<ClosureRow>& closures) {
-  using Moment = std::pair<std::string, urban_nav_core::StampNs>;
-  std::set<std::pair<Moment, Moment>> known;
-  for (const ClosureRow& row : closures) {
-    const Moment a{row.session_a, row.stamp_a}, b{row.session_b, row.stamp_b};
-    known.insert(std::minmax(a, b));
-  }
-  for (const ClosureRow& row : proposed) {
-    const Moment a{row.session_a, row.stamp_a}, b{row.session_b, row.stamp_b};
-    if (known.insert(std::minmax(a, b)).second) closures.push_back(row);
-  }
+void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed,
+                 std::vector<urban_nav_core::MetricClosure>& closures) {
+  std::set<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>> known;
+  for (const urban_nav_core::MetricClosure& closure : closures) known.insert(std::minmax(closure.a, closure.b));
+  for (const urban_nav_core::TopologicalClosure& closure : proposed)
+    if (known.insert(std::minmax(closure.a, closure.b)).second) closures.push_back(toCandidate(closure, "places"));
 }
 
 }  // namespace urban_nav

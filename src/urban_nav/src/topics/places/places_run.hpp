@@ -8,7 +8,6 @@
 
 #include "base/page.hpp"
 #include "fabmap_node/fab_map.hpp"
-#include "map/closures_file.hpp"
 #include "map/context.hpp"
 #include "topics/places/place_writer.hpp"
 
@@ -17,7 +16,7 @@ namespace urban_nav {
 /// Place recognition over all sessions of a run.
 struct PlacesRun {
   std::vector<std::vector<fabmap_node::PlaceBelief>> beliefs;  ///< over all sessions; empty for previous ones
-  std::vector<ClosureRow> closures;                            ///< proposed
+  std::vector<urban_nav_core::TopologicalClosure> closures;    ///< proposed
   std::size_t observations = 0;                                ///< panoramas, or images without them
   std::size_t places = 0;                                      ///< in the map, those of previous sessions included
   bool has_panoramas = false;
@@ -32,8 +31,9 @@ struct PlacesRun {
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context);
 
-/// Appends the proposed closures to `closures` unless it has the pair already.
-void addProposed(const std::vector<ClosureRow>& proposed, std::vector<ClosureRow>& closures);
+/// Appends the proposed closures to `closures` as candidates, except pairs that it has already.
+void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed,
+                 std::vector<urban_nav_core::MetricClosure>& closures);
 
 /// Returns pairs of thumbnails of recognised places, the query below the place: a few of the surest, and a few of the
 /// least sure above the threshold for closures.

@@ -39,7 +39,8 @@ std::vector<Closure> planesOfRound() {
   return planes;
 }
 
-GraphRun relaxWith(const SessionOdometry& monday, const std::vector<ClosureRow>& rows, const PlaneFinder& find_planes) {
+GraphRun relaxWith(const SessionOdometry& monday, const std::vector<urban_nav_core::MetricClosure>& rows,
+                   const PlaneFinder& find_planes) {
   return runGraph({}, {&monday}, {"monday"}, rows, {}, {}, {}, find_planes);
 }
 
@@ -98,8 +99,8 @@ TEST(GraphPlanesTest, PlanesOfAnotherSurfaceAreRejected) {
 
 TEST(GraphPlanesTest, WithoutPlanesNothingChanges) {
   const SessionOdometry monday = driveCircle(0, 1200, 2e-4);
-  const std::vector<ClosureRow> rows = {closure("monday", 20.0, "monday", 620.0),
-                                        closure("monday", 60.0, "monday", 660.0)};
+  const std::vector<urban_nav_core::MetricClosure> rows = {closure("monday", 20.0, "monday", 620.0),
+                                                           closure("monday", 60.0, "monday", 660.0)};
   const GraphRun without = relaxWith(monday, rows, {});
   const GraphRun with = relaxWith(monday, rows, [](const GraphRun&) { return PlaneClosures(); });
   EXPECT_TRUE(with.planes.searched);

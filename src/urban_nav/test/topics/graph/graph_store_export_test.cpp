@@ -32,17 +32,16 @@ SessionOdometry straight(int frames) {
   return run;
 }
 
-ClosureRow sideways(int step) {
-  ClosureRow row;
-  row.session_a = "monday";
-  row.session_b = "tuesday";
-  row.stamp_a = row.stamp_b = 50'000'000LL * step;
-  row.kind = "stereo";
+urban_nav_core::MetricClosure sideways(int step) {
+  urban_nav_core::ClosureRow row;
+  row.a = {"monday", 50'000'000LL * step};
+  row.b = {"tuesday", 50'000'000LL * step};
+  row.method = urban_nav_core::ClosureMethod::Stereo;
   row.T_a_b = Pose(urban_nav_core::Quaterniond::Identity(), {0.0, 2.0, 0.0});
   row.sigma_m = 0.02;
   row.sigma_rad = 0.005;
   row.where = "closure " + std::to_string(step);
-  return row;
+  return toMetricClosure(row);
 }
 
 TEST(GraphRows, AStoreHoldsTheRelaxedMap) {

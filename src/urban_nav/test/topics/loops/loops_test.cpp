@@ -5,10 +5,10 @@
 
 #include "base/parameters.hpp"
 #include "commands/stages.hpp"
-#include "map/closures_file.hpp"
 #include "map/map_pipeline.hpp"
 #include "topics/loops/explanation.hpp"
 #include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/io/closures_csv.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
@@ -19,6 +19,8 @@
 namespace urban_nav {
 namespace {
 
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureRow;
 using urban_nav_core::Pose;
 using urban_nav_input::testing::readFile;
 using urban_nav_input::testing::TemporaryFolder;
@@ -52,7 +54,9 @@ class Loops : public ::testing::Test {
   }
   static void TearDownTestSuite() { shared_.reset(); }
   static std::string file(const std::string& name) { return shared_->file(name); }
-  static std::vector<ClosureRow> listRows(const std::string& out) { return readClosures(file(out) + "/closures.csv"); }
+  static std::vector<ClosureRow> listRows(const std::string& out) {
+    return urban_nav_core::readClosures(file(out) + "/closures.csv");
+  }
 
  private:
   static std::unique_ptr<TemporaryFolder> shared_;
@@ -68,7 +72,7 @@ TEST_F(Loops, FindsTheTransformsOfTrueClosuresAndJoinsTheSessions) {
                            urban_nav_core::Vector3d::Zero());
   for (const auto& [row, a, b] : {std::make_tuple(0, 4, 8), std::make_tuple(1, 10, 2)}) {
     const ClosureRow& closure = rows[static_cast<std::size_t>(row)];
-    EXPECT_EQ(closure.kind, "stereo");
+    EXPECT_EQ(closure.method, ClosureMethod::Stereo);
     ASSERT_TRUE(closure.T_a_b) << closure.reason;
     const Pose expected = T_base_camera * truth[static_cast<std::size_t>(a)].inverse() *
                           truth[static_cast<std::size_t>(b)] * T_base_camera.inverse();
@@ -100,7 +104,7 @@ TEST_F(Loops, LaterDaysFindTheViewsOfEarlierOnesInTheStore) {
       [](MapOptions& request) { request.store = file("first") + "/session.db"; });
   const std::vector<ClosureRow> rows = listRows("second");
   ASSERT_EQ(rows.size(), 4U);
-  EXPECT_EQ(rows[1].kind, "stereo") << readFile(file("second") + "/closures.csv");
+  EXPECT_EQ(rows[1].method, ClosureMethod::Stereo) << readFile(file("second") + "/closures.csv");
   EXPECT_EQ(rows[1].T_a_b->matrix(), listRows("out")[1].T_a_b->matrix());
 }
 

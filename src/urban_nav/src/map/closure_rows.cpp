@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/closure_rows.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureRow;
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::MetricClosure;
+
+namespace {
+
+// Of a transform whose file has no sigma: five times what loop closure by stereo reaches (paper, section 4.1).
+constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
+
+}  // namespace
+
+MetricClosure toCandidate(const urban_nav_core::TopologicalClosure& closure, const std::string& source) {
+  MetricClosure made;
+  made.a = closure.a;
+  made.b = closure.b;
+  made.probability = closure.probability;
+  made.verdict = ClosureVerdict::Waiting;
+  made.source = source;
+  return made;
+}
+
+MetricClosure toMetricClosure(const ClosureRow& row) {
+  MetricClosure made = toCandidate({row.a, row.b, row.probability}, row.where);
+  made.method = row.method;
+  if (!row.T_a_b) return made;
+  made.verdict = ClosureVerdict::Accepted;
+  made.measured.T_a_b = *row.T_a_b;
+  const double sigma_m = row.sigma_m > 0.0 ? row.sigma_m : kUnknownSigmaM;
+  const double sigma_rad = row.sigma_rad > 0.0 ? row.sigma_rad : kUnknownSigmaRad;
+  made.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
+  made.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+  return made;
+}
+
+bool isMeasured(const MetricClosure& closure) {
+  return closure.verdict == ClosureVerdict::Rejected || !closure.evidence.empty();
+}
+
+ClosureRow toRow(const MetricClosure& closure) {
+  ClosureRow row;
+  row.a = closure.a;
+  row.b = closure.b;
+  row.probability = closure.probability;
+  row.where = closure.source;
+  if (closure.verdict != ClosureVerdict::Rejected) row.method = closure.method;
+  if (closure.verdict == ClosureVerdict::Accepted) row.T_a_b = closure.measured.T_a_b;
+  if (!isMeasured(closure)) return row;
+  row.verdict = closure.verdict;
+  if (closure.verdict != ClosureVerdict::Accepted) row.reason = closure.reason_name + ": " + closure.sentence;
+  return row;
+}
+
+ClosureRow toRow(const MetricClosure& closure, const ClosureAssessment& assessment) {
+  ClosureRow row = toRow(closure);
+  row.verdict = assessment.verdict == ClosureVerdict::Accepted ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
+  row.reason = assessment.reason;
+  row.weight = assessment.weight;
+  return row;
+}
+
+std::string printClosureRows(const std::vector<MetricClosure>& closures,
+                             const std::vector<ClosureAssessment>& assessments) {
+  std::vector<ClosureRow> rows;
+  for (std::size_t i = 0; i < closures.size(); ++i)
+    rows.push_back(i < assessments.size() ? toRow(closures[i], assessments[i]) : toRow(closures[i]));
+  return printClosures(rows);
+}
+
+}  // namespace urban_nav
