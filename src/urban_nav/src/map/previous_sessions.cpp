@@ -76,20 +76,20 @@ SessionOdometry makeChain(Store& store, const SessionId& id) {
 }  // namespace
 
 PreviousSessions readPreviousSessions(Store& store, const std::vector<SessionId>& without) {
-  PreviousSessions made;
+  PreviousSessions result;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
     if (std::find(without.begin(), without.end(), session.id) != without.end()) continue;
     SessionOdometry run = makeChain(store, session.id);
     if (run.settled.empty()) continue;
     run.input = session.name;
-    made.ids.push_back(session.id);
-    made.names.push_back(urban_nav_input::uniqueName(
-        session.name.empty() ? session.id : urban_nav_input::plainName(session.name), made.names));
-    made.runs.push_back(std::move(run));
+    result.ids.push_back(session.id);
+    result.names.push_back(urban_nav_input::uniqueName(
+        session.name.empty() ? session.id : urban_nav_input::plainName(session.name), result.names));
+    result.runs.push_back(std::move(run));
     if (const auto anchor = store.sessions().anchor(session.id))
-      made.revision = std::max(made.revision, anchor->revision);
+      result.revision = std::max(result.revision, anchor->revision);
   }
-  return made;
+  return result;
 }
 
 bool holdsClosures(Store& store) {

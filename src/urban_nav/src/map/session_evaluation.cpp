@@ -14,9 +14,9 @@ namespace {
 using Covariances = std::vector<urban_nav_core::Matrix6d>;
 
 std::vector<urban_nav_core::StampNs> stamps(const SessionOdometry& run) {
-  std::vector<urban_nav_core::StampNs> made;
-  for (const OdometryFrame& row : run.frames) made.push_back(row.stamp);
-  return made;
+  std::vector<urban_nav_core::StampNs> result;
+  for (const OdometryFrame& row : run.frames) result.push_back(row.stamp);
+  return result;
 }
 
 /// Returns a row per smoothed frame. `relaxed` replaces the covariances of odometry as far as it goes.
@@ -52,14 +52,14 @@ std::vector<SessionEvaluations> evaluateSessions(const MapContext& context) {
   for (std::size_t i = 0; i < context.sessions.size(); ++i) {
     const MapSession& session = context.sessions[i];
     const SessionTrajectory& trajectory = context.trajectories[previous + i];
-    SessionEvaluations& made = evaluations[previous + i];
+    SessionEvaluations& result = evaluations[previous + i];
     try {
       const std::optional<urban_nav_input::TrajectoryFile> truth = readTruth(context, session);
       if (!truth) continue;
       for (const std::string& note : truth->notes) context.console.warn(note);
-      made.map = compare(context, *session.odometry, *truth, trajectory.T_map_base, trajectory.covariances);
+      result.map = compare(context, *session.odometry, *truth, trajectory.T_map_base, trajectory.covariances);
       if (context.relaxed)
-        made.odometry = compare(context, *session.odometry, *truth, smoothedTrajectory(*session.odometry), {});
+        result.odometry = compare(context, *session.odometry, *truth, smoothedTrajectory(*session.odometry), {});
       context.console.info("truth: " + truth->path +
                            (context.options.truth.empty() ? " (found; it is used for the report alone)" : ""));
     } catch (const urban_nav_core::Error& error) {

@@ -5,13 +5,13 @@ namespace urban_nav {
 
 std::vector<SessionTrajectory> odometryTrajectories(const std::vector<const SessionOdometry*>& runs,
                                                     std::size_t previous) {
-  std::vector<SessionTrajectory> made;
+  std::vector<SessionTrajectory> result;
   for (std::size_t s = 0; s < runs.size(); ++s) {
     std::vector<urban_nav_core::Matrix6d> covariances;
     for (const SmoothedFrame& settled : runs[s]->settled) covariances.push_back(settled.T_odom_base.covariance);
-    made.push_back({smoothedTrajectory(*runs[s]), std::move(covariances), s, s >= previous, std::nullopt});
+    result.push_back({smoothedTrajectory(*runs[s]), std::move(covariances), s, s >= previous, std::nullopt});
   }
-  return made;
+  return result;
 }
 
 }  // namespace urban_nav

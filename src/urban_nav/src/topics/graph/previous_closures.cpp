@@ -59,7 +59,7 @@ MetricClosure toOffered(Store& store, const Edge& edge, const pose_graph::Closur
 
 PreviousClosures closuresBetween(Store& store, const std::vector<SessionId>& ids,
                                  const std::vector<std::string>& names) {
-  PreviousClosures made;
+  PreviousClosures result;
   std::map<SessionId, std::string> name;
   for (std::size_t i = 0; i < ids.size(); ++i) name[ids[i]] = names[i];
   for (const SessionId& id : ids) {
@@ -76,11 +76,11 @@ PreviousClosures closuresBetween(Store& store, const std::vector<SessionId>& ids
       closure.kind = edge.kind;
       closure.source = edge.source;
       closure.measured = edge.measured;
-      made.offered.push_back(toOffered(store, edge, closure));
-      made.in_graph.push_back(closure);
+      result.offered.push_back(toOffered(store, edge, closure));
+      result.in_graph.push_back(closure);
     }
   }
-  return made;
+  return result;
 }
 
 }  // namespace urban_nav

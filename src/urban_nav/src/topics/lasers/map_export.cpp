@@ -49,17 +49,17 @@ struct MappedSessions {
 };
 
 MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>& map) {
-  MappedSessions made;
+  MappedSessions result;
   for (const StoredTrajectory& each : map) {
     const auto parameters = laser_mapper::storedMapParameters(store, each.session.id);
     if (!parameters || each.T_map_base.empty()) continue;
-    made.parameters = parameters;
-    made.trajectories.push_back(std::make_unique<Trajectory>(each.T_map_base));
-    made.sessions.push_back({each.session.id, made.trajectories.back().get(), nullptr});
-    made.lasers.push_back(urban_nav_registration::storedLasers(store, each.session.id));
-    for (const urban_nav_core::StampedPose& pose : each.T_map_base) made.path.push_back(pose.pose.t());
+    result.parameters = parameters;
+    result.trajectories.push_back(std::make_unique<Trajectory>(each.T_map_base));
+    result.sessions.push_back({each.session.id, result.trajectories.back().get(), nullptr});
+    result.lasers.push_back(urban_nav_registration::storedLasers(store, each.session.id));
+    for (const urban_nav_core::StampedPose& pose : each.T_map_base) result.path.push_back(pose.pose.t());
   }
-  return made;
+  return result;
 }
 
 std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
@@ -126,13 +126,13 @@ class PointFiles {
   }
 
   void appendLas(const MapPoint& point) {
-    urban_nav_core::LasPoint made = laser_mapper::lasPoint(point);
+    urban_nav_core::LasPoint result = laser_mapper::lasPoint(point);
     if (more_) {
-      made.classification = more_->las_classification(next_);
+      result.classification = more_->las_classification(next_);
       more_->append_las(next_, bytes_);
     }
-    if (crs_ != nullptr) made.p = crs_->project(made.p);
-    las_->append(made, bytes_);
+    if (crs_ != nullptr) result.p = crs_->project(result.p);
+    las_->append(result, bytes_);
   }
 
   const MapCrs* crs_;
@@ -223,20 +223,20 @@ ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, co
     throw urban_nav_core::DataError(store.path(), "holds no map of laser points", "a store of map --stages vo,lasers");
   LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
   laser_map.load();
-  ExportedMap made;
+  ExportedMap result;
   std::optional<MapCrs> crs;
   if (!paths.crs.empty()) {
     crs.emplace(paths.crs, store, map);
-    made.reference = crs->reference();
-    made.epsg = crs->epsg();
-    made.crs = crs->describe();
+    result.reference = crs->reference();
+    result.epsg = crs->epsg();
+    result.crs = crs->describe();
   }
   if (!(paths.ply + paths.pcd + paths.las + paths.ortho + paths.mesh).empty())
-    made.points = writeColoured(paths, store, laser_map, mapped, crs ? &*crs : nullptr, memory_mb, attributes);
+    result.points = writeColoured(paths, store, laser_map, mapped, crs ? &*crs : nullptr, memory_mb, attributes);
   if (!paths.grid.empty()) writeGrid(paths.grid, laser_map, mapped);
   for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho, paths.mesh})
-    if (!path.empty()) made.files.push_back(path);
-  return made;
+    if (!path.empty()) result.files.push_back(path);
+  return result;
 }
 
 }  // namespace urban_nav

@@ -25,9 +25,9 @@ struct Beginning {
 };
 
 std::map<std::string, Beginning> readBeginnings(urban_nav_store::Store& store) {
-  std::map<std::string, Beginning> made;
+  std::map<std::string, Beginning> result;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
-    Beginning& its = made[session.id];
+    Beginning& its = result[session.id];
     its.name = session.name.empty() ? session.id : session.name;
     bool any = false;
     store.graph().forEachNode(session.id, [&](const urban_nav_store::Node& node) {
@@ -35,7 +35,7 @@ std::map<std::string, Beginning> readBeginnings(urban_nav_store::Store& store) {
       any = true;
     });
   }
-  return made;
+  return result;
 }
 
 /// The probability in the row as it was offered, where the evidence begins with one.
