@@ -26,7 +26,7 @@ ClosureRow icpRow() {
 }
 
 /// Returns the message that parseClosures() refuses a text with; empty if it accepts it.
-std::string refusal(const std::string& text) {
+std::string closuresRefusal(const std::string& text) {
   try {
     parseClosures(text, "c.csv");
   } catch (const UserError& error) {
@@ -74,17 +74,17 @@ TEST(ClosuresCsvTest, ReadsCandidatesAndStandardDeviations) {
 
 TEST(ClosuresCsvTest, NamesTheLineOfWhatItRefuses) {
   const std::string header = "session_a,stamp_a_ns,session_b,stamp_b_ns,probability,kind,x,y,z,qx,qy,qz,qw,sigma_m\n";
-  EXPECT_EQ(refusal(header + "0,5,1,7,0.5,stereo,0,0,0,0,0,0,1,0.1\n"), "");
+  EXPECT_EQ(closuresRefusal(header + "0,5,1,7,0.5,stereo,0,0,0,0,0,0,1,0.1\n"), "");
   for (const auto& [line, expected] : {std::pair("0,5,1,7,1.5,stereo,,,,,,,,", "probability = 1.5"),
                                        std::pair("0,5,1,7,0.5,lidar,,,,,,,,", "stereo, icp, none"),
                                        std::pair("0,5,1,7,0.5,accepted,,,,,,,,", "kind = accepted"),
                                        std::pair("0,5,1,7,0.5,icp,0,0,0,0,0,0,2,", "length 2"),
                                        std::pair("0,5,1,7,0.5,icp,0,0,0,0,0,0,1,-1", "sigma_m = -1")}) {
-    const std::string message = refusal(header + line + "\n");
+    const std::string message = closuresRefusal(header + line + "\n");
     EXPECT_NE(message.find("c.csv:2"), std::string::npos) << message;
     EXPECT_NE(message.find(expected), std::string::npos) << message;
   }
-  EXPECT_NE(refusal("session_a,stamp_a_ns\n0,1\n").find("session_b"), std::string::npos);
+  EXPECT_NE(closuresRefusal("session_a,stamp_a_ns\n0,1\n").find("session_b"), std::string::npos);
 }
 
 TEST(ClosuresCsvTest, FuzzedFilesAreReadOrRefused) {
