@@ -182,7 +182,7 @@ TEST_F(Split, KeepsTheClosuresOfTheBagsBefore) {
   row.method = urban_nav_core::ClosureMethod::Stereo;
   row.T_a_b = way[2].pose.inverse() * way[12].pose *
               urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), {0.002, 0.001, 0.0});
-  urban_nav_input::testing::writeFile(folder.file("closures.csv"), printClosures({row}));
+  urban_nav_input::testing::writeFile(folder.file("closures.csv"), urban_nav_core::printClosures({row}));
   const auto with_graph = [](MapOptions& request) { request.stages = {"vo", "graph"}; };
   const auto with_closures = [&](MapOptions& request) {
     with_graph(request);
