@@ -119,7 +119,7 @@ TEST(Parameters, EachChangesTheMap) {
 }
 
 TEST(NodeletParameters, EachChangesWhatTheNodeletDoes) {
-  const std::string nodelet = "test/ros/nodelet_test.cpp", parameters = "test/ros/parameters_test.cpp";
+  const std::string nodelet = "test/ros", parameters = nodelet;
   EXPECT_EQ(urban_nav_core::testing::findParametersWithoutEffect(
                 nodeletTable(), {},
                 {{"map_frame", "NodeletParameters.NameFramesAndSpaceThePath", parameters},

@@ -55,7 +55,7 @@ std::string cell(const std::string& text) {
   return " " + out + " |";
 }
 
-// Table of the rows for these readers; empty if there are none.
+// Table of the rows for these readers; empty without such rows.
 std::string markdownTable(const std::string& stage, const std::vector<RowInfo>& rows, Audience audience) {
   std::string out;
   for (const RowInfo& row : rows) {

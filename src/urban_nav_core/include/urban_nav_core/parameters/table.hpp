@@ -23,7 +23,7 @@ struct ParameterValue : std::variant<bool, std::int64_t, double, std::string> {
   const Base& base() const { return *this; }
 };
 
-/// Who has reason to change a parameter. `--help` lists those of users, `--help-all` every one.
+/// Audience of a parameter. `--help` lists those of users, `--help-all` every one.
 enum class Audience {
   Users,
   Experts,  ///< thresholds and sizes inside an algorithm
