@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 sys.path.insert(0, str(Path(__file__).parent))
 import lint  # noqa: E402  pylint: disable=wrong-import-position
-from lint import folders, names, words  # noqa: E402  pylint: disable=wrong-import-position
+from lint import folders, words  # noqa: E402  pylint: disable=wrong-import-position
 
 
 def tree(**files):
@@ -157,14 +157,6 @@ void f(const int x) {
             expected = "T_base_camera" if old == "origin" else old.split(" ")[0]
             if old != "origin":  # the second constant after arguments is not seen
                 self.assertEqual(breaches(lint.constant_names, p__a_cpp=good.replace(new, old)), [f"p/a.cpp: {expected}"])
-
-    def test_renamed_packages_stay_so(self):
-        package = sorted(names.UNRENAMED)[0] if names.UNRENAMED else None
-        if package is None:
-            return
-        rest = {f"{other.replace('/', '__')}__a_cpp": "constexpr int near = 1;" for other in names.UNRENAMED - {package}}
-        path = f"{package.replace('/', '__')}__a_cpp"
-        self.check(lint.unrenamed_packages, {path: "constexpr int near = 1;", **rest}, {path: "constexpr int kNear = 1;", **rest})
 
     def test_tests_are_named_in_upper_camel_case(self):
         self.check(lint.test_names, {"a_cpp": "TEST(Box, HasTwoSides) {\n}\nTYPED_TEST(Box2, A) {}\nTEST_P(Box, DISABLED_Grows) {}\n"},

@@ -4,7 +4,6 @@ import re
 from pathlib import Path
 
 from .source import split, without_comments
-from .tree import package_of
 
 MOST_OF_FUNCTIONS = 20
 
@@ -12,8 +11,6 @@ MOST_OF_FUNCTIONS = 20
 CONSTANT = r"k(?:[A-Z][A-Za-z0-9]*|[A-Z]_[a-z]\w*)$"
 # What a template or a library asks for by this name: members of nodelet classes (docs/adding_a_stage.md), of traits.
 GIVEN_NAMES = {"name", "topic", "value"}
-# Packages whose constants are still to be renamed; a package that is done is removed here.
-UNRENAMED = {"src/urban_nav"}
 
 
 def of_functions(tree):
@@ -61,20 +58,9 @@ def _constexpr_names(code):
 def constant_names(tree):
     """Constants are written kName: constexpr variables, const ones of namespaces, static const members."""
     for source in tree.sources:
-        if package_of(source.path) in UNRENAMED:
-            continue
         names = {*source.constants, *_constexpr_names(without_comments(source.text))}
         for name in sorted(name for name in names if not re.match(CONSTANT, name) and name not in GIVEN_NAMES):
             yield f"{source.path}: {name}"
-
-
-def unrenamed_packages(tree):
-    """A package of UNRENAMED has constants of another style: else it is removed from there, and stays as it is."""
-    left = {package_of(source.path) for source in tree.sources
-            if any(not re.match(CONSTANT, name) and name not in GIVEN_NAMES
-                   for name in [*source.constants, *_constexpr_names(without_comments(source.text))])}
-    for package in sorted(UNRENAMED - left):
-        yield f"{package}: constants are kName, remove it from UNRENAMED in scripts/lint/names.py"
 
 
 def test_names(tree):

@@ -58,14 +58,14 @@ int main(int argc, char** argv) {
   });
   table.add({"all serial devices", cell(seconds, 0), cell(total, 1), "", "", "", ""});
   urban_nav::bench::forEachCamera([&](const urban_nav::bench::CameraSession& session) {
-    constexpr double minute = 60.0;  // s
+    constexpr double kMinute = 60.0;  // s
     const auto begin = std::chrono::steady_clock::now();
-    const int frames = static_cast<int>(minute / session.period);
+    const int frames = static_cast<int>(kMinute / session.period);
     int taken = session.run_until(frames / 6);
     const double early = residentMb();
     taken += session.run_until(frames);
     const double time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    table.add({session.name, cell(minute, 0), cell(time, 1), std::to_string(taken), std::to_string(frames - taken), "",
+    table.add({session.name, cell(kMinute, 0), cell(time, 1), std::to_string(taken), std::to_string(frames - taken), "",
                cell(residentMb() - early, 1)});
   });
   table.note("One core. Delays of 1 ms and an exponential of 1 ms, skew 50 ppm.");

@@ -53,10 +53,10 @@ Load runSerial(urban_nav::bench::DeviceSession& session, double seconds, const s
 
 /// Of frames of 20 s.
 Load runCamera(const urban_nav::bench::CameraSession& session) {
-  constexpr double duration = 20.0;
+  constexpr double kDuration = 20.0;
   const double before = 1e-3 * threadMs();
-  const int taken = session.run_until(static_cast<int>(duration / session.period));
-  return {(1e-3 * threadMs() - before) / duration, taken / duration};
+  const int taken = session.run_until(static_cast<int>(kDuration / session.period));
+  return {(1e-3 * threadMs() - before) / kDuration, taken / kDuration};
 }
 
 }  // namespace

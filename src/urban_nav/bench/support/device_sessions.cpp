@@ -22,10 +22,10 @@ urban_nav_sim::DeviceOptions sessionOptions() {
 }
 
 DeviceSession makeLaserSession(const std::string& name, double seconds) {
-  constexpr double period = 0.0133381;  // s
-  std::vector<urban_nav_sim::LaserReading> readings(static_cast<std::size_t>(seconds / period) + 1);
+  constexpr double kPeriod = 0.0133381;  // s
+  std::vector<urban_nav_sim::LaserReading> readings(static_cast<std::size_t>(seconds / kPeriod) + 1);
   for (std::size_t i = 0; i < readings.size(); ++i)
-    readings[i] = {period * static_cast<double>(i),
+    readings[i] = {kPeriod * static_cast<double>(i),
                    std::vector<float>(181, 1.0F + 0.001F * static_cast<float>(i % 9000)),
                    std::vector<float>(181, static_cast<float>(i % 256))};
   DeviceSession made{name, std::make_unique<urban_nav_sim::SimulatedLaser>(std::move(readings), sessionOptions()),

@@ -8,7 +8,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr std::array<int, 3> all_signals = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array<int, 3> kAllSignals = {SIGINT, SIGTERM, SIGHUP};
 
 bool isIgnored(int signal) {
   struct sigaction action {};
@@ -19,7 +19,7 @@ bool isIgnored(int signal) {
 
 HeldSignals::HeldSignals() {
   sigemptyset(&held_);
-  for (const int signal : all_signals)
+  for (const int signal : kAllSignals)
     if (!isIgnored(signal)) sigaddset(&held_, signal);  // a held one would wait even so, and nohup be of no use
   pthread_sigmask(SIG_BLOCK, &held_, &before_);
 }
@@ -29,7 +29,7 @@ HeldSignals::~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 void HeldSignals::check() const {
   sigset_t waiting;
   sigpending(&waiting);
-  for (const int signal : all_signals)
+  for (const int signal : kAllSignals)
     if (sigismember(&held_, signal) == 1 && sigismember(&waiting, signal) == 1) throw std::runtime_error("interrupted");
 }
 

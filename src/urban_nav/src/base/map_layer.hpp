@@ -9,7 +9,7 @@
 namespace urban_nav {
 
 /// Points of a map that the report shows in three dimensions, at most.
-constexpr std::size_t most_shown_points = 500'000;
+constexpr std::size_t kMostShownPoints = 500'000;
 
 /// Returns markup that adds a way of colouring to the view of a map that stands on the page before it. `number`: of the
 /// view. `kinds`: one per point that the view shows, in its order: index in `colours` (red, green, blue).

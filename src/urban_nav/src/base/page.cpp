@@ -125,16 +125,16 @@ std::string renderPage(const Page& page) {
 }
 
 std::string base64(const std::vector<unsigned char>& bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const unsigned a = bytes[i], b = i + 1 < bytes.size() ? bytes[i + 1] : 0U,
                    c = i + 2 < bytes.size() ? bytes[i + 2] : 0U;
-    text += digits[a >> 2U];
-    text += digits[((a & 3U) << 4U) | (b >> 4U)];
-    text += i + 1 < bytes.size() ? digits[((b & 15U) << 2U) | (c >> 6U)] : '=';
-    text += i + 2 < bytes.size() ? digits[c & 63U] : '=';
+    text += kDigits[a >> 2U];
+    text += kDigits[((a & 3U) << 4U) | (b >> 4U)];
+    text += i + 1 < bytes.size() ? kDigits[((b & 15U) << 2U) | (c >> 6U)] : '=';
+    text += i + 2 < bytes.size() ? kDigits[c & 63U] : '=';
   }
   return text;
 }

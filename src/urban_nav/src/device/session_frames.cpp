@@ -17,7 +17,7 @@ using urban_nav_sim::StereoMeasurement;
 
 namespace {
 
-constexpr int ladybug_quality = 90;
+constexpr int kLadybugQuality = 90;
 
 SimFrame makeFrame(segway_drivers::Bytes bytes, urban_nav_core::StampNs stamp, const Session& session) {
   return {1e-9 * static_cast<double>(stamp - session.begin()), std::move(bytes), stamp};
@@ -38,7 +38,7 @@ std::optional<SimFrame> nextLadybug(Session& session) {
     if (image == nullptr) continue;
     images[static_cast<std::size_t>(image->camera)] = image->image;
     if (image->camera + 1 == static_cast<int>(images.size()))
-      return makeFrame(segway_drivers::packLadybugFrame(images, ladybug_quality), image->stamp, session);
+      return makeFrame(segway_drivers::packLadybugFrame(images, kLadybugQuality), image->stamp, session);
   }
   return std::nullopt;
 }

@@ -11,7 +11,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr double field_unit = 50e-6;  // T, about 1 unit of an MTi
+constexpr double kFieldUnit = 50e-6;  // T, about 1 unit of an MTi
 
 std::array<double, 3> toArray(const Eigen::Vector3d& v, double unit = 1.0) {
   return {v.x() / unit, v.y() / unit, v.z() / unit};
@@ -31,7 +31,7 @@ class ReadingCollector {
     reading.time = since(imu.stamp);
     reading.acceleration = toArray(imu.specific_force);
     reading.rate = toArray(imu.rate);
-    reading.field = toArray(imu.field, field_unit);
+    reading.field = toArray(imu.field, kFieldUnit);
     readings.imu.push_back(reading);
   }
   void operator()(const urban_nav_sim::WheelMeasurement& wheels) {

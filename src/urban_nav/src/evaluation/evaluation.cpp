@@ -134,19 +134,19 @@ Evaluation evaluate(const urban_nav_input::TrajectoryFile& truth, const urban_na
 }
 
 void addToJson(const Evaluation& evaluation, Json& json) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // printed as null
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // printed as null
   json["truth"] = evaluation.truth;
   json["ate_m"] = evaluation.first.rmse;
   json["ate_se3_m"] = evaluation.se3.rmse;
   json["ate_sim3_m"] = evaluation.sim3.rmse;
-  json["rpe_percent"] = evaluation.ten_frames ? evaluation.ten_frames->percent : none;
-  json["rpe_deg_per_m"] = evaluation.ten_frames ? evaluation.ten_frames->deg_per_m : none;
-  json["step_ratio"] = evaluation.ten_frames ? evaluation.ten_frames->step_ratio : none;
-  json["nees_mean"] = evaluation.nees ? evaluation.nees->mean : none;
+  json["rpe_percent"] = evaluation.ten_frames ? evaluation.ten_frames->percent : kNone;
+  json["rpe_deg_per_m"] = evaluation.ten_frames ? evaluation.ten_frames->deg_per_m : kNone;
+  json["step_ratio"] = evaluation.ten_frames ? evaluation.ten_frames->step_ratio : kNone;
+  json["nees_mean"] = evaluation.nees ? evaluation.nees->mean : kNone;
   Json& end = json["end"] = Json::object();
   end["error_m"] = evaluation.end.m;
   end["error_deg"] = evaluation.end.deg;
-  end["nees"] = evaluation.end.nees.value_or(none);
+  end["nees"] = evaluation.end.nees.value_or(kNone);
   json["frames_truth"] = evaluation.frames_truth;
   json["frames_estimate"] = evaluation.frames_estimate;
   json["frames_matched"] = evaluation.matched.truth.size();

@@ -75,7 +75,7 @@ StageResult evaluationResult(const Evaluation& evaluation, std::size_t session) 
   Section section = evaluationSection(evaluation);
   if (session > 0) section.id += std::to_string(session);
   section.title += of;
-  made.sections.push_back({report_place::truth, std::move(section)});
+  made.sections.push_back({report_place::kTruth, std::move(section)});
   return made;
 }
 
@@ -135,7 +135,7 @@ Page mapPage(const MapState& state, const std::vector<StageResult>& results) {
   };
   for (const StageResult& result : results) add(result);
   for (const StageResult& result : evaluationResults(state.context)) add(result);
-  sections.push_back({report_place::method, methodSection(state, results)});
+  sections.push_back({report_place::kMethod, methodSection(state, results)});
   std::stable_sort(sections.begin(), sections.end(),
                    [](const PlacedSection& a, const PlacedSection& b) { return a.place < b.place; });
   for (PlacedSection& placed : sections) page.sections.push_back(std::move(placed.section));

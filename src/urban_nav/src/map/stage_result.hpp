@@ -22,11 +22,11 @@ std::string fileSuffix(std::size_t session);
 
 /// Order of sections in the report, lowest first. Sections of equal place keep the order of their stages.
 namespace report_place {
-constexpr int map = 100, closures = 200, truth = 300, localization = 400, odometry = 500, method = 900;
+constexpr int kMap = 100, kClosures = 200, kTruth = 300, kLocalization = 400, kOdometry = 500, kMethod = 900;
 }
 
 struct PlacedSection {
-  int place = report_place::odometry;
+  int place = report_place::kOdometry;
   Section section;
 };
 

@@ -81,7 +81,7 @@ const std::vector<std::string>& trajectoryFileNames() {
 std::vector<OutputFile> trajectoryFiles(const std::vector<const SessionOdometry*>& runs,
                                         const std::vector<SessionTrajectory>& trajectories) {
   using Printer = std::string (*)(const std::vector<MapMember>&);
-  static constexpr Printer printers[] = {trajectoryTum, trajectoryKitti, covarianceCsv, relativeCovarianceCsv};
+  static constexpr Printer kPrinters[] = {trajectoryTum, trajectoryKitti, covarianceCsv, relativeCovarianceCsv};
   std::vector<OutputFile> files;
   for (std::size_t first = 0; first < trajectories.size(); ++first) {
     if (!trajectories[first].written) continue;
@@ -91,7 +91,7 @@ std::vector<OutputFile> trajectoryFiles(const std::vector<const SessionOdometry*
         members.push_back({runs[s], &trajectories[s]});
     for (std::size_t i = 0; i < trajectoryFileNames().size(); ++i) {
       OutputFile file{withSuffix(trajectoryFileNames()[i], first), {}};
-      if (!members.empty()) file.content = [members, print = printers[i]] { return print(members); };
+      if (!members.empty()) file.content = [members, print = kPrinters[i]] { return print(members); };
       files.push_back(std::move(file));
     }
   }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t frame_period = 50'000'000;  // ns, of the stereo camera, by which progress is reported
+constexpr std::int64_t kFramePeriod = 50'000'000;  // ns, of the stereo camera, by which progress is reported
 
 std::string toTruthFolder(const std::string& bag) { return fs::path(bag).replace_extension(".truth").string(); }
 
@@ -56,7 +56,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
       last = truth->T_world_base;
     }
     if (const auto* view = std::get_if<urban_nav_sim::ViewTruth>(&arrival->measurement)) views.add(*view);
-    progress.update((arrival->taken - session.begin()) / frame_period);
+    progress.update((arrival->taken - session.begin()) / kFramePeriod);
   }
   progress.finish(session.frames());
   console.info("truth: " + made.truth_folder);

@@ -17,7 +17,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double longest = 86400.0;  // s
+constexpr double kLongest = 86400.0;  // s
 
 /// Words of a comma-separated list; each named with its option where it is not known.
 std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Arguments& arguments) {
@@ -40,7 +40,7 @@ SimulateJob makeJob(const Arguments& arguments) {
   job.session.route = arguments.get("route", job.session.route);
   job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
   job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
-  job.session.duration = arguments.number("duration", job.session.duration, 0.1, longest);
+  job.session.duration = arguments.number("duration", job.session.duration, 0.1, kLongest);
   job.session.sensors = parseSensors(arguments);
   job.session.views = makeList("views", arguments);
   for (const std::string& word : arguments.list("without")) job.session.defects.switchOff(word);
@@ -52,7 +52,7 @@ SimulateJob makeJob(const Arguments& arguments) {
   job.bag = arguments.get("output");
   if (std::filesystem::path(job.bag).extension() != ".bag")
     throw UserError("--output", job.bag, "a name that ends in .bag; the truth goes beside it");
-  job.part = arguments.number("split", 0.0, 0.1, longest);
+  job.part = arguments.number("split", 0.0, 0.1, kLongest);
   job.folder = arguments.get("folder");
   job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
   if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)

@@ -23,13 +23,13 @@ using segway_drivers::Parameters;
 using segway_drivers::TimeNs;
 using Counter = std::int64_t DeviceCounters::*;
 
-constexpr double session = 30.0, begin = 8.0, length = 4.0;  // s
+constexpr double kSession = 30.0, kBegin = 8.0, kLength = 4.0;  // s
 
 struct FaultRow {
   std::string fault;   ///< KIND, or KIND and :VALUE after its times
   Counter counter;     ///< that counts it
   std::string report;  ///< of the state; empty: the counter reports it
-  double length = ::urban_nav::length;
+  double length = ::urban_nav::kLength;
   double boot = 0.0;  ///< s that the device takes after the fault's end
 };
 
@@ -44,7 +44,7 @@ using Make = std::function<RowDevice(const urban_nav_sim::DeviceOptions&, const 
 
 RowDevice makeLaser(const urban_nav_sim::DeviceOptions& options, const Taken& take) {
   std::vector<urban_nav_sim::LaserReading> readings;
-  for (int i = 0; i * 0.0133381 < session; ++i)
+  for (int i = 0; i * 0.0133381 < kSession; ++i)
     readings.push_back({i * 0.0133381, std::vector<float>(181, 2.0F), std::vector<float>(181, 9.0F)});
   RowDevice made{std::make_unique<urban_nav_sim::SimulatedLaser>(readings, options), nullptr};
   auto driver = std::make_unique<segway_drivers::LmsDriver>(segway_drivers::toLmsOptions(Parameters()));
@@ -54,7 +54,7 @@ RowDevice makeLaser(const urban_nav_sim::DeviceOptions& options, const Taken& ta
 }
 
 RowDevice makeImu(const urban_nav_sim::DeviceOptions& options, const Taken& take) {
-  std::vector<urban_nav_sim::ImuReading> readings(static_cast<std::size_t>(100.0 * session));
+  std::vector<urban_nav_sim::ImuReading> readings(static_cast<std::size_t>(100.0 * kSession));
   for (std::size_t i = 0; i < readings.size(); ++i) readings[i].time = 0.01 * static_cast<double>(i);
   RowDevice made{std::make_unique<urban_nav_sim::SimulatedImu>(readings, options), nullptr};
   auto driver = std::make_unique<segway_drivers::MtiDriver>(segway_drivers::toMtiOptions(Parameters()));
@@ -64,7 +64,7 @@ RowDevice makeImu(const urban_nav_sim::DeviceOptions& options, const Taken& take
 }
 
 RowDevice makeBase(const urban_nav_sim::DeviceOptions& options, const Taken& take) {
-  std::vector<urban_nav_sim::WheelReading> readings(static_cast<std::size_t>(100.0 * session));
+  std::vector<urban_nav_sim::WheelReading> readings(static_cast<std::size_t>(100.0 * kSession));
   for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = {0.01 * static_cast<double>(i), 0.5, 0.0};
   RowDevice made{std::make_unique<urban_nav_sim::SimulatedBase>(readings, options), nullptr};
   auto driver = std::make_unique<segway_drivers::RmpDriver>(segway_drivers::toRmpOptions(Parameters()));
@@ -74,7 +74,7 @@ RowDevice makeBase(const urban_nav_sim::DeviceOptions& options, const Taken& tak
 }
 
 RowDevice makeGps(const urban_nav_sim::DeviceOptions& options, const Taken& take) {
-  std::vector<urban_nav_sim::GpsReading> readings(static_cast<std::size_t>(session));
+  std::vector<urban_nav_sim::GpsReading> readings(static_cast<std::size_t>(kSession));
   for (std::size_t i = 0; i < readings.size(); ++i) {
     readings[i].time = static_cast<double>(i);
     readings[i].valid = true;
@@ -93,35 +93,35 @@ void expectRow(const Make& make, double period, const FaultRow& row) {
   urban_nav_sim::DeviceOptions options;
   const std::size_t value = row.fault.find(':');
   options.faults.push_back(urban_nav_sim::parseDeviceFault(
-      row.fault.substr(0, value) + ":" + std::to_string(begin) + ":" + std::to_string(row.length) +
+      row.fault.substr(0, value) + ":" + std::to_string(kBegin) + ":" + std::to_string(row.length) +
       (value == std::string::npos ? "" : row.fault.substr(value))));
   testing::SteppedDevice* clock = nullptr;
   double oldest = 0.0, returned = 0.0;
-  const double end = begin + row.length;
+  const double end = kBegin + row.length;
   int messages = 0;
   const RowDevice made = make(options, [&](std::optional<TimeNs> stamp) {
     const double now = clock->seconds();
     ++messages;
     if (now > end && returned == 0.0) returned = now;
-    if (stamp) oldest = std::max(oldest, now - 1e-9 * static_cast<double>(*stamp - testing::SteppedDevice::begin));
+    if (stamp) oldest = std::max(oldest, now - 1e-9 * static_cast<double>(*stamp - testing::SteppedDevice::kBegin));
   });
   testing::SteppedDevice pair(*made.driver, *made.device, made.baud);
   clock = &pair;
   const double notice = std::max(1.0, 6.0 * period);
-  pair.run(begin);
+  pair.run(kBegin);
   EXPECT_GT(messages, static_cast<int>(2.0 / period)) << "before the fault";
   const std::int64_t before = made.driver->counters().*row.counter;
   pair.run(notice);
   const std::int64_t noticed = made.driver->counters().*row.counter;
-  pair.run(session - 1.0 - pair.seconds());
+  pair.run(kSession - 1.0 - pair.seconds());
   const std::int64_t after = made.driver->counters().*row.counter;
   EXPECT_GT(after, before) << "counted";
   if (row.report.empty()) {
     EXPECT_GT(noticed, before) << "reported by the counter";
   } else {
-    const auto reported = pair.reportedAt(row.report, begin);
+    const auto reported = pair.reportedAt(row.report, kBegin);
     ASSERT_TRUE(reported) << row.report;
-    EXPECT_LT(*reported, begin + notice);
+    EXPECT_LT(*reported, kBegin + notice);
   }
   ASSERT_GT(returned, 0.0) << "recovered";
   EXPECT_LT(returned, end + 2.5 + row.boot + period);
@@ -145,7 +145,7 @@ TEST(FaultRows, Laser) {
               {"silence", &DeviceCounters::stalls, "stalled"},
               {"baud:9600", &DeviceCounters::stalls, "stalled"},
               {"unplug", &DeviceCounters::reconnections, "lost"},
-              {"power:2", &DeviceCounters::stalls, "stalled", length, 2.0},
+              {"power:2", &DeviceCounters::stalls, "stalled", kLength, 2.0},
               {"gap:20", &DeviceCounters::gaps, ""}});
 }
 
@@ -157,7 +157,7 @@ TEST(FaultRows, InertialUnit) {
               {"length", &DeviceCounters::bytes_skipped, ""},
               {"silence", &DeviceCounters::stalls, "stalled"},
               {"unplug", &DeviceCounters::reconnections, "lost"},
-              {"power:1", &DeviceCounters::stalls, "stalled", length, 2.0},
+              {"power:1", &DeviceCounters::stalls, "stalled", kLength, 2.0},
               {"gap", &DeviceCounters::gaps, "", 0.5}});
 }
 
@@ -168,7 +168,7 @@ TEST(FaultRows, Base) {
               {"cut:0.1", &DeviceCounters::bytes_skipped, ""},
               {"silence", &DeviceCounters::stalls, "stalled"},
               {"unplug", &DeviceCounters::reconnections, "lost"},
-              {"power:1", &DeviceCounters::stalls, "stalled", length, 2.0}});
+              {"power:1", &DeviceCounters::stalls, "stalled", kLength, 2.0}});
 }
 
 TEST(FaultRows, Receiver) {

@@ -14,13 +14,13 @@ namespace {
 using segway_drivers::DriverState;
 using segway_drivers::LmsStampedScan;
 
-constexpr double laser_period = 0.0133381;
+constexpr double kLaserPeriod = 0.0133381;
 
 std::vector<urban_nav_sim::LaserReading> makeLaserSession(double seconds) {
   std::vector<urban_nav_sim::LaserReading> readings;
-  for (int i = 0; i * laser_period < seconds; ++i) {
+  for (int i = 0; i * kLaserPeriod < seconds; ++i) {
     urban_nav_sim::LaserReading reading;
-    reading.time = i * laser_period;
+    reading.time = i * kLaserPeriod;
     for (int beam = 0; beam < 181; ++beam) {
       reading.ranges.push_back(beam == 7 ? INFINITY : static_cast<float>(0.001 * (1000 + (i * 37 + beam) % 20000)));
       reading.reflectivities.push_back(static_cast<float>((i + beam) % 256));

@@ -54,7 +54,7 @@ ImuOutcome runImu(double seconds, const std::vector<std::string>& faults) {
     outcome.worst_yaw = std::max(outcome.worst_yaw, std::abs(2.0 * std::atan2((*q)[3], (*q)[0]) - 0.6));
     if (!sample.stamp || pair.seconds() < 5.0) return;
     // Samples are 10 ms apart, so that the nearest is the right one where the error is small.
-    const double t = 1e-9 * static_cast<double>(*sample.stamp - testing::SteppedDevice::begin) * (1.0 + 50e-6);
+    const double t = 1e-9 * static_cast<double>(*sample.stamp - testing::SteppedDevice::kBegin) * (1.0 + 50e-6);
     outcome.worst_ms = std::max(outcome.worst_ms, 1e3 * std::abs(std::remainder(t, 0.01)));
   };
   pair.run(seconds);

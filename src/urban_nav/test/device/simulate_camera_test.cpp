@@ -16,7 +16,7 @@
 namespace urban_nav {
 namespace {
 
-constexpr std::size_t camera_pairs = 40;
+constexpr std::size_t kCameraPairs = 40;
 
 std::uint8_t pixelOfCameraTest(std::size_t pair, bool left, std::size_t at) {
   return static_cast<std::uint8_t>(at / 640 + 3 * pair + (left ? 100 : 0));
@@ -43,7 +43,7 @@ class SimulateCamera : public ::testing::Test {
     job_.source = (folder_ / "frames.raw").string();
     job_.truth = (folder_ / "truth.csv").string();
     rosbag::Bag bag(job_.bag, rosbag::bagmode::Write);
-    for (std::size_t pair = 0; pair < camera_pairs; ++pair)
+    for (std::size_t pair = 0; pair < kCameraPairs; ++pair)
       for (const bool left : {true, false}) {
         const sensor_msgs::Image image = makeCameraTestImage(pair, left);
         bag.write(left ? "/stereo/left/image_raw" : "/stereo/right/image_raw", image.header.stamp, image);
@@ -60,14 +60,14 @@ class SimulateCamera : public ::testing::Test {
 };
 
 TEST_F(SimulateCamera, FramesHoldTheImagesOfTheBagAndTheIndexTheirTimes) {
-  ASSERT_EQ(simulate(), static_cast<std::int64_t>(camera_pairs));
+  ASSERT_EQ(simulate(), static_cast<std::int64_t>(kCameraPairs));
   const std::string raw = urban_nav_core::readTextFile(job_.source);
-  ASSERT_EQ(raw.size(), camera_pairs * segway_drivers::kBb2FrameSize);
+  ASSERT_EQ(raw.size(), kCameraPairs * segway_drivers::kBb2FrameSize);
   const auto index = urban_nav_core::CsvTable::read(job_.source + ".csv");
   const auto truth = urban_nav_core::CsvTable::read(job_.truth);
-  ASSERT_EQ(index.rows(), camera_pairs);
-  ASSERT_EQ(truth.rows(), camera_pairs);
-  for (std::size_t pair = 0; pair < camera_pairs; ++pair) {
+  ASSERT_EQ(index.rows(), kCameraPairs);
+  ASSERT_EQ(truth.rows(), kCameraPairs);
+  for (std::size_t pair = 0; pair < kCameraPairs; ++pair) {
     const std::int64_t stamp = 1'000'000'000'000 + 50'000'000 * static_cast<std::int64_t>(pair);
     EXPECT_EQ(truth.integer(pair, truth.column("true_ns")), stamp);
     EXPECT_GT(index.integer(pair, index.column("arrival_ns")), stamp);

@@ -22,10 +22,10 @@ class SteppedDevice {
   }
 
   void run(double seconds) {
-    for (const std::int64_t end = now_ + static_cast<std::int64_t>(1e9 * seconds); now_ < end; now_ += step) once();
+    for (const std::int64_t end = now_ + static_cast<std::int64_t>(1e9 * seconds); now_ < end; now_ += kStep) once();
   }
   std::int64_t now() const { return now_; }
-  double seconds() const { return 1e-9 * static_cast<double>(now_ - begin); }
+  double seconds() const { return 1e-9 * static_cast<double>(now_ - kBegin); }
   const std::vector<urban_nav_sim::DeviceTruth>& truth() const { return truth_; }
   /// For long runs: what was recorded of the truth is dropped.
   void forgetTruth() { truth_.clear(); }
@@ -41,7 +41,7 @@ class SteppedDevice {
       if (event_times_[i] >= after && events_[i].text.find(text) != std::string::npos) return event_times_[i];
     return std::nullopt;
   }
-  static constexpr std::int64_t step = 1'000'000, begin = 1'000'000'000'000;
+  static constexpr std::int64_t kStep = 1'000'000, kBegin = 1'000'000'000'000;
 
  private:
   void open() {
@@ -80,7 +80,7 @@ class SteppedDevice {
 
   segway_drivers::DriverCore& driver_;
   urban_nav_sim::SimulatedDevice& device_;
-  std::int64_t now_ = begin, retry_at_ = 0;
+  std::int64_t now_ = kBegin, retry_at_ = 0;
   int baud_;
   bool is_open_ = false;
   std::vector<urban_nav_sim::DeviceTruth> truth_;

@@ -122,7 +122,7 @@ class GraphStage final : public Stage {
     if (run_->relaxed.accepted > 0) made.method = "relaxed";
     made.verdicts = graphVerdicts(*run_);
     if (!run_->closures.empty() || run_->sessions.size() > 1)  // else the section repeats that of odometry
-      made.sections.push_back({report_place::map, graphSection(*run_, context.runs(), context.evaluations)});
+      made.sections.push_back({report_place::kMap, graphSection(*run_, context.runs(), context.evaluations)});
     made.files.push_back({"graph.g2o", [this] { return graphG2o(*run_); }});
     for (std::size_t s = 1; s < context.names.size(); ++s) made.files.push_back({"graph" + fileSuffix(s) + ".g2o", {}});
     made.summary = toJson(*run_, context.evaluations);

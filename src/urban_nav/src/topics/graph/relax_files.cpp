@@ -30,17 +30,17 @@ pose_graph::TangentMatrix<3> shown(const pose_graph::Marginal<3>& marginal) {
 pose_graph::TangentMatrix<2> shown(const pose_graph::Marginal<2>& marginal) {
   if (marginal.knowledge == pose_graph::Knowledge::Full) return marginal.covariance;
   // In space, with the three directions that the plane has not held.
-  constexpr int in_space[3] = {0, 1, 5};
+  constexpr int kInSpace[3] = {0, 1, 5};
   pose_graph::Marginal<3> space;
   space.knowledge = marginal.knowledge;
   space.information.setIdentity();
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      space.information(in_space[row], in_space[column]) = marginal.information(row, column);
+      space.information(kInSpace[row], kInSpace[column]) = marginal.information(row, column);
   const urban_nav_core::Matrix6d all = pose_graph::displayed(space, 1.0);
   pose_graph::TangentMatrix<2> made;
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) made(row, column) = all(in_space[row], in_space[column]);
+    for (int column = 0; column < 3; ++column) made(row, column) = all(kInSpace[row], kInSpace[column]);
   return made;
 }
 
@@ -69,9 +69,9 @@ std::string covarianceCsv(const FileProblem<D>& file, const std::vector<EdgeAsse
   std::vector<double> weights;
   for (const EdgeAssessment& edge : assessments) weights.push_back(edge.weight);
   const pose_graph::Marginals<D> marginals(file.problem, poses, weights);
-  constexpr int N = pose_graph::kTangentSize<D>;
+  constexpr int kN = pose_graph::kTangentSize<D>;
   std::string text = "vertex";
-  for (int i = 0; i < N * N; ++i) text += ",c" + std::to_string(i);
+  for (int i = 0; i < kN * kN; ++i) text += ",c" + std::to_string(i);
   text += '\n';
   for (std::size_t i = 0; i < file.ids.size(); ++i) {
     const int pose = static_cast<int>(i);
@@ -85,8 +85,8 @@ std::string covarianceCsv(const FileProblem<D>& file, const std::vector<EdgeAsse
       covariance = shown(marginal);
     }
     text += std::to_string(file.ids[i]);
-    for (int row = 0; row < N; ++row)
-      for (int column = 0; column < N; ++column) text += "," + urban_nav_core::printNumber(covariance(row, column));
+    for (int row = 0; row < kN; ++row)
+      for (int column = 0; column < kN; ++column) text += "," + urban_nav_core::printNumber(covariance(row, column));
     text += '\n';
   }
   return text;

@@ -12,7 +12,7 @@ struct NamedColour {
 };
 
 // By the number of the class; apart in lightness as well, for readers who do not see red and green apart.
-constexpr std::array<NamedColour, scene_labeler::kClassCount> class_colours = {{{{110, 90, 140}, "violet"},
+constexpr std::array<NamedColour, scene_labeler::kClassCount> kClassColours = {{{{110, 90, 140}, "violet"},
                                                                                 {{150, 220, 90}, "light green"},
                                                                                 {{190, 190, 190}, "light grey"},
                                                                                 {{200, 140, 60}, "brown"},
@@ -25,14 +25,14 @@ constexpr std::array<NamedColour, scene_labeler::kClassCount> class_colours = {{
 }  // namespace
 
 ClassColour classColour(scene_labeler::SceneClass label) {
-  return label == scene_labeler::SceneClass::None ? ClassColour{60, 60, 60} : class_colours[toIndex(label)].colour;
+  return label == scene_labeler::SceneClass::None ? ClassColour{60, 60, 60} : kClassColours[toIndex(label)].colour;
 }
 
 std::string classColourNames() {
   std::string names;
-  for (std::size_t k = 0; k < class_colours.size(); ++k)
+  for (std::size_t k = 0; k < kClassColours.size(); ++k)
     names += std::string(k == 0 ? "" : ", ") + toString(static_cast<scene_labeler::SceneClass>(k)) + " " +
-             class_colours[k].name;
+             kClassColours[k].name;
   return names;
 }
 

@@ -28,7 +28,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::array<std::size_t, 2> side_cameras = {4, 1};  // of the panoramic head, left and right
+constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic head, left and right
 
 /// Topics of one side with its rig.
 struct SideTopics {
@@ -41,7 +41,7 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
   const urban_nav_ros::StaticTransforms transforms = recording.transforms();
   const urban_nav_input::BagPanorama head(recording, topics, transforms);
   std::array<SideTopics, 2> rigs;
-  for (const DriveSide side : both_sides) {
+  for (const DriveSide side : kBothSides) {
     SideTopics& rig = rigs[static_cast<std::size_t>(side)];
     const auto topic =
         topics.find(side == DriveSide::Left ? urban_nav_input::Role::LaserLeft : urban_nav_input::Role::LaserRight);
@@ -56,7 +56,7 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
     rig.scan = topic->name;
     rig.rig.T_base_laser = *T_base_laser;
     for (const urban_nav_input::PanoramaCamera& camera : head.cameras()) {
-      if (camera.number != side_cameras[static_cast<std::size_t>(side)]) continue;
+      if (camera.number != kSideCameras[static_cast<std::size_t>(side)]) continue;
       if (!camera.T_base_camera || !camera.calibration) continue;
       rig.image = camera.topic;
       rig.rig.camera = {urban_nav_core::rawCamera(*camera.calibration, camera.topic), *camera.T_base_camera};
@@ -143,7 +143,7 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
     throw UserError("scene_labeler.class_topic", "no sensor_msgs/Image on " + parameters.class_topic,
                     "a topic of the bag with mono8 class images");
   std::vector<SideReader> sides;
-  for (const DriveSide side : both_sides)
+  for (const DriveSide side : kBothSides)
     sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, parameters.spacing, classes,
                        *windows[static_cast<std::size_t>(side)]);
   Progress progress(console, std::filesystem::path(bag).stem().string(), "messages", 0);

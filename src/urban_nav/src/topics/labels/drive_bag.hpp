@@ -16,7 +16,7 @@ namespace urban_nav {
 
 /// Sides of the robot that a laser and a camera of the panoramic head look to.
 enum class DriveSide : std::uint8_t { Left, Right };
-constexpr std::array<DriveSide, 2> both_sides = {DriveSide::Left, DriveSide::Right};
+constexpr std::array<DriveSide, 2> kBothSides = {DriveSide::Left, DriveSide::Right};
 const char* toString(DriveSide side);
 
 /// How the bags of `labels` are read.

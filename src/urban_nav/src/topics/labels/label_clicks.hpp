@@ -32,7 +32,7 @@ class LabelClicks {
   };
   struct ClickedBag {
     std::string bag, trajectory;
-    std::array<std::vector<Click>, both_sides.size()> clicks;
+    std::array<std::vector<Click>, kBothSides.size()> clicks;
   };
   class Collector;
   ClickedBag& bagOf(const std::string& bag, const std::string& trajectory, const std::string& where);

@@ -24,9 +24,9 @@ using urban_nav_core::StampNs;
 namespace {
 
 /// Of a scene of a drive, which is one of many.
-constexpr scene_labeler::SamplingLimits drive_limits{150, 1500};
-constexpr scene_labeler::SamplingLimits variant_limits{50, 0};
-constexpr double lone_stretch = 40.0;  // m along the path: the folds of a bag that is the only source
+constexpr scene_labeler::SamplingLimits kDriveLimits{150, 1500};
+constexpr scene_labeler::SamplingLimits kVariantLimits{50, 0};
+constexpr double kLoneStretch = 40.0;  // m along the path: the folds of a bag that is the only source
 
 /// Times the labelling of frames.
 class TimedLabeler final : public DriveLabeler {
@@ -64,7 +64,7 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
 
   void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t,
                const std::vector<DriveReturn>& returns) override {
-    add(makeDriveScene(returns, frame.view), frame, nearest, returns, true, drive_limits);
+    add(makeDriveScene(returns, frame.view), frame, nearest, returns, true, kDriveLimits);
     addVariant(frame, nearest, returns);
     ++frames_;
   }
@@ -76,12 +76,12 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
   void addVariant(const DriveFrame& frame, const Stretch& nearest, const std::vector<DriveReturn>& returns) {
     const bool is_thinned = frames_ % 2 == 0, has_image = frames_ % 4 < 2;
     const scene_labeler::SideView view = has_image ? frame.view : scene_labeler::SideView();
-    if (!is_thinned) return add(makeDriveScene(returns, view), frame, nearest, returns, false, variant_limits);
+    if (!is_thinned) return add(makeDriveScene(returns, view), frame, nearest, returns, false, kVariantLimits);
     const scene_labeler::DriveScene dense = makeDriveScene(returns, view);
     std::vector<DriveReturn> thinned;
     for (std::size_t i = 0; i < dense.first_of_point.size(); i += 4)
       thinned.push_back(returns[dense.first_of_point[i]]);
-    add(makeDriveScene(thinned, view), frame, nearest, thinned, false, variant_limits);
+    add(makeDriveScene(thinned, view), frame, nearest, thinned, false, kVariantLimits);
   }
 
   void add(const scene_labeler::DriveScene& drive, const DriveFrame& frame, const Stretch& nearest,
@@ -89,7 +89,7 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
            const scene_labeler::SamplingLimits& limits) {
     const std::vector<std::uint8_t> is_labelled = labelledPoints(drive, returns, nearest);
     scene_labeler::TrainingScene training;
-    training.fold = is_alone_ ? fold_ + "/" + std::to_string(static_cast<int>(frame.travelled / lone_stretch)) : fold_;
+    training.fold = is_alone_ ? fold_ + "/" + std::to_string(static_cast<int>(frame.travelled / kLoneStretch)) : fold_;
     for (std::size_t i = 0; i < drive.first_of_point.size(); ++i) {
       const DriveReturn& one = returns[drive.first_of_point[i]];
       training.labels.push_back(is_labelled[i] != 0 ? truth_.at(one.scan, one.beam) : SceneClass::None);

@@ -34,7 +34,7 @@ void LabelScore::add(const scene_labeler::SceneLabels& labels, const std::vector
     const SceneClass expected = one_wall_ ? withOneWall(truth[i]) : truth[i];
     const SceneClass answer = one_wall_ ? withOneWall(labels.labels[i]) : labels.labels[i];
     ++points_;
-    const std::size_t column = answer == SceneClass::None ? none_index : toIndex(answer);
+    const std::size_t column = answer == SceneClass::None ? kNoneIndex : toIndex(answer);
     ++confusion_[toIndex(expected)][column];
     if (labels.unsure[i] == 0) ++sure_confusion_[toIndex(expected)][column];
     if (labels.patches[i] != scene_labeler::kNoPatch) patches[toIndex(expected)].insert(labels.patches[i]);

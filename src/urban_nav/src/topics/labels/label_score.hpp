@@ -30,7 +30,7 @@ class LabelScore {
   std::string print() const;
 
  private:
-  static constexpr std::size_t none_index = scene_labeler::kClassCount;
+  static constexpr std::size_t kNoneIndex = scene_labeler::kClassCount;
   struct Bin {
     std::size_t points = 0, right = 0;
     double stated = 0.0;
@@ -43,7 +43,7 @@ class LabelScore {
 
   bool one_wall_;
   std::size_t points_ = 0;
-  /// Number of answers by truth and answer; none_index: no answer.
+  /// Number of answers by truth and answer; kNoneIndex: no answer.
   using Confusion = std::array<std::array<std::size_t, scene_labeler::kClassCount + 1>, scene_labeler::kClassCount>;
   static Json toJson(const Confusion& confusion);
   Confusion confusion_{}, sure_confusion_{};  // of all answers, and of those that are not unsure

@@ -18,10 +18,10 @@ using urban_nav_core::PlyType;
 
 namespace {
 
-constexpr const char* labels_state = "scene_labeler/map";
-constexpr const char* labels_seal = "labels of a map";
-constexpr std::uint32_t labels_version = 1;
-constexpr std::size_t label_bytes = 3;  // class, probability, unsure
+constexpr const char* kLabelsState = "scene_labeler/map";
+constexpr const char* kLabelsSeal = "labels of a map";
+constexpr std::uint32_t kLabelsVersion = 1;
+constexpr std::size_t kLabelBytes = 3;  // class, probability, unsure
 
 /// Returns the class of a label in LAS files: those of the ASPRS, and 64 for vehicles.
 std::uint8_t lasClassification(SceneClass label) {
@@ -81,26 +81,26 @@ void storeMapLabels(urban_nav_store::Store& store, const urban_nav_store::Sessio
   urban_nav_core::Archive archive;
   std::int64_t hash = digest.value();
   std::string bytes;
-  bytes.reserve(label_bytes * labels.size());
+  bytes.reserve(kLabelBytes * labels.size());
   for (const PointLabel& label : labels) {
     bytes += static_cast<char>(label.label);
     bytes += static_cast<char>(label.probability);
     bytes += static_cast<char>(label.is_unsure ? 1 : 0);
   }
   archive(hash, bytes);
-  store.states().put(first, labels_state, urban_nav_core::seal(labels_seal, labels_version, archive.take()));
+  store.states().put(first, kLabelsState, urban_nav_core::seal(kLabelsSeal, kLabelsVersion, archive.take()));
   store.commit();
 }
 
 std::optional<std::vector<PointLabel>> storedMapLabels(urban_nav_store::Store& store,
                                                        const urban_nav_store::SessionId& first,
                                                        const laser_mapper::LaserMap& map) {
-  const auto state = store.states().get(first, labels_state);
+  const auto state = store.states().get(first, kLabelsState);
   if (!state) return std::nullopt;
   std::int64_t hash = 0;
   std::string bytes;
   try {
-    urban_nav_core::Archive archive(urban_nav_core::unseal(labels_seal, labels_version, *state), labels_seal);
+    urban_nav_core::Archive archive(urban_nav_core::unseal(kLabelsSeal, kLabelsVersion, *state), kLabelsSeal);
     archive(hash, bytes);
     archive.finish();
   } catch (const urban_nav_core::DataError&) {  // of another version
@@ -112,10 +112,10 @@ std::optional<std::vector<PointLabel>> storedMapLabels(urban_nav_store::Store& s
     digest.add(tile);
     points += tile.size();
   });
-  if (digest.value() != hash || bytes.size() != label_bytes * points) return std::nullopt;
+  if (digest.value() != hash || bytes.size() != kLabelBytes * points) return std::nullopt;
   std::vector<PointLabel> labels(points);
   for (std::size_t i = 0; i < points; ++i) {
-    const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes[label_bytes * i + k]); };
+    const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes[kLabelBytes * i + k]); };
     const bool is_class = byte(0) < scene_labeler::kClassCount;
     labels[i] = {is_class ? static_cast<SceneClass>(byte(0)) : SceneClass::None, byte(1), byte(2) != 0};
   }

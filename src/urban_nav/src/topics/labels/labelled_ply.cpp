@@ -12,7 +12,7 @@
 namespace urban_nav {
 namespace {
 
-constexpr std::size_t vertices_at_once = 65536;
+constexpr std::size_t kVerticesAtOnce = 65536;
 
 /// Reads up to the line end_header; fewer bytes if there is no such line among the first 64.
 std::string readHeader(std::istream& file) {
@@ -41,8 +41,8 @@ void addLabelsToPly(const std::string& path, const std::vector<scene_labeler::Po
   if (withoutComments(readHeader(file)) != withoutComments(urban_nav_core::plyHeader(layout, labels.size())))
     throw urban_nav_core::DataError(path, "is not the map of this run", "map.ply of stage lasers");
   urban_nav_core::PlyWriter writer(path, labelledMapLayout());
-  for (std::size_t begin = 0; begin < labels.size(); begin += vertices_at_once) {
-    const std::size_t count = std::min(vertices_at_once, labels.size() - begin);
+  for (std::size_t begin = 0; begin < labels.size(); begin += kVerticesAtOnce) {
+    const std::size_t count = std::min(kVerticesAtOnce, labels.size() - begin);
     std::string block(count * vertex, '\0'), made;
     if (!file.read(block.data(), static_cast<std::streamsize>(block.size())))
       throw urban_nav_core::DataError(path, "ends too early", "a whole map.ply");

@@ -16,7 +16,7 @@ using scene_labeler::SceneClass;
 
 namespace {
 
-constexpr double many_unsure = 0.3;  // share worth a warning
+constexpr double kManyUnsure = 0.3;  // share worth a warning
 
 double labelShare(std::size_t part, std::size_t all) {
   return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
@@ -77,7 +77,7 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
                        " has none in mono8 with the frame, stamp and size of an image that is labelled, or there is no "
                        "such topic in the bags of this run");
   const double unsure = labelShare(run.unsure(), run.labelled());
-  if (unsure > many_unsure && new_place.empty())
+  if (unsure > kManyUnsure && new_place.empty())
     warnings.push_back(urban_nav_core::formatNumber(100.0 * unsure, 3) +
                        " % of the labels are unsure: the place is unlike those that the model was trained on");
   return warnings;

@@ -40,12 +40,12 @@ namespace {
 
 using LabelsClock = std::chrono::steady_clock;
 
-constexpr std::array<std::int64_t, 2> labelled_cameras = {1, 4};  // right and left
-constexpr urban_nav_core::StampNs longest_view_gap = 500'000'000;
-constexpr float extent_per_m = 5.0F;  // cubes and squares of 0.2 m
-constexpr double above_margin = 25.0;
-constexpr double row_margin = 1.0;   // m: points may lie beside their tile, on the plane of their surroundings
-constexpr int above_longest = 2000;  // px
+constexpr std::array<std::int64_t, 2> kLabelledCameras = {1, 4};  // right and left
+constexpr urban_nav_core::StampNs kLongestGapOfLabelledViews = 500'000'000;
+constexpr float kExtentPerM = 5.0F;  // cubes and squares of 0.2 m
+constexpr double kAboveMargin = 25.0;
+constexpr double kRowMargin = 1.0;   // m: points may lie beside their tile, on the plane of their surroundings
+constexpr int kAboveLongest = 2000;  // px
 
 double millisecondsSince(LabelsClock::time_point begin) {
   return std::chrono::duration<double, std::milli>(LabelsClock::now() - begin).count();
@@ -86,7 +86,7 @@ void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
     if (row.camera != camera.camera) return;
     const auto travelled = path.at(row.stamp - correction.delay);
-    const auto T_map_base = session.T_map_base->at(row.stamp - correction.delay, longest_view_gap);
+    const auto T_map_base = session.T_map_base->at(row.stamp - correction.delay, kLongestGapOfLabelledViews);
     if (!travelled || !T_map_base || *travelled < next) return;
     next = *travelled + spacing;
     planned.views.push_back(
@@ -101,7 +101,7 @@ PlannedViews planViews(urban_nav_store::Store& store, const std::vector<laser_ma
   PlannedViews planned;
   for (const laser_mapper::MappedSession& session : sessions)
     TableStore<StoredPanoramaCamera>(store).forEach(session.id, [&](const StoredPanoramaCamera& camera) {
-      if (std::find(labelled_cameras.begin(), labelled_cameras.end(), camera.camera) != labelled_cameras.end())
+      if (std::find(kLabelledCameras.begin(), kLabelledCameras.end(), camera.camera) != kLabelledCameras.end())
         planCamera(store, session, camera, spacing, planned);
     });
   return planned;
@@ -115,19 +115,19 @@ class ExtentMeter {
     const std::size_t k = toIndex(label.label);
     ++extents_[k].points;
     extents_[k].probability_sum += label.probability / 255.0;
-    const urban_nav_registration::Cell cell = urban_nav_registration::toCell(point, extent_per_m);
+    const urban_nav_registration::Cell cell = urban_nav_registration::toCell(point, kExtentPerM);
     cubes_[k].insert(urban_nav_registration::toKey(cell));
     squares_[k].insert(urban_nav_registration::toKey({cell.x, cell.y, 0}));
   }
 
   std::array<ClassExtent, scene_labeler::kClassCount> finish() {
-    constexpr double edge = 1.0 / static_cast<double>(extent_per_m);
+    constexpr double kEdge = 1.0 / static_cast<double>(kExtentPerM);
     for (std::size_t k = 0; k < scene_labeler::kClassCount; ++k) {
       const auto label = static_cast<SceneClass>(k);
       const bool is_ground = label == SceneClass::Grass || label == SceneClass::Paved || label == SceneClass::DirtPath;
       const bool is_wall = withOneWall(label) == SceneClass::Wall;
-      extents_[k].area = edge * edge * static_cast<double>(is_ground ? squares_[k].size() : cubes_[k].size());
-      if (is_wall) extents_[k].length = edge * static_cast<double>(squares_[k].size());
+      extents_[k].area = kEdge * kEdge * static_cast<double>(is_ground ? squares_[k].size() : cubes_[k].size());
+      if (is_wall) extents_[k].length = kEdge * static_cast<double>(squares_[k].size());
     }
     return extents_;
   }
@@ -141,7 +141,7 @@ class ExtentMeter {
 
 /// Shows the classes in the view of the map that stage lasers made.
 std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
-  urban_nav_core::EvenThinning<unsigned char> kinds(most_shown_points);
+  urban_nav_core::EvenThinning<unsigned char> kinds(kMostShownPoints);
   for (const PointLabel& label : labels) kinds.add(static_cast<unsigned char>(label.label));
   std::vector<std::array<int, 3>> colours;
   for (std::size_t k = 0; k < scene_labeler::kClassCount; ++k) {
@@ -154,7 +154,7 @@ std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
 /// Draws the labels and measures what they cover.
 void describeLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
                     const std::vector<urban_nav_core::Vector3d>& path, LabelledMap& made) {
-  laser_mapper::MapPicture above(laser_mapper::viewFromAbove(path, above_margin, above_longest));
+  laser_mapper::MapPicture above(laser_mapper::viewFromAbove(path, kAboveMargin, kAboveLongest));
   ExtentMeter extents;
   std::size_t next = 0;
   map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
@@ -207,7 +207,7 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
   const double tile_edge = laser_mapper::kTileCells * map.parameters().voxel;
   std::optional<int> row;
   map.forEachTile([&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
-    if (row != tile.y) labeler.sweepTo(tile.y * tile_edge - row_margin);
+    if (row != tile.y) labeler.sweepTo(tile.y * tile_edge - kRowMargin);
     row = tile.y;
     digest.add(points);
     std::vector<Eigen::Vector3f> places;

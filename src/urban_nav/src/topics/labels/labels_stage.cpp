@@ -56,7 +56,7 @@ class LabelsStage final : public Stage {
     StageResult made;
     if (!run_) return made;
     made.method = "labels";
-    made.sections.push_back({report_place::map, labelsSection(*run_)});
+    made.sections.push_back({report_place::kMap, labelsSection(*run_)});
     made.data_faults = labelsWarnings(*run_);
     const LabelsRun& run = *run_;
     made.files.push_back({"labels.csv", [run] { return printLabelsCsv(run); }});

@@ -20,8 +20,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double far_coordinate = 1000.0;  // m: a float is 0.06 mm coarse there
-const char* const scene_rule = "a folder of NAME_points.csv or .ply (also .gz), or one such file";
+constexpr double kFarCoordinate = 1000.0;  // m: a float is 0.06 mm coarse there
+const char* const kSceneRule = "a folder of NAME_points.csv or .ply (also .gz), or one such file";
 
 /// Name of a file of returns without its extension; nullopt for other extensions.
 std::optional<std::string> withoutCloudExtension(std::string name) {
@@ -50,18 +50,18 @@ std::vector<SceneFiles> scenesOfFolder(const std::string& folder) {
     if (!name || !urban_nav_core::endsWith(*name, "_points") || !entry.is_regular_file()) continue;
     scenes.push_back(besidePoints(entry.path(), name->substr(0, name->size() - 7)));
   }
-  if (scenes.empty()) throw UserError(folder, "holds no scene", scene_rule);
+  if (scenes.empty()) throw UserError(folder, "holds no scene", kSceneRule);
   return scenes;
 }
 
 std::vector<SceneFiles> scenesOfSource(const std::string& source) {
   if (std::filesystem::is_directory(source)) return scenesOfFolder(source);
-  if (!std::filesystem::exists(source)) throw UserError(source, "does not exist", scene_rule);
+  if (!std::filesystem::exists(source)) throw UserError(source, "does not exist", kSceneRule);
   const std::filesystem::path path(source);
   const auto name = withoutCloudExtension(path.filename().string());
   if (!name)
     throw UserError(source, path.extension() == ".bag" ? "is a bag: bags cannot be labelled yet" : "is no scene",
-                    scene_rule);
+                    kSceneRule);
   const bool has_suffix = urban_nav_core::endsWith(*name, "_points");
   return {besidePoints(path, has_suffix ? name->substr(0, name->size() - 7) : *name)};
 }
@@ -96,7 +96,7 @@ cv::Mat readColourImage(const std::string& path) {
 /// Middle of coordinates that lie far from zero, in whole metres.
 double offsetAlong(const std::vector<double>& values) {
   for (const double value : values)
-    if (std::isfinite(value)) return std::abs(value) > far_coordinate ? std::round(value) : 0.0;
+    if (std::isfinite(value)) return std::abs(value) > kFarCoordinate ? std::round(value) : 0.0;
   return 0.0;
 }
 

@@ -63,7 +63,7 @@ class LasersStage final : public Stage {
     if (!run_) return made;
     made.method = "laser map";
     made.tiles = lasersTiles(*run_);
-    made.sections.push_back({report_place::map, lasersSection(*run_)});
+    made.sections.push_back({report_place::kMap, lasersSection(*run_)});
     made.data_faults = lasersWarnings(*run_);
     for (const LaserMapRun& map : run_->maps) {
       made.written_files.push_back(map.file);

@@ -30,7 +30,7 @@ class MapViewer {
 
  private:
   const std::size_t number_;
-  urban_nav_core::EvenThinning<laser_mapper::MapPoint> points_{most_shown_points};
+  urban_nav_core::EvenThinning<laser_mapper::MapPoint> points_{kMostShownPoints};
   std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
 };
 

@@ -49,7 +49,7 @@ class LoopsStage final : public Stage {
     made.summary = toJson(*run_);
     if (run_->candidates == 0) return made;
     made.verdicts = loopsVerdicts(*run_);
-    made.sections.push_back({report_place::closures, loopsSection(*run_, context)});
+    made.sections.push_back({report_place::kClosures, loopsSection(*run_, context)});
     return made;
   }
 

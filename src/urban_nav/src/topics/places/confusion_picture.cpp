@@ -10,17 +10,17 @@ namespace urban_nav {
 
 namespace {
 
-constexpr int longest_side = 1000;  // px
-constexpr double announced_above = 0.99;
-const cv::Vec3b same_place(255, 226, 204), right_match(62, 138, 43), wrong_match(40, 40, 214);
-constexpr double faintest = 0.01;  // probability drawn as white
+constexpr int kLongestSide = 1000;  // px
+constexpr double kAnnouncedAbove = 0.99;
+const cv::Vec3b kSamePlace(255, 226, 204), kRightMatch(62, 138, 43), kWrongMatch(40, 40, 214);
+constexpr double kFaintest = 0.01;  // probability drawn as white
 
 /// Squares of an image for pairs of rows: several px for each if there are few rows, several rows on one px otherwise.
 class MatrixCanvas {
  public:
   explicit MatrixCanvas(std::size_t rows)
-      : rows_per_px_(std::max(1, (static_cast<int>(rows) + longest_side - 1) / longest_side)),
-        px_per_row_(std::max(1, longest_side / std::max(1, static_cast<int>(rows)))) {
+      : rows_per_px_(std::max(1, (static_cast<int>(rows) + kLongestSide - 1) / kLongestSide)),
+        px_per_row_(std::max(1, kLongestSide / std::max(1, static_cast<int>(rows)))) {
     const int side = std::max(1, (static_cast<int>(rows) + rows_per_px_ - 1) / rows_per_px_ * px_per_row_);
     pixels_ = cv::Mat(side, side, CV_8UC3, cv::Scalar(255, 255, 255));
   }
@@ -59,18 +59,18 @@ cv::Mat drawConfusion(const PlaceEvaluation& evaluation) {
     for (std::size_t place = 0; place < row; ++place) {
       const PlaceQueryRow &query = evaluation.query.rows[row], &earlier = evaluation.query.rows[place];
       const bool is_masked = query.session == earlier.session && earlier.stamp > query.stamp - evaluation.mask;
-      if (!is_masked && areSamePlace(evaluation.truth, row, place)) canvas.darken(row, place, same_place);
+      if (!is_masked && areSamePlace(evaluation.truth, row, place)) canvas.darken(row, place, kSamePlace);
     }
   for (const WordProbability& entry : evaluation.confusion) {
     if (entry.place_row < 0) continue;
-    const double share = std::clamp(1.0 - std::log(entry.probability) / std::log(faintest), 0.0, 1.0);
+    const double share = std::clamp(1.0 - std::log(entry.probability) / std::log(kFaintest), 0.0, 1.0);
     const auto grey = static_cast<unsigned char>(std::lround(235.0 * (1.0 - share)));
     canvas.darken(entry.row, static_cast<std::size_t>(entry.place_row), {grey, grey, grey});
   }
   for (const RankedMatch& match : rankedMatches(evaluation.query)) {
     const auto verdict = judgeMatch(evaluation.truth, match);
-    if (!verdict || match.score <= announced_above || *verdict == MatchTruth::Neither) continue;
-    canvas.set(match.row, match.matched_row, *verdict == MatchTruth::Right ? right_match : wrong_match, 4);
+    if (!verdict || match.score <= kAnnouncedAbove || *verdict == MatchTruth::Neither) continue;
+    canvas.set(match.row, match.matched_row, *verdict == MatchTruth::Right ? kRightMatch : kWrongMatch, 4);
   }
   return canvas.pixels();
 }

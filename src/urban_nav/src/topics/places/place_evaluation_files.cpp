@@ -17,8 +17,8 @@ namespace urban_nav {
 
 namespace {
 
-constexpr std::size_t pictures_of_a_kind = 4;
-constexpr double shown_as_closure = 0.99;
+constexpr std::size_t kPicturesOfAKind = 4;
+constexpr double kShownAsClosure = 0.99;
 
 std::vector<PlotPoint> toPoints(const RankingScore& score) {
   std::vector<PlotPoint> points;
@@ -43,9 +43,9 @@ Plot precisionRecallPlot(const PlaceEvaluation& evaluation) {
   plot.y_from_zero = true;
   plot.y_top = 1.0;
   plot.series.push_back(namedSeries("", "plain", Series::Kind::Faint, {{0.0, 1.0}, {1.0, 1.0}}));
-  constexpr std::array<const char*, 3> colours = {"a", "b", "c"};
+  constexpr std::array<const char*, 3> kColours = {"a", "b", "c"};
   for (std::size_t i = 0; i < evaluation.words.size(); ++i)
-    plot.series.push_back(namedSeries("words: " + evaluation.words[i].name, colours[i % 3], Series::Kind::Line,
+    plot.series.push_back(namedSeries("words: " + evaluation.words[i].name, kColours[i % 3], Series::Kind::Line,
                                       toPoints(evaluation.words[i].score)));
   plot.series.push_back(
       namedSeries("all evidence, by probability", "d", Series::Kind::Dashed, toPoints(evaluation.score.ranking)));
@@ -87,7 +87,7 @@ Plot closuresPlot(const PlaceEvaluation& evaluation) {
   }
   for (const RankedMatch& match : rankedMatches(evaluation.query)) {
     const auto verdict = judgeMatch(truth, match);
-    if (!verdict || match.score <= shown_as_closure) continue;
+    if (!verdict || match.score <= kShownAsClosure) continue;
     Series& series = *verdict == MatchTruth::Wrong ? wrong : right;
     for (const PlotPoint& point : {at(match.matched_row), at(match.row), PlotPoint{gap, gap}})
       series.points.push_back(point);
@@ -147,7 +147,7 @@ std::vector<PagePicture> matchPictures(const PlaceEvaluation& evaluation, const 
   std::stable_sort(wrong.begin(), wrong.end(), surer);
   std::vector<PagePicture> pictures;
   const auto add = [&](const std::string& kind, const std::vector<RankedMatch>& matches, bool from_the_end) {
-    for (std::size_t i = 0; i < std::min(pictures_of_a_kind, matches.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kPicturesOfAKind, matches.size()); ++i) {
       const RankedMatch& match = from_the_end ? matches[matches.size() - 1 - i] : matches[i];
       const auto &place = recording.places[match.matched_row], &query = recording.places[match.row];
       const auto label = [&](const PlaceRecording::Place& one, std::size_t row) {
@@ -162,7 +162,7 @@ std::vector<PagePicture> matchPictures(const PlaceEvaluation& evaluation, const 
   };
   add("Right", right, false);
   add("Wrong", wrong, false);
-  if (right.size() > 2 * pictures_of_a_kind) add("Right, but the least sure", right, true);
+  if (right.size() > 2 * kPicturesOfAKind) add("Right, but the least sure", right, true);
   return pictures;
 }
 

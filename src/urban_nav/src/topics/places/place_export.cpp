@@ -25,8 +25,8 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr StampNs most_interpolated = 1'000'000'000;  // ns between the poses around a place
-constexpr const char* thumbnail_folder = "thumbnails";
+constexpr StampNs kMostInterpolated = 1'000'000'000;  // ns between the poses around a place
+constexpr const char* kThumbnailFolder = "thumbnails";
 
 void makeFolder(const fs::path& path) {
   std::error_code error;
@@ -41,7 +41,7 @@ urban_nav_core::Trajectory toTrajectory(const StoredTrajectory& stored) {
 }
 
 std::vector<std::string> poseCells(const urban_nav_core::Trajectory& trajectory, StampNs stamp) {
-  const auto pose = trajectory.empty() ? std::nullopt : trajectory.at(stamp, most_interpolated);
+  const auto pose = trajectory.empty() ? std::nullopt : trajectory.at(stamp, kMostInterpolated);
   if (!pose) return std::vector<std::string>(7);
   std::vector<std::string> cells;
   for (const double value :
@@ -54,7 +54,7 @@ std::vector<std::string> poseCells(const urban_nav_core::Trajectory& trajectory,
 class PlaceExportFolder {
  public:
   PlaceExportFolder(urban_nav_store::Store& store, const fs::path& folder) : store_(store), folder_(folder) {
-    makeFolder(folder_ / thumbnail_folder);
+    makeFolder(folder_ / kThumbnailFolder);
   }
 
   void add(const StoredTrajectory& stored) {
@@ -84,7 +84,7 @@ class PlaceExportFolder {
   std::string writeThumbnail(const StoredPlace& row) {
     if (row.thumbnail.empty()) return "";
     const std::string name =
-        std::string(thumbnail_folder) + "/" + row.session + "_" + std::to_string(row.stamp) + ".jpg";
+        std::string(kThumbnailFolder) + "/" + row.session + "_" + std::to_string(row.stamp) + ".jpg";
     urban_nav_core::writeAtomically((folder_ / name).string(), row.thumbnail);
     ++made_.thumbnails;
     return name;

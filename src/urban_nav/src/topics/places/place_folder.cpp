@@ -19,7 +19,7 @@ using urban_nav_core::UserError;
 namespace {
 
 /// Where stereo folders keep their left images.
-constexpr std::array<const char*, 4> left_folders = {"image_0", "image_00/data", "image_00", "mav0/cam0/data"};
+constexpr std::array<const char*, 4> kLeftFolders = {"image_0", "image_00/data", "image_00", "mav0/cam0/data"};
 
 std::vector<std::string> imagesIn(const fs::path& folder) {
   std::vector<std::string> paths;
@@ -53,7 +53,7 @@ class PlaceFolder : public PlaceSource {
  public:
   explicit PlaceFolder(const std::string& path) : path_(path), images_(imagesIn(path)) {
     fs::path times = fs::path(path) / "times.txt";
-    for (const char* left : left_folders) {
+    for (const char* left : kLeftFolders) {
       if (!images_.empty()) break;
       images_ = imagesIn(fs::path(path) / left);
       if (!images_.empty()) notes_.push_back(path + ": left images, " + left);

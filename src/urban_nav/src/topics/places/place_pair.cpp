@@ -25,7 +25,7 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr double farthest_place = 1.0;  // s from the time asked for
+constexpr double kFarthestPlace = 1.0;  // s from the time asked for
 
 struct SessionPlaces {
   urban_nav_store::Session session;
@@ -74,7 +74,7 @@ PlaceNumber nearestPlace(const std::vector<SessionPlaces>& sessions, const TimeQ
       least = off;
       nearest = {s, i};
     }
-  if (!(least <= farthest_place))
+  if (!(least <= kFarthestPlace))
     throw DataError(path,
                     std::string("no place within 1 s of ") + what +
                         (std::isfinite(least) ? "; the nearest is " + urban_nav_core::formatNumber(least, 3) + " s off"

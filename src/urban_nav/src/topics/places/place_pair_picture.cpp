@@ -9,8 +9,8 @@ namespace urban_nav {
 
 namespace {
 
-constexpr int picture_scale = 2;
-constexpr int gap_px = 4;
+constexpr int kPictureScale = 2;
+constexpr int kGapPx = 4;
 
 cv::Mat decodeJpeg(const std::string& bytes) {
   if (bytes.empty()) return {};
@@ -23,14 +23,14 @@ std::optional<PagePicture> placePairPicture(const std::string& earlier, const st
                                             const std::string& caption) {
   const cv::Mat above = decodeJpeg(earlier), below = decodeJpeg(query);
   if (above.empty() || below.empty()) return std::nullopt;
-  const cv::Size size(picture_scale * std::max(above.cols, below.cols),
-                      picture_scale * (above.rows + below.rows) + gap_px);
+  const cv::Size size(kPictureScale * std::max(above.cols, below.cols),
+                      kPictureScale * (above.rows + below.rows) + kGapPx);
   cv::Mat both(size, CV_8UC1, cv::Scalar(255)), scaled;
   int top = 0;
   for (const cv::Mat* image : {&above, &below}) {
-    cv::resize(*image, scaled, {}, picture_scale, picture_scale, cv::INTER_CUBIC);
+    cv::resize(*image, scaled, {}, kPictureScale, kPictureScale, cv::INTER_CUBIC);
     scaled.copyTo(both({0, top, scaled.cols, scaled.rows}));
-    top += scaled.rows + gap_px;
+    top += scaled.rows + kGapPx;
   }
   PagePicture picture;
   cv::imencode(".jpg", both, picture.jpeg, {cv::IMWRITE_JPEG_QUALITY, 80});

@@ -14,7 +14,7 @@ using urban_nav_store::StoredPlace;
 
 namespace {
 
-constexpr std::size_t sure_pictures = 4, unsure_pictures = 4;
+constexpr std::size_t kSurePictures = 4, kUnsurePictures = 4;
 
 using BeliefRefs = std::vector<const PlaceBelief*>;
 
@@ -54,7 +54,7 @@ std::vector<PagePicture> placePictures(const PlacesRun& run, const MapContext& c
       if (belief.knowledge == fabmap_node::PlaceKnowledge::Unsure) unsure.push_back(&belief);
     }
   std::vector<PagePicture> pictures;
-  for (const BeliefRefs& some : {spreadBeliefs(known, sure_pictures), spreadBeliefs(unsure, unsure_pictures)})
+  for (const BeliefRefs& some : {spreadBeliefs(known, kSurePictures), spreadBeliefs(unsure, kUnsurePictures)})
     for (const PlaceBelief* belief : some) {
       const fabmap_node::LikelyPlace& place = belief->likeliest.front();
       if (auto picture =

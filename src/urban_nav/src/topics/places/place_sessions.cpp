@@ -11,7 +11,7 @@
 namespace urban_nav {
 namespace {
 
-constexpr std::size_t images_at_once = 32;  // decoded before features are extracted on all threads
+constexpr std::size_t kImagesAtOnce = 32;  // decoded before features are extracted on all threads
 
 StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor, const PlaceReading& reading,
                                   const PlaceImages& images) {
@@ -44,7 +44,7 @@ void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector
     std::int64_t done = 0;
     for (bool more = true; more;) {
       std::vector<PlaceImages> batch;
-      while (batch.size() < images_at_once && more) {
+      while (batch.size() < kImagesAtOnce && more) {
         std::optional<PlaceImages> images = source.next();
         more = images.has_value();
         if (images) batch.push_back(std::move(*images));

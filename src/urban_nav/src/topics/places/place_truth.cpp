@@ -17,13 +17,13 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr StampNs longest_gap = 1'000'000'000;  // ns between poses of the truth
-constexpr double radius_of_positions = 3.0,
-                 elsewhere_of_positions = 20.0;     // images: as data sets with positions state it
-constexpr double elsewhere_per_radius = 4.0 / 3.0;  // of metres: 10 m for 7.5 m
-constexpr double certain = 0.99, nearly_certain = 0.9;
-constexpr double near_metres = 2.0, near_images = 1.0;  // between a pose and an announced closure
-constexpr std::array<double, 12> claim_limits = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99, 1.0};
+constexpr StampNs kLongestGap = 1'000'000'000;  // ns between poses of the truth
+constexpr double kRadiusOfPositions = 3.0,
+                 kElsewhereOfPositions = 20.0;     // images: as data sets with positions state it
+constexpr double kElsewherePerRadius = 4.0 / 3.0;  // of metres: 10 m for 7.5 m
+constexpr double kCertain = 0.99, kNearlyCertain = 0.9;
+constexpr double kNearMetres = 2.0, kNearImages = 1.0;  // between a pose and an announced closure
+constexpr std::array<double, 12> kClaimLimits = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99, 1.0};
 
 bool isPositionTable(const std::string& text) {
   const std::string header = text.substr(0, text.find('\n'));
@@ -39,8 +39,8 @@ PlaceTruth truthOfPositions(const std::string& text, const std::string& path, co
   PlaceTruth truth;
   for (std::size_t i = 0; i < table.rows(); ++i)
     truth.positions.emplace_back(Eigen::Vector3d(table.number(i, column), 0.0, 0.0));
-  truth.radius = radius_of_positions;
-  truth.elsewhere = elsewhere_of_positions;
+  truth.radius = kRadiusOfPositions;
+  truth.elsewhere = kElsewhereOfPositions;
   truth.unit = "images";
   return truth;
 }
@@ -69,20 +69,20 @@ void addClaim(double probability, bool is_right, PlaceScore& score) {
     bin.stated += probability;
     break;
   }
-  if (probability > certain) {
+  if (probability > kCertain) {
     ++score.sure;
     score.sure_right += is_right ? 1u : 0u;
-  } else if (probability > nearly_certain) {
+  } else if (probability > kNearlyCertain) {
     ++score.nearly;
     score.nearly_right += is_right ? 1u : 0u;
   }
 }
 
 std::vector<ReliabilityBin> emptyBins() {
-  std::vector<ReliabilityBin> bins(claim_limits.size() - 1);
+  std::vector<ReliabilityBin> bins(kClaimLimits.size() - 1);
   for (std::size_t i = 0; i < bins.size(); ++i) {
-    bins[i].from = claim_limits[i];
-    bins[i].to = claim_limits[i + 1];
+    bins[i].from = kClaimLimits[i];
+    bins[i].to = kClaimLimits[i + 1];
   }
   return bins;
 }
@@ -113,13 +113,12 @@ PlaceTruth readPlaceTruth(const std::string& path, const PlaceQuery& query, cons
   } else {
     const urban_nav_core::Trajectory trajectory = urban_nav_core::parseTum(text, path);
     for (const PlaceQueryRow& row : query.rows) {
-      const auto pose = trajectory.at(row.stamp, longest_gap);
+      const auto pose = trajectory.at(row.stamp, kLongestGap);
       truth.positions.push_back(pose ? std::optional<Eigen::Vector3d>(pose->t()) : std::nullopt);
     }
   }
   if (radius) {
-    truth.elsewhere =
-        *radius * (truth.unit == "m" ? elsewhere_per_radius : elsewhere_of_positions / radius_of_positions);
+    truth.elsewhere = *radius * (truth.unit == "m" ? kElsewherePerRadius : kElsewhereOfPositions / kRadiusOfPositions);
     truth.radius = *radius;
   }
   return truth;
@@ -184,12 +183,12 @@ PlaceScore scorePlaces(const PlaceQuery& query, const PlaceTruth& truth, StampNs
     const auto verdict = judgeMatch(truth, match);
     if (!verdict || *verdict == MatchTruth::Neither) continue;
     addClaim(match.score, *verdict == MatchTruth::Right, score);
-    if (*verdict == MatchTruth::Right && match.score > certain) announced.push_back(match.row);
+    if (*verdict == MatchTruth::Right && match.score > kCertain) announced.push_back(match.row);
   }
   for (std::size_t row = 0; row < revisits.size(); ++row)
     if (revisits[row] && std::any_of(announced.begin(), announced.end(), [&](std::size_t other) {
           const auto distance = distanceBetween(truth, row, other);
-          return distance && *distance <= (truth.unit == "m" ? near_metres : near_images);
+          return distance && *distance <= (truth.unit == "m" ? kNearMetres : kNearImages);
         }))
       ++score.near_sure;
   finishBins(score);

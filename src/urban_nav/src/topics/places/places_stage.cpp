@@ -54,7 +54,7 @@ class PlacesStage final : public Stage {
     made.summary = toJson(*run_, ms_features_);
     if (run_->observations == 0) return made;
     made.verdicts = placesVerdicts(*run_);
-    made.sections.push_back({report_place::closures + 10, placesSection(*run_, pictures_)});
+    made.sections.push_back({report_place::kClosures + 10, placesSection(*run_, pictures_)});
     return made;
   }
 

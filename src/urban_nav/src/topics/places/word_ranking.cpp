@@ -18,7 +18,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double new_place_prior = 0.9;
+constexpr double kNewPlacePrior = 0.9;
 
 double logMeanExponential(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -75,8 +75,8 @@ class NewPlace {
 }  // namespace
 
 const char* toString(WordScoring scoring) {
-  constexpr std::array<const char*, 3> names = {"Chow-Liu tree", "naive Bayes", "tf-idf"};
-  return names[static_cast<std::size_t>(scoring)];
+  constexpr std::array<const char*, 3> kNames = {"Chow-Liu tree", "naive Bayes", "tf-idf"};
+  return kNames[static_cast<std::size_t>(scoring)];
 }
 
 std::vector<RankedMatch> rankByWords(const fabmap_node::PlaceModel& model, const PlaceRecording& recording,
@@ -122,8 +122,8 @@ std::vector<WordProbability> wordProbabilities(const fabmap_node::PlaceModel& mo
       [&](const auto& words) { index.add(words); },
       [&](std::size_t row, const std::vector<std::size_t>& rows, const std::vector<double>& scores) {
         const double at_new = new_place.logLikelihood(recording.places[row].description.words) +
-                              (rows.empty() ? 0.0 : std::log(new_place_prior));
-        const double prior = rows.empty() ? 0.0 : std::log((1.0 - new_place_prior) / static_cast<double>(rows.size()));
+                              (rows.empty() ? 0.0 : std::log(kNewPlacePrior));
+        const double prior = rows.empty() ? 0.0 : std::log((1.0 - kNewPlacePrior) / static_cast<double>(rows.size()));
         double top = at_new, sum = 0.0;
         for (const double value : scores) top = std::max(top, value + prior);
         for (const double value : scores) sum += std::exp(value + prior - top);

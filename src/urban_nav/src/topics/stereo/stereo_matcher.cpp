@@ -150,10 +150,10 @@ StereoMatcher::StereoMatcher(const dense_stereo::Parameters& parameters, const u
 std::optional<StereoOutput> StereoMatcher::add(const urban_nav_core::StereoPairWithMotion& frame, std::int64_t number,
                                                bool with_picture) {
   std::optional<StereoOutput> done;
-  if (pending_.size() == workers) done = next();  // its estimator is free from then on
+  if (pending_.size() == kWorkers) done = next();  // its estimator is free from then on
   // The owners keep the pixels alive.
   pending_.push_back(
-      std::async(launch_, [setting = setting_, estimator = estimators_[added_++ % workers], pair = frame.pair,
+      std::async(launch_, [setting = setting_, estimator = estimators_[added_++ % kWorkers], pair = frame.pair,
                            left = frame.left_owner, right = frame.right_owner, number, with_picture] {
         StereoOutput made = setting->match(*estimator, pair, with_picture);
         if (made.picture) made.picture->keyframe = number;

@@ -37,11 +37,11 @@ class StereoMatcher {
   std::optional<StereoOutput> next();
 
  private:
-  static constexpr std::size_t workers = 2;
+  static constexpr std::size_t kWorkers = 2;
   struct Setting;
 
   std::shared_ptr<const Setting> setting_;
-  std::array<std::shared_ptr<dense_stereo::NearSceneEstimator>, workers> estimators_;
+  std::array<std::shared_ptr<dense_stereo::NearSceneEstimator>, kWorkers> estimators_;
   std::size_t added_ = 0;
   std::launch launch_;
   std::deque<std::future<StereoOutput>> pending_;

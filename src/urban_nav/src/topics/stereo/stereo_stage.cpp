@@ -49,7 +49,7 @@ class StereoStage final : public Stage {
     if (summary.pairs == 0) return made;
     made.verdicts = stereoVerdicts(summary);
     for (const auto& [session, run] : runs_)
-      made.sections.push_back({report_place::odometry + 10, stereoSection(run, session, runs_.size() > 1)});
+      made.sections.push_back({report_place::kOdometry + 10, stereoSection(run, session, runs_.size() > 1)});
     return made;
   }
 

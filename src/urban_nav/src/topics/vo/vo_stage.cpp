@@ -138,7 +138,7 @@ class VoStage final : public Stage {
           section.id += std::to_string(i + 1);
           section.title += " (session " + std::to_string(i + 1) + ")";
         }
-        made.sections.push_back({report_place::odometry, std::move(section)});
+        made.sections.push_back({report_place::kOdometry, std::move(section)});
       }
       const std::string suffix = fileSuffix(previous + i);
       const VoRun& run = *of_sessions[i];

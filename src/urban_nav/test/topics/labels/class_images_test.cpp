@@ -17,7 +17,7 @@ namespace {
 
 using scene_labeler::SceneClass;
 
-constexpr urban_nav_core::StampNs image_time = 1'600'000'000'123'456'789;
+constexpr urban_nav_core::StampNs kImageTime = 1'600'000'000'123'456'789;
 
 sensor_msgs::Image classImage(const std::string& frame, urban_nav_core::StampNs stamp, std::uint8_t id,
                               const std::string& encoding = sensor_msgs::image_encodings::MONO8) {
@@ -40,17 +40,17 @@ std::string bagWith(const std::string& name, const sensor_msgs::Image& image) {
 }
 
 TEST(ClassImages, AreFoundByFrameAndStampInAnyOfTheBags) {
-  const std::string first = bagWith("class_images_1.bag", classImage("camera1", image_time, 1));
-  const std::string second = bagWith("class_images_2.bag", classImage("camera4", image_time, 3));
+  const std::string first = bagWith("class_images_1.bag", classImage("camera1", kImageTime, 1));
+  const std::string second = bagWith("class_images_2.bag", classImage("camera4", kImageTime, 3));
   const ClassImages images({first, second}, "/classes", "");
   EXPECT_EQ(images.size(), 2U);
-  const cv::Mat right = images.at("camera1", image_time), left = images.at("camera4", image_time);
+  const cv::Mat right = images.at("camera1", kImageTime), left = images.at("camera4", kImageTime);
   ASSERT_EQ(right.size(), cv::Size(4, 3));
   ASSERT_EQ(left.size(), cv::Size(4, 3));
   EXPECT_EQ(right.at<std::uint8_t>(2, 3), 1);
   EXPECT_EQ(left.at<std::uint8_t>(2, 3), 3);
-  EXPECT_TRUE(images.at("camera1", image_time + 1).empty());
-  EXPECT_TRUE(images.at("camera0", image_time).empty());
+  EXPECT_TRUE(images.at("camera1", kImageTime + 1).empty());
+  EXPECT_TRUE(images.at("camera0", kImageTime).empty());
   EXPECT_EQ(ClassImages({first}, "/other", "").size(), 0U);
   EXPECT_EQ(ClassImages({first}, "", "").size(), 0U);
 }
@@ -58,17 +58,17 @@ TEST(ClassImages, AreFoundByFrameAndStampInAnyOfTheBags) {
 TEST(ClassImages, HaveTheClassesOfTheFile) {
   const std::string file = ::testing::TempDir() + "classes.csv";
   urban_nav_core::writeAtomically(file, "id,class\n7,vehicle\n9,ignore\n");
-  const std::string vehicle = bagWith("class_images_7.bag", classImage("camera1", image_time, 7));
-  const std::string unlisted = bagWith("class_images_8.bag", classImage("camera1", image_time, 8));
-  EXPECT_EQ(ClassImages({vehicle}, "/classes", file).at("camera1", image_time).at<std::uint8_t>(0, 0),
+  const std::string vehicle = bagWith("class_images_7.bag", classImage("camera1", kImageTime, 7));
+  const std::string unlisted = bagWith("class_images_8.bag", classImage("camera1", kImageTime, 8));
+  EXPECT_EQ(ClassImages({vehicle}, "/classes", file).at("camera1", kImageTime).at<std::uint8_t>(0, 0),
             toIndex(SceneClass::Vehicle));
-  EXPECT_EQ(ClassImages({unlisted}, "/classes", file).at("camera1", image_time).at<std::uint8_t>(0, 0),
+  EXPECT_EQ(ClassImages({unlisted}, "/classes", file).at("camera1", kImageTime).at<std::uint8_t>(0, 0),
             static_cast<std::uint8_t>(SceneClass::None));
 }
 
 TEST(ClassImages, OfOtherEncodingsAreNone) {
-  const std::string bag = bagWith("class_images_mono16.bag", classImage("camera1", image_time, 1, "mono16"));
-  EXPECT_TRUE(ClassImages({bag}, "/classes", "").at("camera1", image_time).empty());
+  const std::string bag = bagWith("class_images_mono16.bag", classImage("camera1", kImageTime, 1, "mono16"));
+  EXPECT_TRUE(ClassImages({bag}, "/classes", "").at("camera1", kImageTime).empty());
 }
 
 TEST(ClassImages, ABagThatWasCutOffIsNamed) {

@@ -20,7 +20,7 @@ using urban_nav_store::StoredModel;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
 
-constexpr StampNs pair_second = 1'000'000'000;
+constexpr StampNs kPairSecond = 1'000'000'000;
 
 /// A store with images of one camera: scenes 1, 2 and 3 on monday, 10 s apart, and scene 2 on tuesday.
 class PlacePairTest : public ::testing::Test {
@@ -47,12 +47,12 @@ class PlacePairTest : public ::testing::Test {
     put(session, cv::Mat(384, 512, CV_8UC1, cv::Scalar(2)), seconds);
   }
   void put(const std::string& session, const cv::Mat& image, StampNs seconds) {
-    store_.sessions().put({session, session, "", "", (session == "monday" ? 100 : 5000) * pair_second, true});
+    store_.sessions().put({session, session, "", "", (session == "monday" ? 100 : 5000) * kPairSecond, true});
     const std::string bytes(fabmap_node::defaultModelBytes());
     const std::string hash = fabmap_node::modelHash(bytes);
     TableStore<StoredModel>(store_).put({session, hash, "fabmap_node", bytes});
     const auto description = fabmap_node::PlaceDescriber(model_, {}, 540).describe({urban_nav_ros::toView(image)});
-    StoredPlace row = fabmap_node::toStoredPlace(session, seconds * pair_second, description, hash);
+    StoredPlace row = fabmap_node::toStoredPlace(session, seconds * kPairSecond, description, hash);
     row.thumbnail = fabmap_node::placeThumbnail({urban_nav_ros::toView(image)});
     TableStore<StoredPlace>(store_).put(row);
   }

@@ -11,7 +11,7 @@
 namespace urban_nav {
 namespace {
 
-constexpr urban_nav_core::StampNs truth_second = 1'000'000'000;
+constexpr urban_nav_core::StampNs kTruthSecond = 1'000'000'000;
 
 /// Rows 30 s apart; row i has the match and probability given.
 PlaceQuery queryOfMatches(const std::vector<std::pair<int, double>>& matches) {
@@ -19,7 +19,7 @@ PlaceQuery queryOfMatches(const std::vector<std::pair<int, double>>& matches) {
   query.sessions = {"drive"};
   for (std::size_t i = 0; i < matches.size(); ++i) {
     PlaceQueryRow row;
-    row.stamp = 30 * truth_second * static_cast<urban_nav_core::StampNs>(i);
+    row.stamp = 30 * kTruthSecond * static_cast<urban_nav_core::StampNs>(i);
     if (matches[i].first >= 0) {
       row.recognition.match = fabmap_node::PlaceMatch();
       row.recognition.probability = matches[i].second;
@@ -45,7 +45,7 @@ std::string writeTruthFile(const std::string& name, const std::string& text) {
 TEST(ScorePlaces, CountsRevisitsAndWhatIsAnnounced) {
   // Rows 2 and 3 revisit rows 0 and 1; row 4 is new, and matched wrongly with less certainty than row 2.
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.1}, {0, 0.995}, {1, 0.3}, {0, 0.95}});
-  const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
+  const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * kTruthSecond);
   EXPECT_EQ(score.ranking.revisits, 2u);
   EXPECT_EQ(score.ranking.first, 2u);
   EXPECT_EQ(score.ranking.found, 1u);
@@ -61,7 +61,7 @@ TEST(ScorePlaces, CountsRevisitsAndWhatIsAnnounced) {
 TEST(ScorePlaces, StatesHowOftenClaimsAreRight) {
   // Rows 2 and 3 are right, row 4 is wrong; all claim the same.
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.0}, {0, 0.75}, {1, 0.75}, {0, 0.75}});
-  const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
+  const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * kTruthSecond);
   ASSERT_EQ(score.reliability.size(), 2u);
   EXPECT_EQ(score.reliability[0].claims, 1u) << "of probability zero";
   EXPECT_EQ(score.reliability[1].claims, 3u);
@@ -72,7 +72,7 @@ TEST(ScorePlaces, StatesHowOftenClaimsAreRight) {
 
 TEST(ScorePlaces, RevisitsNearAnAnnouncedOneCount) {
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.999}, {0, 0.2}, {0, 0.2}});
-  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 2.0, 3.5, 6.0}), 20 * truth_second).near_sure, 2u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 2.0, 3.5, 6.0}), 20 * kTruthSecond).near_sure, 2u);
 }
 
 TEST(ScoreRanking, WrongMatchesOfTheSameScoreComeFirst) {
@@ -88,15 +88,15 @@ TEST(ScoreRanking, WrongMatchesOfTheSameScoreComeFirst) {
 
 TEST(ScorePlaces, MatchesBetweenTheTwoRadiiDoNotCount) {
   const PlaceScore score =
-      scorePlaces(queryOfMatches({{-1, 0.0}, {0, 0.999}}), truthAlongX({0.0, 9.0}), 20 * truth_second);
+      scorePlaces(queryOfMatches({{-1, 0.0}, {0, 0.999}}), truthAlongX({0.0, 9.0}), 20 * kTruthSecond);
   EXPECT_EQ(score.ranking.revisits, 0u);
   EXPECT_EQ(score.sure, 0u);
 }
 
 TEST(ScorePlaces, PlacesWithinTheMaskAreNoRevisits) {
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {-1, 0.0}});
-  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 20 * truth_second).ranking.revisits, 1u);
-  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 40 * truth_second).ranking.revisits, 0u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 20 * kTruthSecond).ranking.revisits, 1u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 40 * kTruthSecond).ranking.revisits, 0u);
 }
 
 TEST(ReadPlaceTruth, TablesOfPositionsNeedOneRowForEachImage) {

@@ -78,16 +78,16 @@ TEST(StereoKeyframes, AreSelectedByDistanceAngleAndTime) {
   const auto at = [](double x, double turn) {
     return Pose(Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ())), Vector3d(x, 0.0, 0.0));
   };
-  constexpr urban_nav_core::StampNs second = 1'000'000'000;
+  constexpr urban_nav_core::StampNs kSecond = 1'000'000'000;
   EXPECT_TRUE(selector.select(0, at(0.0, 0.0))) << "the first";
-  EXPECT_FALSE(selector.select(second / 10, at(1.0, 0.0))) << "too soon";
-  EXPECT_TRUE(selector.select(second / 2, at(1.0, 0.0)));
-  EXPECT_FALSE(selector.select(2 * second, at(1.2, 0.0))) << "too near";
-  EXPECT_TRUE(selector.select(3 * second, at(1.2, 0.2)));
+  EXPECT_FALSE(selector.select(kSecond / 10, at(1.0, 0.0))) << "too soon";
+  EXPECT_TRUE(selector.select(kSecond / 2, at(1.0, 0.0)));
+  EXPECT_FALSE(selector.select(2 * kSecond, at(1.2, 0.0))) << "too near";
+  EXPECT_TRUE(selector.select(3 * kSecond, at(1.2, 0.2)));
   StereoKeyframeSelector resumed{dense_stereo::Parameters()};
-  resumed.keep(3 * second, at(1.2, 0.2));
-  EXPECT_FALSE(resumed.select(4 * second, at(1.3, 0.2)));
-  EXPECT_TRUE(resumed.select(4 * second, at(1.5, 0.2)));
+  resumed.keep(3 * kSecond, at(1.2, 0.2));
+  EXPECT_FALSE(resumed.select(4 * kSecond, at(1.3, 0.2)));
+  EXPECT_TRUE(resumed.select(4 * kSecond, at(1.5, 0.2)));
 }
 
 TEST(StereoRuns, ComeBackFromTheirBytes) {

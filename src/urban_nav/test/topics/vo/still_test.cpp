@@ -66,16 +66,16 @@ TEST(Still, TurnsNoFurtherThanTheGyroscopeSays) {
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();
   std::size_t next = 0;
   double largest = 0.0;
-  constexpr double deg = M_PI / 180.0;
+  constexpr double kDeg = M_PI / 180.0;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     for (; next + 1 < rates.size() && rates[next].stamp < estimate[i].stamp; ++next)
       turned += 1e-9 * static_cast<double>(rates[next + 1].stamp - rates[next].stamp) * (rates[next].rad_s - bias);
     const double seen = angleBetween(estimate[0].pose, estimate[i].pose);
-    EXPECT_NEAR(seen, turned.norm(), 0.04 * deg) << i;
+    EXPECT_NEAR(seen, turned.norm(), 0.04 * kDeg) << i;
     EXPECT_LT(distanceBetween(estimate[0].pose, estimate[i].pose), 1e-3) << i;
     largest = std::max(largest, turned.norm());
   }
-  EXPECT_GT(largest, 0.1 * deg) << "the vehicle rocks; else this would say little";
+  EXPECT_GT(largest, 0.1 * kDeg) << "the vehicle rocks; else this would say little";
 }
 
 }  // namespace
