@@ -169,11 +169,13 @@ void f(const int x) {
                     "a__test__b_cpp": 'keep("map/cloud");', **header},
                    {"a__nodelet__b_cpp": 'auto s = "/map/tiles";', **header})
         self.assertEqual(len(breaches(lint.topic_names, a__src__b_cpp='f("/clock", "map/cloud", "clock");', **header)), 2)
+        self.assertEqual(breaches(lint.topic_names, a__src__b_cpp='\n  p = nh.advertise<A>("battery", 1); t.add("battery");', **header),
+                         ['a/src/b.cpp:2: "battery"'])
 
     def test_only_some_folders_open_recordings(self):
         opened = "rosbag::Bag bag;"
         self.check(lint.bag_readers, {"src__urban_nav_input__src__a_cpp": opened, "src__urban_nav__src__convert__a_cpp": opened,
-                                      "src__urban_nav__test__a_cpp": opened}, {"src__urban_nav__src__map__a_cpp": opened})
+                                      "src__urban_nav__test__a_cpp": opened}, {"src__urban_nav_sim__nodelet__a_cpp": opened})
 
     def test_states_of_closures_are_no_strings(self):
         self.check(lint.closure_states, {"p__src__a_cpp": 'x == Verdict::Accepted || y == "icp2"', "p__test__a_cpp": 'x == "accepted"'},

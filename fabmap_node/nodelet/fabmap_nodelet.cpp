@@ -130,8 +130,8 @@ void FabmapStage::subscribeCameras() {
   options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
   for (int camera = 0; camera < nodelet_.cameras; ++camera) {
-    std::string image = nodelet_.cameras > 1 ? "ladybug/camera" + std::to_string(camera) + "/image_raw"
-                                             : std::string(urban_nav_ros::topics::kLeftImage);
+    std::string image = nodelet_.cameras > 1 ? urban_nav_ros::topics::kPanoramaImages[static_cast<std::size_t>(camera)]
+                                             : urban_nav_ros::topics::kLeftImage;
     if (nodelet_.compressed) image += "/compressed";
     node_.subscribeInput<Message>(image, options, [camera](const boost::shared_ptr<const Message>& message) {
       return Input(CameraImage{static_cast<std::size_t>(camera), RecordedImage(message)});

@@ -23,6 +23,7 @@
 #include "urban_nav_ros/point_cloud.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace laser_mapper {
 
@@ -31,7 +32,6 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
-constexpr const char *kCloudTopic = "map/cloud", *kTilesTopic = "map/tiles", *kQualityTopic = "map/quality";
 constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // of a point; between two rounds at least
 constexpr int kRestPerWork = 3;                               // times as long as a cloud took until the next one begins
 constexpr double kConstraintPeriods = 5.0;                    // between two searches for constraints, at least
@@ -108,9 +108,9 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
       node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
   node.setQueueSize(nodelet_.queue_size);
   map_ = std::make_unique<LiveMap>(parameters_, temporaryStore(node.name()), registration.cloud_half_length);
-  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 1, true);
-  tiles_ = node.nh().advertise<urban_nav_msgs::MapTile>(kTilesTopic, 100);
-  quality_ = node.nh().advertise<urban_nav_msgs::MapQuality>(kQualityTopic, 1, true);
+  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kMapCloud, 1, true);
+  tiles_ = node.nh().advertise<urban_nav_msgs::MapTile>(urban_nav_ros::topics::kMapTiles, 100);
+  quality_ = node.nh().advertise<urban_nav_msgs::MapQuality>(urban_nav_ros::topics::kMapQuality, 1, true);
   node.advertiseService<urban_nav_msgs::FileCommand>("save", [this](const auto& request, auto& response) {
     response.message = node_.ask([&] { return save(request.path); });
   });

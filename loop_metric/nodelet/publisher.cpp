@@ -60,7 +60,7 @@ Picture drawAlignment(const ClosureVerifier::Verdict& verdict) {
 Publisher::Publisher(ros::NodeHandle& nh, std::string base_frame)
     : base_frame_(std::move(base_frame)),
       metric_(nh.advertise<urban_nav_msgs::MetricClosure>(urban_nav_ros::topics::kMetricClosure, 1000)),
-      matches_(nh.advertise<sensor_msgs::Image>("loops/matches", 5)) {}
+      matches_(nh.advertise<sensor_msgs::Image>(urban_nav_ros::topics::kClosureMatches, 5)) {}
 
 void Publisher::publish(const ClosureVerifier::Verdict& verdict) {
   metric_.publish(urban_nav_ros::toMetricClosureMessage(verdict.metric, base_frame_, kMetresPerRadian));

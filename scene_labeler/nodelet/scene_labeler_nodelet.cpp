@@ -28,16 +28,14 @@
 #include "urban_nav_ros/recorded_image.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace scene_labeler {
 
 namespace {
 
-constexpr const char* kImageTopic = "labels/image";
-constexpr const char* kCloudTopic = "labels/cloud";
-constexpr const char* kClickTopic = "/clicked_point";  // of the tool publish_point of rviz
-constexpr std::array<int, 2> kSideCameras = {4, 1};    // of the panoramic head, left and right
-constexpr double kCameraTimeout = 5.0;                 // s
+constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic head, left and right
+constexpr double kCameraTimeout = 5.0;                       // s
 constexpr std::chrono::milliseconds kTrainingPoll{20};
 
 struct CameraImage {
@@ -123,8 +121,8 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
   labels_ = std::make_unique<LiveLabels>(parameters, readNodeletModel(parameters.model), outputs());
-  image_ = node.nh().advertise<sensor_msgs::Image>(kImageTopic, 10);
-  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 10);
+  image_ = node.nh().advertise<sensor_msgs::Image>(urban_nav_ros::topics::kLabelImage, 10);
+  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kLabelCloud, 10);
   subscribeRobot(node, nodelet_.queue_size, false, false, true);
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
     if (nodelet_.compressed) subscribeCamera<sensor_msgs::CompressedImage>(side);
@@ -138,7 +136,8 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
         parameters.class_topic, options,
         [](const sensor_msgs::ImageConstPtr& message) { return Input(ClassImage{message}); });
   node.subscribeInput<geometry_msgs::PointStamped>(
-      kClickTopic, options, [](const geometry_msgs::PointStampedConstPtr& message) { return Input(message); });
+      urban_nav_ros::topics::kClickedPoint, options,
+      [](const geometry_msgs::PointStampedConstPtr& message) { return Input(message); });
   advertiseServices();
 }
 
@@ -178,17 +177,17 @@ void SceneLabelerStage::adoptTaughtModel() {
 
 template <typename Message>
 void SceneLabelerStage::subscribeCamera(std::size_t side) {
-  const std::string camera = "ladybug/camera" + std::to_string(kSideCameras[side]);
+  const std::string image = urban_nav_ros::topics::kPanoramaImages[kSideCameras[side]];
   urban_nav_ros::TopicOptions options;
   options.timeout = kCameraTimeout;
   options.queue = 20;
   options.is_monitored = false;  // without images, returns are labelled by shape
-  node_.subscribeInput<Message>(camera + "/image_raw" + (nodelet_.compressed ? "/compressed" : ""), options,
+  node_.subscribeInput<Message>(image + (nodelet_.compressed ? "/compressed" : ""), options,
                                 [side](const boost::shared_ptr<const Message>& message) {
                                   return Input(CameraImage{side, urban_nav_ros::RecordedImage(message)});
                                 });
   options.is_paused = false;
-  node_.subscribeInput<sensor_msgs::CameraInfo>(camera + "/camera_info", options,
+  node_.subscribeInput<sensor_msgs::CameraInfo>(urban_nav_ros::topics::kPanoramaInfos[kSideCameras[side]], options,
                                                 [side](const sensor_msgs::CameraInfoConstPtr& message) {
                                                   return Input(CameraCalibration{side, message});
                                                 });

@@ -5,7 +5,7 @@ import re
 from .tree import is_product
 
 # Where recordings are read and written.
-BAG_FOLDERS = ("src/urban_nav_input/", "src/urban_nav/src/convert/", "src/urban_nav_sim/")
+BAG_FOLDERS = ("src/urban_nav_input/", "src/urban_nav/src/convert/")
 # The reader and the writer of closures.csv.
 CLOSURE_FILES = ()
 
@@ -19,11 +19,14 @@ def strings(text):
 
 
 def topic_names(tree):
-    """Names of topics are constants of urban_nav_ros; a test spells them as a user does."""
+    """Names of topics are constants of urban_nav_ros; a test spells them as a user does.
+
+    A string is a topic if it begins like one of these constants (map/..., /tf) or if it is advertised or subscribed to.
+    """
     topics = set()
     for source in tree.sources:
         if re.match(r"src/urban_nav_ros/include/urban_nav_ros/\w*topics\.hpp$", source.path):
-            topics |= {text for _, text in strings(source.text) if "/" in text}
+            topics |= {text for _, text in strings(source.text) if re.match(r"\w+/|/\w", text)}
     spaces = sorted({topic.lstrip("/").split("/")[0] for topic in topics if "/" in topic.lstrip("/")})
     pattern = re.compile(rf"/?(?:{'|'.join(map(re.escape, spaces))})/[\w/]*$")
     for source in tree.sources:
@@ -32,10 +35,12 @@ def topic_names(tree):
         for number, text in strings(source.text):
             if pattern.match(text) or text in topics:
                 yield f'{source.path}:{number}: "{text}"'
+        for match in re.finditer(r'\b(?:advertise|subscribe\w*)<[^;(]*>\(\s*"(\w+)"', source.text):
+            yield f'{source.path}:{source.text.count(chr(10), 0, match.start(1)) + 1}: "{match.group(1)}"'
 
 
 def bag_readers(tree):
-    """Recordings are opened by src/urban_nav_input, written by convert and the simulator: elsewhere nothing names rosbag."""
+    """Recordings are read by src/urban_nav_input and written by src/urban_nav/src/convert: elsewhere nothing names rosbag."""
     for source in tree.sources:
         if is_product(source.path) and "rosbag::" in source.text and not source.path.startswith(BAG_FOLDERS):
             yield source.path

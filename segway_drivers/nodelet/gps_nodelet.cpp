@@ -8,6 +8,7 @@
 
 #include "driver_nodelet.hpp"
 #include "segway_drivers/driver/driver_options.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
@@ -47,8 +48,8 @@ class GpsNodelet : public DriverNodelet {
 
   std::unique_ptr<DriverCore> makeDriver(const Parameters& parameters) override {
     frame_ = frameOr("gps_link");
-    fix_ = getNodeHandle().advertise<sensor_msgs::NavSatFix>("gps/fix", 10);
-    velocity_ = getNodeHandle().advertise<geometry_msgs::TwistStamped>("gps/vel", 10);
+    fix_ = getNodeHandle().advertise<sensor_msgs::NavSatFix>(urban_nav_ros::topics::kGpsFix, 10);
+    velocity_ = getNodeHandle().advertise<geometry_msgs::TwistStamped>(urban_nav_ros::topics::kGpsVelocity, 10);
     auto driver = std::make_unique<GpsDriver>(toGpsOptions(parameters, nodelet().port));
     driver->on_fix = [this](const GpsFix& fix, std::optional<TimeNs> stamp) { take(fix, stamp); };
     return driver;

@@ -13,6 +13,7 @@
 #include "segway_drivers/ladybug2/camera.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
@@ -43,9 +44,9 @@ class Ladybug2Nodelet : public CameraNodelet {
 
   void prepare() override {
     ros::NodeHandle& handle = getNodeHandle();
-    raw_ = handle.advertise<urban_nav_msgs::RawFrame>("ladybug/raw", 10);
+    raw_ = handle.advertise<urban_nav_msgs::RawFrame>(urban_nav_ros::topics::kPanoramaRaw, 10);
     for (std::size_t i = 0; i < kRingCameras; ++i) {
-      const std::string topic = "ladybug/camera" + std::to_string(i) + "/image_raw";
+      const std::string topic = urban_nav_ros::topics::kPanoramaImages[i];
       images_[i] = handle.advertise<sensor_msgs::Image>(topic, 5);
       compressed_[i] = handle.advertise<sensor_msgs::CompressedImage>(topic + "/compressed", 5);
     }

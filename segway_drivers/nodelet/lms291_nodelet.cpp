@@ -7,6 +7,7 @@
 
 #include "driver_nodelet.hpp"
 #include "segway_drivers/driver/driver_options.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
@@ -30,7 +31,7 @@ class Lms291Nodelet : public DriverNodelet {
     frame_ = frameOr(space.size() > 1 ? space.substr(space.rfind('/') + 1) : "laser");
     const LmsDriver::Options options = toLmsOptions(parameters);
     range_max_ = static_cast<float>(options.stream.format.maxRange());
-    publisher_ = getNodeHandle().advertise<sensor_msgs::LaserScan>("scan", 100);
+    publisher_ = getNodeHandle().advertise<sensor_msgs::LaserScan>(urban_nav_ros::topics::kScan, 100);
     auto driver = std::make_unique<LmsDriver>(options);
     driver->on_scan = [this](const LmsStampedScan& scan) { take(scan); };
     return driver;

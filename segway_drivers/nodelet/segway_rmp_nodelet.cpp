@@ -12,6 +12,7 @@
 
 #include "driver_nodelet.hpp"
 #include "segway_drivers/driver/driver_options.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
@@ -32,13 +33,13 @@ class SegwayRmpNodelet : public DriverNodelet {
 
   std::unique_ptr<DriverCore> makeDriver(const Parameters& parameters) override {
     frame_ = frameOr("odom");
-    odometry_ = getNodeHandle().advertise<nav_msgs::Odometry>("wheel_odom", 100);
-    battery_ = getNodeHandle().advertise<sensor_msgs::BatteryState>("battery", 1, true);
+    odometry_ = getNodeHandle().advertise<nav_msgs::Odometry>(urban_nav_ros::topics::kWheelOdometry, 100);
+    battery_ = getNodeHandle().advertise<sensor_msgs::BatteryState>(urban_nav_ros::topics::kBattery, 1, true);
     auto driver = std::make_unique<RmpDriver>(toRmpOptions(parameters));
     driver->on_frame = [this](const RmpStampedFrame& frame) { take(frame); };
     driver_ = driver.get();
     command_ = getNodeHandle().subscribe<geometry_msgs::Twist>(
-        "cmd_vel", 1, [this](const geometry_msgs::TwistConstPtr& twist) {
+        urban_nav_ros::topics::kVelocityCommand, 1, [this](const geometry_msgs::TwistConstPtr& twist) {
           const std::lock_guard<std::mutex> guard(wish_mutex_);
           wish_ = {{twist->linear.x, twist->angular.z}, steadyTime()};
         });

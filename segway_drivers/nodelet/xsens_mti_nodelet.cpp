@@ -5,6 +5,7 @@
 
 #include "driver_nodelet.hpp"
 #include "segway_drivers/driver/driver_options.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
@@ -30,8 +31,8 @@ class XsensMtiNodelet : public DriverNodelet {
 
   std::unique_ptr<DriverCore> makeDriver(const Parameters& parameters) override {
     frame_ = frameOr("imu_link");
-    motion_ = getNodeHandle().advertise<sensor_msgs::Imu>("imu/data", 100);
-    field_ = getNodeHandle().advertise<sensor_msgs::MagneticField>("imu/mag", 100);
+    motion_ = getNodeHandle().advertise<sensor_msgs::Imu>(urban_nav_ros::topics::kImu, 100);
+    field_ = getNodeHandle().advertise<sensor_msgs::MagneticField>(urban_nav_ros::topics::kMagneticField, 100);
     auto driver = std::make_unique<MtiDriver>(toMtiOptions(parameters));
     driver->on_sample = [this](const MtiStampedSample& sample) { take(sample); };
     return driver;

@@ -17,6 +17,7 @@
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
@@ -106,9 +107,11 @@ class BagGroups {
 
 FrameReader readStereoFrames(const std::string& bag) {
   std::map<std::string, std::size_t> topics;
-  for (const std::string name : {"image_raw", "image_rect", "image_raw/compressed", "image_rect/compressed"}) {
-    topics["stereo/left/" + name] = 0;
-    topics["stereo/right/" + name] = 1;
+  for (const std::string transport : {"", "/compressed"}) {
+    for (const char* left : {urban_nav_ros::topics::kLeftImage, urban_nav_ros::topics::kLeftRectified})
+      topics[left + transport] = 0;
+    for (const char* right : {urban_nav_ros::topics::kRightImage, urban_nav_ros::topics::kRightRectified})
+      topics[right + transport] = 1;
   }
   const auto groups = std::make_shared<BagGroups>(bag, topics, 2);
   return [groups]() -> std::optional<SimFrame> {
@@ -123,8 +126,8 @@ FrameReader readStereoFrames(const std::string& bag) {
 FrameReader readLadybugFrames(const std::string& bag) {
   std::map<std::string, std::size_t> topics;
   for (std::size_t camera = 0; camera < 5; ++camera) {
-    topics["ladybug/camera" + std::to_string(camera) + "/image_raw"] = camera;
-    topics["ladybug/camera" + std::to_string(camera) + "/image_raw/compressed"] = camera;
+    const std::string topic = urban_nav_ros::topics::kPanoramaImages[camera];
+    topics[topic] = topics[topic + "/compressed"] = camera;
   }
   const auto groups = std::make_shared<BagGroups>(bag, topics, 5);
   return [groups]() -> std::optional<SimFrame> {
@@ -140,9 +143,9 @@ FrameReader readLadybugFrames(const std::string& bag) {
 
 std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& path, const std::string& side) {
   if (!urban_nav_input::isBagFile(path)) return std::nullopt;  // a camera
-  const std::string topic = "stereo/" + side + "/camera_info";
+  const std::string topic = side == "left" ? urban_nav_ros::topics::kLeftInfo : urban_nav_ros::topics::kRightInfo;
   Recording recording(path);
-  RecordedMessages messages = recording.messages({topic, "/" + topic});
+  RecordedMessages messages = recording.messages({topic, urban_nav_ros::topics::fromRoot(topic)});
   while (const std::optional<RecordedMessage> each = messages.next()) {
     const auto message = each->as<sensor_msgs::CameraInfo>();
     if (!message || message->width == 0 || message->height == 0) continue;

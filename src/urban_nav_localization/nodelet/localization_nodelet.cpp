@@ -16,6 +16,7 @@
 #include "urban_nav_ros/robot_inputs.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_localization {
 
@@ -123,8 +124,9 @@ void LocalizationStage::subscribe() {
   node_.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       urban_nav_ros::topics::kInitialPose, options, [this](const auto& message) {
         try {
-          node_.push(LiveLocaliser::InitialPose{urban_nav_ros::toStampNs(message->header.stamp),
-                                                toInitialPose(*message, nodelet_.map_frame, "initialpose", map_)});
+          node_.push(LiveLocaliser::InitialPose{
+              urban_nav_ros::toStampNs(message->header.stamp),
+              toInitialPose(*message, nodelet_.map_frame, urban_nav_ros::topics::kInitialPose, map_)});
         } catch (const Error& error) {
           ++initial_poses_refused_;
           node_.logError(error.what());

@@ -7,6 +7,7 @@
 #include "urban_nav_ros/path.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_localization {
 
@@ -28,10 +29,11 @@ std::uint8_t toMessage(LocalizationState state) {
 
 LocalizationPublisher::LocalizationPublisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
     : parameters_(parameters),
-      state_(nh.advertise<StateMessage>("localization/state", 100, true)),
-      pose_(nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("localization/pose", 100)),
-      hypothesis_(nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("localization/hypothesis", 100)),
-      map_path_(nh.advertise<nav_msgs::Path>("localization/map_path", 1, true)),
+      state_(nh.advertise<StateMessage>(urban_nav_ros::topics::kLocalizationState, 100, true)),
+      pose_(nh.advertise<geometry_msgs::PoseWithCovarianceStamped>(urban_nav_ros::topics::kLocalizationPose, 100)),
+      hypothesis_(
+          nh.advertise<geometry_msgs::PoseWithCovarianceStamped>(urban_nav_ros::topics::kLocalizationHypothesis, 100)),
+      map_path_(nh.advertise<nav_msgs::Path>(urban_nav_ros::topics::kLocalizationMapPath, 1, true)),
       map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
 
 void LocalizationPublisher::publish(const std::vector<urban_nav_store::StoredTrajectory>& map) {

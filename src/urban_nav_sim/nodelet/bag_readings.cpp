@@ -15,6 +15,7 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_sim {
 
@@ -56,39 +57,44 @@ Reading* findReading(std::vector<Reading>& readings, std::size_t& at, double tim
 
 std::vector<LaserReading> readLaserReadings(const std::string& bag, const std::string& side) {
   std::vector<LaserReading> readings;
-  forEachOfTopic<sensor_msgs::LaserScan>(bag, "laser_" + side + "/scan", BagTopic::Required,
-                                         [&](const sensor_msgs::LaserScan& scan, double time) {
-                                           readings.push_back({time, scan.ranges, scan.intensities});
-                                         });
+  forEachOfTopic<sensor_msgs::LaserScan>(
+      bag, side == "left" ? urban_nav_ros::topics::kLaserLeft : urban_nav_ros::topics::kLaserRight, BagTopic::Required,
+      [&](const sensor_msgs::LaserScan& scan, double time) {
+        readings.push_back({time, scan.ranges, scan.intensities});
+      });
   return readings;
 }
 
 std::vector<ImuReading> readImuReadings(const std::string& bag) {
   std::vector<ImuReading> readings;
-  forEachOfTopic<sensor_msgs::Imu>(bag, "imu/data", BagTopic::Required, [&](const sensor_msgs::Imu& imu, double time) {
-    ImuReading reading;
-    reading.time = time;
-    reading.acceleration = {imu.linear_acceleration.x, imu.linear_acceleration.y, imu.linear_acceleration.z};
-    reading.rate = {imu.angular_velocity.x, imu.angular_velocity.y, imu.angular_velocity.z};
-    const auto& q = imu.orientation;
-    if (imu.orientation_covariance[0] >= 0.0 && std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 0.01)
-      reading.orientation = {q.w, q.x, q.y, q.z};
-    readings.push_back(reading);
-  });
-  std::size_t at = 0;
-  forEachOfTopic<sensor_msgs::MagneticField>(
-      bag, "imu/mag", BagTopic::Optional, [&](const sensor_msgs::MagneticField& field, double time) {
-        if (ImuReading* reading = findReading(readings, at, time))
-          reading->field = {field.magnetic_field.x / kEarthField, field.magnetic_field.y / kEarthField,
-                            field.magnetic_field.z / kEarthField};
+  forEachOfTopic<sensor_msgs::Imu>(
+      bag, urban_nav_ros::topics::kImu, BagTopic::Required, [&](const sensor_msgs::Imu& imu, double time) {
+        ImuReading reading;
+        reading.time = time;
+        reading.acceleration = {imu.linear_acceleration.x, imu.linear_acceleration.y, imu.linear_acceleration.z};
+        reading.rate = {imu.angular_velocity.x, imu.angular_velocity.y, imu.angular_velocity.z};
+        const auto& q = imu.orientation;
+        if (imu.orientation_covariance[0] >= 0.0 &&
+            std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 0.01)
+          reading.orientation = {q.w, q.x, q.y, q.z};
+        readings.push_back(reading);
       });
+  std::size_t at = 0;
+  forEachOfTopic<sensor_msgs::MagneticField>(bag, urban_nav_ros::topics::kMagneticField, BagTopic::Optional,
+                                             [&](const sensor_msgs::MagneticField& field, double time) {
+                                               if (ImuReading* reading = findReading(readings, at, time))
+                                                 reading->field = {field.magnetic_field.x / kEarthField,
+                                                                   field.magnetic_field.y / kEarthField,
+                                                                   field.magnetic_field.z / kEarthField};
+                                             });
   return readings;
 }
 
 std::vector<WheelReading> readWheelReadings(const std::string& bag) {
   std::vector<WheelReading> readings;
   forEachOfTopic<nav_msgs::Odometry>(
-      bag, "wheel_odom", BagTopic::Required, [&](const nav_msgs::Odometry& odometry, double time) {
+      bag, urban_nav_ros::topics::kWheelOdometry, BagTopic::Required,
+      [&](const nav_msgs::Odometry& odometry, double time) {
         readings.push_back({time, odometry.twist.twist.linear.x, odometry.twist.twist.angular.z});
       });
   return readings;
@@ -97,7 +103,7 @@ std::vector<WheelReading> readWheelReadings(const std::string& bag) {
 std::vector<GpsReading> readGpsReadings(const std::string& bag, double& begin) {
   std::vector<GpsReading> readings;
   begin = forEachOfTopic<sensor_msgs::NavSatFix>(
-      bag, "gps/fix", BagTopic::Required, [&](const sensor_msgs::NavSatFix& fix, double time) {
+      bag, urban_nav_ros::topics::kGpsFix, BagTopic::Required, [&](const sensor_msgs::NavSatFix& fix, double time) {
         GpsReading reading;
         reading.time = time;
         reading.valid = fix.status.status >= 0 && std::isfinite(fix.latitude) && std::isfinite(fix.longitude);
@@ -111,7 +117,8 @@ std::vector<GpsReading> readGpsReadings(const std::string& bag, double& begin) {
       });
   std::size_t at = 0;
   forEachOfTopic<geometry_msgs::TwistStamped>(
-      bag, "gps/vel", BagTopic::Optional, [&](const geometry_msgs::TwistStamped& velocity, double time) {
+      bag, urban_nav_ros::topics::kGpsVelocity, BagTopic::Optional,
+      [&](const geometry_msgs::TwistStamped& velocity, double time) {
         const double east = velocity.twist.linear.x, north = velocity.twist.linear.y;
         GpsReading* reading = findReading(readings, at, time);
         if (reading == nullptr || !std::isfinite(east) || !std::isfinite(north)) return;

@@ -12,10 +12,12 @@
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_sim {
 
 namespace frames = urban_nav_core::frames;
+namespace robot_topics = urban_nav_ros::topics;
 
 using urban_nav_core::StampNs;
 
@@ -43,16 +45,21 @@ TopicMessage onTopic(const std::string& topic, Message message) {
   return {topic, boost::make_shared<Message>(std::move(message))};
 }
 
-std::string surfaceClassName(Side side) { return side == Side::Left ? "left" : "right"; }
-std::string ladybugName(int camera) { return "camera" + std::to_string(camera); }
+const char* imageTopic(Side side) { return side == Side::Left ? robot_topics::kLeftImage : robot_topics::kRightImage; }
+const char* infoTopic(Side side) { return side == Side::Left ? robot_topics::kLeftInfo : robot_topics::kRightInfo; }
+const char* scanTopic(Side side) { return side == Side::Left ? robot_topics::kLaserLeft : robot_topics::kLaserRight; }
+std::string panoramaTopic(int camera) {
+  return std::string(robot_topics::kPanoramaImages.at(static_cast<std::size_t>(camera))) + "/compressed";
+}
+const char* panoramaInfoTopic(int camera) { return robot_topics::kPanoramaInfos.at(static_cast<std::size_t>(camera)); }
 
 void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, StampNs stamp,
               std::vector<TopicMessage>& messages) {
   if (pixels.empty()) return;
   sensor_msgs::Image image = urban_nav_ros::toImageMessage(pixels);
   image.header = camera.header = header(stamp, side == Side::Left ? frames::kStereoLeft : frames::kStereoRight);
-  messages.push_back(onTopic("stereo/" + surfaceClassName(side) + "/image_raw", std::move(image)));
-  messages.push_back(onTopic("stereo/" + surfaceClassName(side) + "/camera_info", std::move(camera)));
+  messages.push_back(onTopic(imageTopic(side), std::move(image)));
+  messages.push_back(onTopic(infoTopic(side), std::move(camera)));
 }
 
 template <typename Message>
@@ -64,28 +71,27 @@ void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
   switch (sensor) {
     case Sensor::Stereo:
       for (const Side side : {Side::Left, Side::Right}) {
-        addTopic<sensor_msgs::Image>("stereo/" + surfaceClassName(side) + "/image_raw", topics);
-        addTopic<sensor_msgs::CameraInfo>("stereo/" + surfaceClassName(side) + "/camera_info", topics);
+        addTopic<sensor_msgs::Image>(imageTopic(side), topics);
+        addTopic<sensor_msgs::CameraInfo>(infoTopic(side), topics);
       }
       return;
     case Sensor::Ladybug:
       for (int camera = 0; camera < 5; ++camera) {
-        addTopic<sensor_msgs::CompressedImage>("ladybug/" + ladybugName(camera) + "/image_raw/compressed", topics);
-        addTopic<sensor_msgs::CameraInfo>("ladybug/" + ladybugName(camera) + "/camera_info", topics);
+        addTopic<sensor_msgs::CompressedImage>(panoramaTopic(camera), topics);
+        addTopic<sensor_msgs::CameraInfo>(panoramaInfoTopic(camera), topics);
       }
       return;
     case Sensor::Lasers:
-      for (const Side side : {Side::Left, Side::Right})
-        addTopic<sensor_msgs::LaserScan>("laser_" + surfaceClassName(side) + "/scan", topics);
+      for (const Side side : {Side::Left, Side::Right}) addTopic<sensor_msgs::LaserScan>(scanTopic(side), topics);
       return;
     case Sensor::Imu:
-      addTopic<sensor_msgs::Imu>("imu/data", topics);
-      addTopic<sensor_msgs::MagneticField>("imu/mag", topics);
+      addTopic<sensor_msgs::Imu>(robot_topics::kImu, topics);
+      addTopic<sensor_msgs::MagneticField>(robot_topics::kMagneticField, topics);
       return;
-    case Sensor::Wheels: addTopic<nav_msgs::Odometry>("wheel_odom", topics); return;
+    case Sensor::Wheels: addTopic<nav_msgs::Odometry>(robot_topics::kWheelOdometry, topics); return;
     case Sensor::Gps:
-      addTopic<sensor_msgs::NavSatFix>("gps/fix", topics);
-      addTopic<geometry_msgs::TwistStamped>("gps/vel", topics);
+      addTopic<sensor_msgs::NavSatFix>(robot_topics::kGpsFix, topics);
+      addTopic<geometry_msgs::TwistStamped>(robot_topics::kGpsVelocity, topics);
       return;
   }
 }
@@ -95,7 +101,7 @@ void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
 std::vector<TopicMessage> listTopics(const std::set<Sensor>& sensors) {
   std::vector<TopicMessage> topics;
   for (const Sensor sensor : sensors) addTopics(sensor, topics);
-  addTopic<geometry_msgs::PoseStamped>("ground_truth/pose", topics);
+  addTopic<geometry_msgs::PoseStamped>(robot_topics::kTruthPose, topics);
   return topics;
 }
 
@@ -127,21 +133,20 @@ std::vector<TopicMessage> MeasurementMessages::from(const StereoMeasurement& pai
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const LadybugMeasurement& panorama) const {
-  const std::string name = ladybugName(panorama.camera);
   sensor_msgs::CameraInfo info = ladybug_[static_cast<std::size_t>(panorama.camera)];
   sensor_msgs::CompressedImage image;
   image.header = info.header = header(panorama.stamp, frames::ladybugCamera(panorama.camera));
   image.format = "jpeg";
   cv::imencode(".jpg", panorama.image, image.data, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return {onTopic("ladybug/" + name + "/image_raw/compressed", std::move(image)),
-          onTopic("ladybug/" + name + "/camera_info", std::move(info))};
+  return {onTopic(panoramaTopic(panorama.camera), std::move(image)),
+          onTopic(panoramaInfoTopic(panorama.camera), std::move(info))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const LaserMeasurement& turn) {
-  const std::string name = "laser_" + surfaceClassName(turn.side);
-  sensor_msgs::LaserScan scan = urban_nav_ros::toLaserScanMessage(turn.scan, name);
+  sensor_msgs::LaserScan scan =
+      urban_nav_ros::toLaserScanMessage(turn.scan, turn.side == Side::Left ? frames::kLaserLeft : frames::kLaserRight);
   scan.header.seq = turns_[static_cast<std::size_t>(turn.side)]++;
-  return {onTopic(name + "/scan", std::move(scan))};
+  return {onTopic(scanTopic(turn.side), std::move(scan))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) const {
@@ -154,7 +159,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) c
   sensor_msgs::MagneticField field;
   field.header = motion.header;
   set(imu.field, field.magnetic_field);
-  return {onTopic("imu/data", std::move(motion)), onTopic("imu/mag", std::move(field))};
+  return {onTopic(robot_topics::kImu, std::move(motion)), onTopic(robot_topics::kMagneticField, std::move(field))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& wheels) const {
@@ -164,7 +169,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& whee
   odometry.pose.pose = urban_nav_ros::toPoseMessage(wheels.T_odom_base);
   odometry.twist.twist.linear.x = wheels.speed;
   odometry.twist.twist.angular.z = wheels.yaw_rate;
-  return {onTopic("wheel_odom", std::move(odometry))};
+  return {onTopic(robot_topics::kWheelOdometry, std::move(odometry))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) const {
@@ -181,8 +186,8 @@ std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) c
   geometry_msgs::TwistStamped velocity;
   velocity.header = fix.header;
   set(gps.velocity, velocity.twist.linear);
-  Messages messages = {onTopic("gps/fix", std::move(fix))};
-  if (gps.has_fix) messages.push_back(onTopic("gps/vel", std::move(velocity)));
+  Messages messages = {onTopic(robot_topics::kGpsFix, std::move(fix))};
+  if (gps.has_fix) messages.push_back(onTopic(robot_topics::kGpsVelocity, std::move(velocity)));
   return messages;
 }
 
@@ -190,7 +195,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const TruthMeasurement& trut
   geometry_msgs::PoseStamped pose;
   pose.header = header(truth.stamp, "ground_truth");
   pose.pose = urban_nav_ros::toPoseMessage(truth.T_world_base);
-  return {onTopic("ground_truth/pose", std::move(pose))};
+  return {onTopic(robot_topics::kTruthPose, std::move(pose))};
 }
 
 }  // namespace urban_nav_sim

@@ -8,6 +8,7 @@
 
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_sim {
 
@@ -33,8 +34,8 @@ tf2_msgs::TFMessage asTransform(const geometry_msgs::PoseStamped& pose) {
 }  // namespace
 
 TopicPublisher::TopicPublisher(ros::NodeHandle& nh, const std::set<Sensor>& sensors, std::uint32_t queue)
-    : static_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)),
-      truth_(nh.advertise<tf2_msgs::TFMessage>("ground_truth/tf", queue)) {
+    : static_(nh.advertise<tf2_msgs::TFMessage>(urban_nav_ros::topics::kStaticTransforms, 10, true)),
+      truth_(nh.advertise<tf2_msgs::TFMessage>(urban_nav_ros::topics::kTruthTransforms, queue)) {
   for (const TopicMessage& each : listTopics(sensors)) {
     publishers_[each.topic] = std::visit(
         [&](const auto& message) {
@@ -43,7 +44,7 @@ TopicPublisher::TopicPublisher(ros::NodeHandle& nh, const std::set<Sensor>& sens
         },
         each.message);
   }
-  if (ros::Time::isSimTime()) clock_ = nh.advertise<rosgraph_msgs::Clock>("/clock", queue);
+  if (ros::Time::isSimTime()) clock_ = nh.advertise<rosgraph_msgs::Clock>(urban_nav_ros::topics::kClock, queue);
 }
 
 void TopicPublisher::publish(const std::vector<geometry_msgs::TransformStamped>& transforms) {

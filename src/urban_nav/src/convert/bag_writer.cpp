@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav {
 
@@ -43,7 +44,7 @@ void BagWriter::writeStaticTransforms(StampNs stamp, const std::vector<geometry_
   (*header)["message_definition"] = ros::message_traits::definition(message);
   (*header)["latching"] = "1";
   (*header)["callerid"] = "/urban_nav_convert";
-  writeNow("/tf_static", stamp, message, header);
+  writeNow(urban_nav_ros::topics::kStaticTransforms, stamp, message, header);
 }
 
 void BagWriter::commit() {

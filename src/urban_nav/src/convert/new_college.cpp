@@ -20,6 +20,7 @@
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav {
 
@@ -59,7 +60,7 @@ void write(const urban_nav_input::NewCollegeOdometry& event, BagWriter& bag) {
   message.twist.twist.linear.x = event.speed;
   message.twist.twist.angular.y = event.pitch_rate;
   message.twist.twist.angular.z = event.yaw_rate;
-  bag.write("/wheel_odom", event.stamp, message);
+  bag.write(urban_nav_ros::topics::fromRoot(urban_nav_ros::topics::kWheelOdometry), event.stamp, message);
 }
 
 void write(const urban_nav_input::NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {
@@ -74,7 +75,8 @@ void write(const urban_nav_input::NewCollegeFiles::Image& image, BagWriter& bag)
   message.header.frame_id = frames::ladybugCamera(image.camera);
   message.format = "jpeg";
   message.data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-  bag.write("/ladybug/camera" + std::to_string(image.camera) + "/image_raw/compressed", image.stamp, message);
+  const std::string topic = urban_nav_ros::topics::kPanoramaImages.at(static_cast<std::size_t>(image.camera));
+  bag.write(urban_nav_ros::topics::fromRoot(topic + "/compressed"), image.stamp, message);
 }
 
 /// Everything of one data set, in the order of stamps.

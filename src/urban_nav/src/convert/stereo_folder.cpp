@@ -14,6 +14,7 @@
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav {
 
@@ -46,12 +47,13 @@ class Companions {
       sensor_msgs::Imu& message = imu_[next_imu_];
       const StampNs at = urban_nav_ros::toStampNs(message.header.stamp) + shift_;
       message.header.stamp = urban_nav_ros::toRosTime(at);
-      bag.write("/imu/data", at, message);
+      bag.write(urban_nav_ros::topics::fromRoot(urban_nav_ros::topics::kImu), at, message);
     }
     if (!truth_) return;
     for (; next_truth_ < truth_->trajectory.size() && truth_->trajectory[next_truth_].stamp <= stamp; ++next_truth_) {
       const urban_nav_core::StampedPose& pose = truth_->trajectory[next_truth_];
-      bag.write("/ground_truth/pose", pose.stamp + shift_, truthMessage(pose, shift_));
+      bag.write(urban_nav_ros::topics::fromRoot(urban_nav_ros::topics::kTruthPose), pose.stamp + shift_,
+                truthMessage(pose, shift_));
     }
   }
 

@@ -10,6 +10,7 @@
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav {
 
@@ -19,8 +20,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-void writeSide(const std::string& side, const std::string& frame, const urban_nav_core::ImageView& view, StampNs stamp,
-               const urban_nav_core::CameraInfo& info, BagWriter& bag) {
+void writeSide(const char* image_topic, const char* info_topic, const std::string& frame,
+               const urban_nav_core::ImageView& view, StampNs stamp, const urban_nav_core::CameraInfo& info,
+               BagWriter& bag) {
   if (view.empty()) return;
   auto* bytes = const_cast<std::uint8_t*>(view.data);  // cv::Mat has no const view; it is only read
   sensor_msgs::Image image = urban_nav_ros::toImageMessage(
@@ -29,16 +31,18 @@ void writeSide(const std::string& side, const std::string& frame, const urban_na
   image.header.frame_id = frame;
   sensor_msgs::CameraInfo camera = urban_nav_ros::toCameraInfoMessage(info);
   camera.header = image.header;
-  bag.write("/stereo/" + side + "/image_raw", stamp, image);
-  bag.write("/stereo/" + side + "/camera_info", stamp, camera);
+  bag.write(urban_nav_ros::topics::fromRoot(image_topic), stamp, image);
+  bag.write(urban_nav_ros::topics::fromRoot(info_topic), stamp, camera);
 }
 
 }  // namespace
 
 void writeStereo(const urban_nav_core::StereoPair& pair, StampNs stamp, const urban_nav_core::StereoCamera& camera,
                  BagWriter& bag) {
-  writeSide("left", frames::kStereoLeft, pair.left, stamp, urban_nav_core::leftInfo(camera), bag);
-  writeSide("right", frames::kStereoRight, pair.right, stamp, urban_nav_core::rightInfo(camera), bag);
+  writeSide(urban_nav_ros::topics::kLeftImage, urban_nav_ros::topics::kLeftInfo, frames::kStereoLeft, pair.left, stamp,
+            urban_nav_core::leftInfo(camera), bag);
+  writeSide(urban_nav_ros::topics::kRightImage, urban_nav_ros::topics::kRightInfo, frames::kStereoRight, pair.right,
+            stamp, urban_nav_core::rightInfo(camera), bag);
 }
 
 std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera,

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_input {
 
@@ -35,7 +36,7 @@ bool isSamePlace(const Pose& a, const Pose& b) {
 std::map<std::string, TfLink> readLinks(std::list<rosbag::Bag>& bags) {
   std::map<std::string, TfLink> links;  // by child
   for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "tf"}));
+    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{urban_nav_ros::topics::kTransforms, "tf"}));
     const std::size_t step = std::max<std::size_t>(1, view.size() / kTfSamples);
     std::size_t i = 0;
     for (const rosbag::MessageInstance& instance : view) {
@@ -73,7 +74,8 @@ std::map<std::string, std::string> topicTypes(std::list<rosbag::Bag>& bags) {
 urban_nav_ros::StaticTransforms readTransforms(std::list<rosbag::Bag>& bags) {
   urban_nav_ros::StaticTransforms transforms;
   for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}));
+    rosbag::View view(
+        bag, rosbag::TopicQuery(std::vector<std::string>{urban_nav_ros::topics::kStaticTransforms, "tf_static"}));
     for (const rosbag::MessageInstance& instance : view)
       if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
   }

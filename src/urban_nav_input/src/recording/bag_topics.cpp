@@ -5,6 +5,7 @@
 #include <array>
 
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_input {
 
@@ -12,31 +13,33 @@ using urban_nav_core::UserError;
 
 namespace {
 
+namespace topics = urban_nav_ros::topics;
+
 struct RoleNames {
   Role role;
   const char* word;
   const char* topic;  // of docs/architecture.md
 };
-constexpr std::array<RoleNames, 20> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
-                                               {Role::Right, "right", "stereo/right/image_raw"},
-                                               {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
-                                               {Role::RightInfo, "right_info", "stereo/right/camera_info"},
-                                               {Role::Imu, "imu", "imu/data"},
-                                               {Role::Wheels, "wheels", "wheel_odom"},
-                                               {Role::LaserLeft, "laser_left", "laser_left/scan"},
-                                               {Role::LaserRight, "laser_right", "laser_right/scan"},
-                                               {Role::Truth, "truth", "ground_truth/pose"},
-                                               {Role::Gps, "gps", "gps/fix"},
-                                               {Role::Panorama0, "panorama0", "ladybug/camera0/image_raw"},
-                                               {Role::Panorama1, "panorama1", "ladybug/camera1/image_raw"},
-                                               {Role::Panorama2, "panorama2", "ladybug/camera2/image_raw"},
-                                               {Role::Panorama3, "panorama3", "ladybug/camera3/image_raw"},
-                                               {Role::Panorama4, "panorama4", "ladybug/camera4/image_raw"},
-                                               {Role::Panorama0Info, "panorama0_info", "ladybug/camera0/camera_info"},
-                                               {Role::Panorama1Info, "panorama1_info", "ladybug/camera1/camera_info"},
-                                               {Role::Panorama2Info, "panorama2_info", "ladybug/camera2/camera_info"},
-                                               {Role::Panorama3Info, "panorama3_info", "ladybug/camera3/camera_info"},
-                                               {Role::Panorama4Info, "panorama4_info", "ladybug/camera4/camera_info"}}};
+constexpr std::array<RoleNames, 20> kRoles = {{{Role::Left, "left", topics::kLeftImage},
+                                               {Role::Right, "right", topics::kRightImage},
+                                               {Role::LeftInfo, "left_info", topics::kLeftInfo},
+                                               {Role::RightInfo, "right_info", topics::kRightInfo},
+                                               {Role::Imu, "imu", topics::kImu},
+                                               {Role::Wheels, "wheels", topics::kWheelOdometry},
+                                               {Role::LaserLeft, "laser_left", topics::kLaserLeft},
+                                               {Role::LaserRight, "laser_right", topics::kLaserRight},
+                                               {Role::Truth, "truth", topics::kTruthPose},
+                                               {Role::Gps, "gps", topics::kGpsFix},
+                                               {Role::Panorama0, "panorama0", topics::kPanoramaImages[0]},
+                                               {Role::Panorama1, "panorama1", topics::kPanoramaImages[1]},
+                                               {Role::Panorama2, "panorama2", topics::kPanoramaImages[2]},
+                                               {Role::Panorama3, "panorama3", topics::kPanoramaImages[3]},
+                                               {Role::Panorama4, "panorama4", topics::kPanoramaImages[4]},
+                                               {Role::Panorama0Info, "panorama0_info", topics::kPanoramaInfos[0]},
+                                               {Role::Panorama1Info, "panorama1_info", topics::kPanoramaInfos[1]},
+                                               {Role::Panorama2Info, "panorama2_info", topics::kPanoramaInfos[2]},
+                                               {Role::Panorama3Info, "panorama3_info", topics::kPanoramaInfos[3]},
+                                               {Role::Panorama4Info, "panorama4_info", topics::kPanoramaInfos[4]}}};
 
 constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"},
                                                                {"cam0", "cam1"},

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <string>
+
 /// Names of topics, relative to the node's namespace unless they begin with a slash.
 namespace urban_nav_ros::topics {
 
+constexpr const char* kTransforms = "/tf";
 constexpr const char* kStaticTransforms = "/tf_static";
+constexpr const char* kClock = "/clock";
 
 // Sensors.
 constexpr const char* kLeftImage = "stereo/left/image_raw";
@@ -15,9 +20,25 @@ constexpr const char* kLeftInfo = "stereo/left/camera_info";
 constexpr const char* kRightInfo = "stereo/right/camera_info";
 constexpr const char* kLaserLeft = "laser_left/scan";
 constexpr const char* kLaserRight = "laser_right/scan";
+constexpr const char* kScan = "scan";  // in the namespace of a laser
 constexpr const char* kWheelOdometry = "wheel_odom";
+constexpr const char* kVelocityCommand = "cmd_vel";
+constexpr const char* kBattery = "battery";
 constexpr const char* kImu = "imu/data";
+constexpr const char* kMagneticField = "imu/mag";
 constexpr const char* kGpsFix = "gps/fix";
+constexpr const char* kGpsVelocity = "gps/vel";
+constexpr const char* kPanoramaRaw = "ladybug/raw";
+constexpr std::array<const char*, 5> kPanoramaImages = {"ladybug/camera0/image_raw", "ladybug/camera1/image_raw",
+                                                        "ladybug/camera2/image_raw", "ladybug/camera3/image_raw",
+                                                        "ladybug/camera4/image_raw"};
+constexpr std::array<const char*, 5> kPanoramaInfos = {"ladybug/camera0/camera_info", "ladybug/camera1/camera_info",
+                                                       "ladybug/camera2/camera_info", "ladybug/camera3/camera_info",
+                                                       "ladybug/camera4/camera_info"};
+
+// Ground truth of recordings and of the simulator.
+constexpr const char* kTruthPose = "ground_truth/pose";
+constexpr const char* kTruthTransforms = "ground_truth/tf";
 
 // swf_vo.
 constexpr const char* kVoOdometry = "vo/odometry";
@@ -41,6 +62,22 @@ constexpr const char* kPlaceMarkers = "places/markers";
 constexpr const char* kPlaceClosure = "places/closure";
 constexpr const char* kMetricClosure = "loops/metric";
 constexpr const char* kMapConstraints = "map/constraints";
+constexpr const char* kClosureMatches = "loops/matches";
+
+// laser_mapper.
+constexpr const char* kMapCloud = "map/cloud";
+constexpr const char* kMapTiles = "map/tiles";
+constexpr const char* kMapQuality = "map/quality";
+
+// scene_labeler.
+constexpr const char* kLabelImage = "labels/image";
+constexpr const char* kLabelCloud = "labels/cloud";
+
+// urban_nav_localization.
+constexpr const char* kLocalizationState = "localization/state";
+constexpr const char* kLocalizationPose = "localization/pose";
+constexpr const char* kLocalizationHypothesis = "localization/hypothesis";
+constexpr const char* kLocalizationMapPath = "localization/map_path";
 
 // pose_graph.
 constexpr const char* kGraphUpdate = "graph/update";
@@ -51,5 +88,11 @@ constexpr const char* kGraphMarkers = "graph/markers";
 
 // The operator.
 constexpr const char* kInitialPose = "initialpose";
+constexpr const char* kClickedPoint = "/clicked_point";  // of the tool publish_point of rviz
+
+/// Returns the name that a topic has outside of namespaces, as recordings contain it: "/imu/data".
+inline std::string fromRoot(const std::string& topic) {
+  return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
+}
 
 }  // namespace urban_nav_ros::topics

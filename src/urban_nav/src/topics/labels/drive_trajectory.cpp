@@ -10,6 +10,7 @@
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav {
 
@@ -24,7 +25,7 @@ std::string withoutSlash(const std::string& frame) {
 /// Returns the transforms of kBaseLink on /tf, to odom or, without these, to map.
 Trajectory readTransforms(const std::string& path) {
   urban_nav_input::Recording recording(path);
-  urban_nav_input::RecordedMessages messages = recording.messages({"/tf", "tf"});
+  urban_nav_input::RecordedMessages messages = recording.messages({urban_nav_ros::topics::kTransforms, "tf"});
   Trajectory from_odom, from_map;
   while (const auto each = messages.next()) {
     const auto message = each->as<tf2_msgs::TFMessage>();
