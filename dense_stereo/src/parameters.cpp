@@ -17,7 +17,8 @@ const Table<Parameters>& table() {
       "dense_stereo",
       {
           {"method", &P::method, "", std::string("sgm"), false, false, {"sgm", "paper"},
-           "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison; in the command only).",
+           "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison; in "
+           "the command only).",
            "section 6.2; Hirschmueller 2008"},
           {"disparities", &P::disparities, "px", std::int64_t{64}, std::int64_t{16}, std::int64_t{240}, {},
            "Disparities searched, from 0, rounded up to a multiple of 16. Nearer surfaces are not matched.",
@@ -27,8 +28,8 @@ const Table<Parameters>& table() {
           {"max_sigma", &P::max_sigma, "px", 2.0, 0.05, 100.0, {},
            "Disparities with a larger standard deviation are invalid.", "dense_stereo/bench, accuracy"},
           {"max_range", &P::max_range, "m", 5.0, 0.5, 100.0, {},
-           "Points farther from the camera than this are used neither for the ground nor for obstacles and maps. Cameras "
-           "of a long baseline: up to the range where 0.1 px of disparity are 5 cm of depth.",
+           "Points farther from the camera than this are used neither for the ground nor for obstacles and maps. "
+           "Cameras of a long baseline: up to the range where 0.1 px of disparity are 5 cm of depth.",
            "section 6.2"},
           {"obstacle_height", &P::obstacle_height, "m", 0.1, 0.02, 2.0, {},
            "What stands at least this high above the ground, or lies as deep below it, is an obstacle.",

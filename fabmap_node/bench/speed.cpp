@@ -251,11 +251,13 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
   const auto views = panorama(images, 0);
   table.add({"features of a panorama", "five images of 384x512 px",
              cell(medianMs(15, [&] { extractor.extract(views); }), 1)});
-  for (const OpenCvFeature feature : {OpenCvFeature::Sift, OpenCvFeature::Orb})
-    table.add({std::string("features of a panorama by OpenCV: ") + kOpenCvFeatureNames[static_cast<std::size_t>(feature)],
-               "five images of 384x512 px", cell(medianMs(7, [&] {
-                 for (const auto& view : views) openCvObservation(feature, view, FeatureOptions().panorama);
-               }), 1)});
+  for (const OpenCvFeature feature : {OpenCvFeature::Sift, OpenCvFeature::Orb}) {
+    const std::string name = kOpenCvFeatureNames[static_cast<std::size_t>(feature)];
+    const double ms = medianMs(7, [&] {
+      for (const auto& view : views) openCvObservation(feature, view, FeatureOptions().panorama);
+    });
+    table.add({"features of a panorama by OpenCV: " + name, "five images of 384x512 px", cell(ms, 1)});
+  }
   table.add({"panorama to words and compact descriptors", std::to_string(model.vocabulary.size()) + " words",
              cell(medianMs(15, [&] { describer.describe(views); }), 1)});
   const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);

@@ -23,9 +23,11 @@ const Table<Parameters>& table() {
           {"spacing", &P::spacing, "m", 5.0, 0.5, 100.0, {},
            "Distance along the path between the images of each side camera that are labelled.", "docs/files.md"},
           {"reach", &P::reach, "m", 10.0, 1.0, 100.0, {},
-           "Length of the path before and after an image whose returns are projected into it.", "field of view of the cameras"},
+           "Length of the path before and after an image whose returns are projected into it.",
+           "field of view of the cameras"},
           {"class_topic", &P::class_topic, "", "", false, false, {},
-           "Topic of class images by another source: mono8, in the frame and at the stamp of a side camera's image. Empty: none.",
+           "Topic of class images by another source: mono8, in the frame and at the stamp of a side camera's image. "
+           "Empty: none.",
            "docs/files.md"},
           {"class_file", &P::class_file, "", "", false, false, {},
            "Table id,class for the values of the class images; empty: the classes' own numbers.", "docs/files.md"},

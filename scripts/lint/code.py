@@ -12,6 +12,7 @@ LONG_FUNCTIONS = {
     "src/urban_nav/src/simulate/simulate_command.cpp:simulateCommand": "table of options",
     "src/urban_nav_live/include/urban_nav_live/stereo_input_parameters.hpp:withStereoInput": "table of parameters",
     "src/urban_nav_registration/src/parameters.cpp:table": "table of parameters",
+    "swf_vo/src/parameters.cpp:table": "table of parameters",
     "src/urban_nav/src/topics/lasers/map_viewer_script.cpp:mapViewerScript": "one script of the page, as text",
     # Loops of a solver whose steps share most of their variables: apart, each would take ten arguments.
     "pose_graph/src/condense/solve_condensed.cpp:solveCondensed": "descent and its tests of convergence",

@@ -109,7 +109,8 @@ int main(int argc, char** argv) try {
                std::to_string(r.latest), share(r.lost, r.count)});
   }
   table.note(
-      "Root mean square over five pieces of kitti_raw_0926_0005, 7 s each, and over six rendered rooms, 4 s each; undisturbed " +
+      "Root mean square over five pieces of kitti_raw_0926_0005, 7 s each, and over six rendered rooms, 4 s each; "
+      "undisturbed " +
       cell(100.0 * usual_street.rms(), 1) + " cm and " + cell(1000.0 * usual_rooms.rms(), 2) + " mm, NEES " +
       cell(usual_rooms.nees / usual_rooms.count, 1) + " in the rooms.");
   return swf_vo::bench::show(table, output);

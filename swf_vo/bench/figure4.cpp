@@ -162,8 +162,8 @@ int main(int argc, char** argv) {
       argc, argv);
   std::ofstream plot;  // takes nothing while it is not open
   if (!path.empty()) plot.open(path.substr(0, path.rfind('.')) + ".svg");
-  plot
-      << "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='700' font-family='sans-serif' font-size='12'>\n<rect width='860' height='700' fill='white'/>\n";
+  plot << "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='700' font-family='sans-serif' font-size='12'>\n"
+          "<rect width='860' height='700' fill='white'/>\n";
   for (const bool standing : {true, false}) {
     std::vector<Curve> curves(std::size(kMethods));
     for (int r = 0; r < runs; ++r) {

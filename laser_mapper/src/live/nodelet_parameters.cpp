@@ -25,7 +25,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"tile_bandwidth", &P::tile_bandwidth, "MB/s", 2.0, 0.01, 10000.0, {},
            "Mean data rate of map/tiles: what has changed beyond it waits.", "docs/architecture.md"},
           {"live_constraints", &P::live_constraints, "", false, false, false, {},
-           "Planes that two passes measured are published on map/constraints, for the pose graph; finding them takes at most a quarter of all time.",
+           "Planes that two passes measured are published on map/constraints, for the pose graph; finding them takes "
+           "at most a quarter of all time.",
            "docs/methods/laser_mapper.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
            "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},

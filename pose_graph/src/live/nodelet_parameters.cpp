@@ -45,8 +45,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"path_spacing", &P::path_spacing, "m", 1.0, 0.01, 1000.0, {},
            "Distance between poses of the published path.", "", {"picture_spacing"}},
           {"ground", &P::ground, "", true, false, true, {},
-           "Whether stereo/ground_plane levels the map where there is no accelerometer; it is subscribed until imu/data "
-           "arrives, and dense stereo works meanwhile.", "section 6.2"},
+           "Whether stereo/ground_plane levels the map where there is no accelerometer; it is subscribed until "
+           "imu/data arrives, and dense stereo works meanwhile.", "section 6.2"},
       });
   return rows;
 }

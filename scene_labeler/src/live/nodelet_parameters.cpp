@@ -21,7 +21,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
            "Frame of the odometry and of the cloud.", "REP-105"},
           {"compressed", &P::compressed, "", true, false, false, {},
-           "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.", "docs/architecture.md"},
+           "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.",
+           "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
            "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
       });

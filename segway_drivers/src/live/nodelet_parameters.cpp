@@ -15,17 +15,22 @@ const Table<NodeletParameters>& nodeletTable() {
       "",
       {
           {"port", &P::port, "", "", false, false, {},
-           "Serial port, best by /dev/serial/by-id or a udev link; HOST:PORT of gpsd; a CAN interface for the base; the GUID of a camera, empty for the only one, or the bag of urban_nav simulate (NAME.bag) that feeds a simulated camera. It may be missing at the start.", ""},
+           "Serial port, best by /dev/serial/by-id or a udev link; HOST:PORT of gpsd; a CAN interface for the base; "
+           "the GUID of a camera, empty for the only one, or the bag of urban_nav simulate (NAME.bag) that feeds a "
+           "simulated camera. It may be missing at the start.", ""},
           {"frame", &P::frame, "", "", false, false, {},
-           "Frame of the measurements; empty: that of the device (laser_left in the namespace laser_left, imu_link, odom, gps_link).", "REP-105"},
+           "Frame of the measurements; empty: that of the device (laser_left in the namespace laser_left, imu_link, "
+           "odom, gps_link).", "REP-105"},
           {"base_frame", &P::base_frame, "", "base_link", false, false, {},
            "Frame of the robot, for the odometry of the base.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", false, false, true, {},
            "Whether the base publishes its odometry on /tf; visual odometry does so by default.", "REP-105"},
           {"session_begin", &P::session_begin, "", "", false, false, {},
-           "File in which the simulated devices of a launch agree on the begin of their session, new for each launch; empty: a camera's session begins when it is opened.", ""},
+           "File in which the simulated devices of a launch agree on the begin of their session, new for each launch; "
+           "empty: a camera's session begins when it is opened.", ""},
           {"queue", &P::queue, "messages", 1000, 10, 100000, {},
-           "Messages that may wait for publication; beyond that new ones are dropped and counted. Reading never waits.", ""},
+           "Messages that may wait for publication; beyond that new ones are dropped and counted. Reading never waits.",
+           ""},
       });
   return rows;
 }

@@ -82,7 +82,8 @@ int main(int argc, char** argv) {
       [&](const urban_nav::bench::CameraSession& session) { add(session.name, runCamera(session)); });
   table.add({"all", "", cell(100.0 * total, 2)});
   table.note(
-      "Processor time of the reading thread, with transport, checks and clock; without ROS. Cameras with the copy of each frame.");
+      "Processor time of the reading thread, with transport, checks and clock; without ROS. Cameras with the copy of "
+      "each frame.");
   std::filesystem::remove_all(folder);
   std::fputs(table.text().c_str(), stdout);
   if (!output.empty()) table.write(output);

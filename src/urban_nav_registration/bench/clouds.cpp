@@ -141,10 +141,14 @@ int main(int argc, char** argv) try {
     addPeers(pair.name, options.peers, table);
   }
   table.note(
-      "From the identity, cubes of 0.25 m, one core, reading excluded: preprocessing, alignment, and of urban_nav the look around for what fits as well elsewhere, the classifier and the covariance. Stored poses are good to some 0.02 m and 0.2 deg, 0.04 m and 0.25 deg. Random starts: up to 5 m and any heading away.");
+      "From the identity, cubes of 0.25 m, one core, reading excluded: preprocessing, alignment, and of urban_nav the "
+      "look around for what fits as well elsewhere, the classifier and the covariance. Stored poses are good to some "
+      "0.02 m and 0.2 deg, 0.04 m and 0.25 deg. Random starts: up to 5 m and any heading away.");
   if (!options.peers.empty())
     table.note(
-        "Peers from the same machine, processor time, one after another: small_gicp aea1313 (headers, -O3; no tree of the source where point-to-plane reads none) and PCL 1.13 of Debian, both with normals of 10 neighbours, correspondences up to 1 m, and no verdict.");
+        "Peers from the same machine, processor time, one after another: small_gicp aea1313 (headers, -O3; no tree of "
+        "the source where point-to-plane reads none) and PCL 1.13 of Debian, both with normals of 10 neighbours, "
+        "correspondences up to 1 m, and no verdict.");
   std::cout << table.text();
   if (!options.output.empty()) table.write(options.output);
   return 0;

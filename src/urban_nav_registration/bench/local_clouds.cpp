@@ -208,7 +208,9 @@ int main(int argc, char** argv) try {
                     "deg: median (95 %)", "NEES: mean (median)", "ms"},
                    argc, argv);
   table.note(
-      "Pairs up to 7.5 m apart of one day or two, without a guess; another place: more than 10 m apart, all that are accepted. Wrong: off by more than half a metre or 3 deg. NEES: 6 is right, 5.3 its median. Time: one core, from the points of both clouds to the verdict, the search among all headings with it.");
+      "Pairs up to 7.5 m apart of one day or two, without a guess; another place: more than 10 m apart, all that are "
+      "accepted. Wrong: off by more than half a metre or 3 deg. NEES: 6 is right, 5.3 its median. Time: one core, from "
+      "the points of both clouds to the verdict, the search among all headings with it.");
   Program program(options);
   for (const std::string& folder : options.folders) program.run(folder, table);
   std::cout << table.text();

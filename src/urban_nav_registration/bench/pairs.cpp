@@ -230,7 +230,8 @@ class Program {
                    const StereoClosure& closure) {
     const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, closure.lefts.T_a_b);
     std::printf(
-        "%s %zu %zu: %.2f m %.1f deg | put %d con %d vis %d match %d like %.3f err %.3f px noise %.2f | %s | %.1f cm %.3f deg nees %.1f | %s\n",
+        "%s %zu %zu: %.2f m %.1f deg | put %d con %d vis %d match %d like %.3f err %.3f px noise %.2f | %s | %.1f cm "
+        "%.3f deg nees %.1f | %s\n",
         name.c_str(), i, j, truth.t().norm(), kDegrees * urban_nav_core::angleBetween(truth, Pose()), closure.putative,
         closure.consensus, closure.visible, closure.matches, closure.likeness, closure.reprojection_px,
         closure.noise_factor, toString(closure.reason), 100.0 * d.head<3>().norm(), kDegrees * d.tail<3>().norm(),
@@ -283,7 +284,10 @@ int main(int argc, char** argv) try {
                     "OpenCV, ORB: upgraded (wrong)", "cm", "ms"},
                    argc, argv);
   table.note(
-      "Wrong: off by more than half a metre or 3 deg; of pairs of different places, all that are accepted. NEES: 6 is right, 5.3 its median. Time: one core, both keyframes from their images, and what leads from them to the verdict. OpenCV on every third pair: 500 features, ratio test, depth by StereoSGBM, solvePnPRansac and solvePnPRefineLM, 50 inliers wanted.");
+      "Wrong: off by more than half a metre or 3 deg; of pairs of different places, all that are accepted. NEES: 6 is "
+      "right, 5.3 its median. Time: one core, both keyframes from their images, and what leads from them to the "
+      "verdict. OpenCV on every third pair: 500 features, ratio test, depth by StereoSGBM, solvePnPRansac and "
+      "solvePnPRefineLM, 50 inliers wanted.");
   Program program(options);
   for (const std::string& folder : options.folders) program.run(folder, table);
   std::cout << table.text();

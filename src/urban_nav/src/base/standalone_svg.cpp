@@ -10,10 +10,10 @@ namespace {
 constexpr int kSvgTitleHeight = 44;
 constexpr const char* kStyle =
     "svg{font-family:sans-serif;background:#fff}.c-a{color:#1f6feb}.c-b{color:#d9480f}.c-c{color:#0c8599}.c-d{color:#"
-    "9c36b5}.c-good{color:#2b8a3e}.c-plain{color:#5d6877}"
-    ".grid{stroke:#ebe8e2}.tick{fill:#5d6877;font-size:11px}.label{fill:#5d6877;font-size:12px}.title{font-size:15px;"
-    "font-weight:bold;fill:#1d2430}.name{font-size:12px;fill:currentColor}"
-    ".line{fill:none;stroke:currentColor;stroke-width:1.9}.faint{stroke-width:0.8;opacity:0.4}.dashed{stroke-dasharray:6 "
+    "9c36b5}.c-good{color:#2b8a3e}.c-plain{color:#5d6877}.grid{stroke:#ebe8e2}.tick{fill:#5d6877;font-size:11px}.label{"
+    "fill:#5d6877;font-size:12px}.title{font-size:15px;font-weight:bold;fill:#1d2430}.name{font-size:12px;fill:"
+    "currentColor}.line{fill:none;stroke:currentColor;stroke-width:1.9}.faint{stroke-width:0.8;opacity:0.4}.dashed{"
+    "stroke-dasharray:6 "
     "4}.band{fill:currentColor;opacity:.18}.bar,.dot{fill:currentColor}";
 
 std::string names(const Plot& plot, int y) {

@@ -222,7 +222,8 @@ std::string deviceHelp(const Arguments& arguments) {
          "  decode KIND FILE -o OUT.csv          bytes as a device sent them, as a table\n"
          "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
          "  run KIND --port PATH --duration S -o OUT.csv  a device at a serial port, or gpsd at HOST:PORT\n"
-         "  simulate KIND --link PATH --bag BAG  a device on a pseudo-terminal, fed by a bag of simulate or by --world\n"
+         "  simulate KIND --link PATH --bag BAG  a device on a pseudo-terminal, fed by a bag of simulate or by "
+         "--world\n"
          "  simulate CAMERA --source FILE --bag BAG  raw frames of a camera, and FILE.csv, their index; or by --world\n"
          "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
          "kinds: " +

@@ -50,8 +50,8 @@ Matrix6d applyAxes(Axes axes, const Matrix6d& covariance) {
 const char* describe(Axes axes) {
   switch (axes) {
     case Axes::EstimateOptical:
-      return "the estimate has the axes of a camera (z forward), the truth those of a body (x forward): the estimate is "
-             "turned";
+      return "the estimate has the axes of a camera (z forward), the truth those of a body (x forward): the estimate "
+             "is turned";
     case Axes::TruthOptical:
       return "the truth has the axes of a camera (z forward), the estimate those of a body (x forward): the truth is "
              "turned";

@@ -96,8 +96,8 @@ Command doctorCommand() {
   Command command;
   command.name = "doctor";
   command.summary =
-      "Reports what is wrong with bags or folders before they are mapped, each defect with what repairs it; exit status "
-      "1 if they cannot be used.";
+      "Reports what is wrong with bags or folders before they are mapped, each defect with what repairs it; exit "
+      "status 1 if they cannot be used.";
   command.options = {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"--topic",

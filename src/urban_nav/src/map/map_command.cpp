@@ -75,8 +75,8 @@ std::vector<Option> mapOptions(const AllStages& stages) {
       {"--stages", "LIST", stagesSentence(stages), false, true, {}},
       {"--closures",
        "FILE",
-       "closures.csv: pairs of stamps at one place; the stage loops measures their transforms (without it, those in the "
-       "file are used)",
+       "closures.csv: pairs of stamps at one place; the stage loops measures their transforms (without it, those in "
+       "the file are used)",
        false,
        false,
        {}},
@@ -95,15 +95,15 @@ std::vector<Option> mapOptions(const AllStages& stages) {
       {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
       {"--store",
        "FILE",
-       "continue from the sessions of this store: session.db of DIR holds all of them, relaxed together with the new ones "
-       "if there are closures (FILE is only read, unless it is that of DIR)",
+       "continue from the sessions of this store: session.db of DIR holds all of them, relaxed together with the new "
+       "ones if there are closures (FILE is only read, unless it is that of DIR)",
        false,
        false,
        {}},
       {"--localise",
        "FILE",
-       "localise the inputs in the map of this store, which is only read: localisation.csv holds poses, and whether they "
-       "are KNOWN",
+       "localise the inputs in the map of this store, which is only read: localisation.csv holds poses, and whether "
+       "they are KNOWN",
        false,
        false,
        {}},
@@ -111,7 +111,8 @@ std::vector<Option> mapOptions(const AllStages& stages) {
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
       {"--so-far",
        "SHARE",
-       "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked so and refreshes itself",
+       "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked so and refreshes "
+       "itself",
        false,
        false,
        {}},

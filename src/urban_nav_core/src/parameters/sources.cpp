@@ -142,9 +142,10 @@ std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo
     const auto row =
         std::find_if(rows.begin(), rows.end(), [&](const RowInfo& each) { return each.name == assignment.name; });
     if (row == rows.end()) {
-      throw UserError(
-          assignment.where, fullName(stage, assignment.name) + " is no parameter",
-          "the parameters that --help-all lists; nearest: " + fullName(stage, nearest(assignment.name, listNames(rows))));
+      throw UserError(assignment.where, fullName(stage, assignment.name) + " is no parameter",
+                      "the parameters that --help-all lists; "
+                      "nearest: " +
+                          fullName(stage, nearest(assignment.name, listNames(rows))));
     }
     Setting& setting = settings[static_cast<std::size_t>(row - rows.begin())];
     setting.value = checked(*row, assignment);

@@ -13,22 +13,29 @@ namespace {
 
 const char* const kKitti =
     "P0: 7.070912000000e+02 0 6.018873000000e+02 0 0 7.070912000000e+02 1.831104000000e+02 0 0 0 1 0\n"
-    "P1: 7.070912000000e+02 0 6.018873000000e+02 -3.798145000000e+02 0 7.070912000000e+02 1.831104000000e+02 0 0 0 1 0\n"
+    "P1: 7.070912000000e+02 0 6.018873000000e+02 -3.798145000000e+02 0 "
+    "7.070912000000e+02 1.831104000000e+02 0 0 0 1 0\n"
     "Tr: 1 2 3\n";
 const char* const kInfo =
-    "image_width: 512\nimage_height: 384\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [390, 0, 255, 0, 391, 202, 0, 0, 1]\n"
-    "distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.3, 0.1, 0.001, -0.002, 0]\n"
+    "image_width: 512\nimage_height: 384\ncamera_name: left\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+    "  data: [390, 0, 255, 0, 391, 202, 0, 0, 1]\n"
+    "distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n"
+    "  data: [-0.3, 0.1, 0.001, -0.002, 0]\n"
     "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n"
     "projection_matrix:\n  rows: 3\n  cols: 4\n  data: [389.956, 0, 254.9, 0, 0, 389.956, 201.9, 0, 0, 0, 1, 0]\n";
 const char* const kEuroc =
-    "%YAML:1.0\n# General sensor definitions.\nsensor_type: camera\ncomment: VI-Sensor cam0 (MT9M034)\n\nT_BS:\n  cols: 4\n  rows: 4\n"
+    "%YAML:1.0\n# General sensor definitions.\nsensor_type: camera\ncomment: VI-Sensor cam0 (MT9M034)\n\nT_BS:\n"
+    "  cols: 4\n  rows: 4\n"
     "  data: [0.0148655429818, -0.999880929698, 0.00414029679422, -0.0216401454975,\n"
     "         0.999557249008, 0.0149672133247, 0.025715529948, -0.064676986768,\n"
     "        -0.0257744366974, 0.00375618835797, 0.999660727178, 0.00981073058949,\n         0.0, 0.0, 0.0, 1.0]\n"
-    "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [458.654, 457.296, 367.215, 248.375] #fu, fv, cu, cv\n"
-    "distortion_model: radial-tangential\ndistortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]\n";
+    "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\n"
+    "intrinsics: [458.654, 457.296, 367.215, 248.375] #fu, fv, cu, cv\n"
+    "distortion_model: radial-tangential\ndistortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, "
+    "1.76187114e-05]\n";
 const char* const kImu =
-    "T_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\nrate_hz: 200\ngyroscope_noise_density: 1.6968e-04\n"
+    "T_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\nrate_hz: 200\n"
+    "gyroscope_noise_density: 1.6968e-04\n"
     "gyroscope_random_walk: 1.9393e-05\naccelerometer_noise_density: 2.0000e-3\naccelerometer_random_walk: 3.0000e-3\n";
 
 TEST(Calibration, KittiGivesTheStereoCamera) {

@@ -51,7 +51,8 @@ TEST(G2o, RoundTripKeepsNumbersAndOrder) {
   const std::string text = printG2o(parseG2o(kG2oPlane, "g.g2o"));
   EXPECT_EQ(
       text,
-      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0.25 -3.1\nFIX 0\nEDGE_SE2 0 1 1.5 0.25 -3.1 50 1 2 60 3 100\n# a remark\nPARAMS_X 0  1 2\n");
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0.25 -3.1\nFIX 0\nEDGE_SE2 0 1 1.5 0.25 -3.1 50 1 2 60 3 100\n# a remark\n"
+      "PARAMS_X 0  1 2\n");
   EXPECT_EQ(printG2o(parseG2o(text, "g.g2o")), text);
   EXPECT_EQ(printG2o(parseG2o(kG2oSpace, "g.g2o")), kG2oSpace);
 }
@@ -71,7 +72,8 @@ TEST(G2o, GraphsMadeHereArePrintedToo) {
   graph.fixed.push_back(3);
   EXPECT_EQ(
       printG2o(graph),
-      "VERTEX_SE3:QUAT 3 1 2 3 0 0 0 1\nEDGE_SE3:QUAT 3 4 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\nFIX 3\n");
+      "VERTEX_SE3:QUAT 3 1 2 3 0 0 0 1\nEDGE_SE3:QUAT 3 4 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n"
+      "FIX 3\n");
   const G2oGraph back = parseG2o(printG2o(graph), "g");
   EXPECT_EQ(g2oInformation(back.edges[0], 3), Eigen::MatrixXd(Matrix6d::Identity()));
 }

@@ -11,7 +11,8 @@ namespace urban_nav_core {
 namespace {
 
 const char* const kYaml =
-    "# a comment\nstage:\n  window: 25\n  noise: 1\n  forget: delete\n  switch: off\nother:\n  window: 3\nmemory_mb: 100\n";
+    "# a comment\nstage:\n  window: 25\n  noise: 1\n  forget: delete\n  switch: off\nother:\n  window: 3\n"
+    "memory_mb: 100\n";
 
 Loaded<Example> loadText(const std::string& text) { return load(exampleTable(), parseParameters(text, "config.yaml")); }
 
@@ -62,9 +63,9 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
             "config.yaml:2: stage.robust = 1: allowed true, false");
   EXPECT_EQ(catchError([] { loadText("stage:\n  forget: keep\n"); }),
             "config.yaml:2: stage.forget = keep: allowed schur, delete");
-  EXPECT_EQ(
-      catchError([] { loadText("stage:\n  windw: 3\n"); }),
-      "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help-all lists; nearest: stage.window");
+  EXPECT_EQ(catchError([] { loadText("stage:\n  windw: 3\n"); }),
+            "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help-all lists; nearest: "
+            "stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
             "config.yaml:2: stage.window is not a single value: allowed one value after the colon");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),

@@ -57,8 +57,8 @@ TEST(Uncertain, PrintsThemselves) {
   out << RelativePose{0, 1000000000, Pose(), Matrix6d::Identity(), Matrix6d::Zero(), {}, "swf_vo"};
   EXPECT_EQ(
       out.str(),
-      "0.000000000 -> 1.000000000 s: t = (0, 0, 0) m, rotation vector = (0, 0, 0) rad, sigma = (1, 1, 1) m, (1, 1, 1) rad, OK, "
-      "from swf_vo");
+      "0.000000000 -> 1.000000000 s: t = (0, 0, 0) m, rotation vector = (0, 0, 0) rad, sigma = (1, 1, 1) m, (1, 1, 1) "
+      "rad, OK, from swf_vo");
   out.str("");
   out << MotionInput{0, 1, Pose(), Matrix6d::Identity()} << Constraint{};
   EXPECT_NE(out.str().find("information diagonal = (1 1 1 1 1 1)"), std::string::npos);

@@ -83,7 +83,8 @@ StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height) {
   }
   throw UserError(
       (folder / "calib.txt").string(), "is not there",
-      "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, KITTI-360's calibration/perspective.txt, or --calibration FILE");
+      "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, KITTI-360's calibration/perspective.txt, or --calibration "
+      "FILE");
 }
 
 KittiTimes readKittiTimes(const KittiLayout& layout) {

@@ -24,7 +24,8 @@ const char* const kLog =
     "0: RELAYBOX_CMD\n"
     "\n"
     "61.59           DESIRED_THRUST       iJoystick  85.57 \r\n"
-    "61.855          ODOMETRY_POSE        iPlatform  Pose=[3x1]{4.2216,18.5450,-0.7990},time=1225719873.5024,Speed=1.1025,Empty=[0]{},Tail=[2x2]{1,2,3,4,} \n"
+    "61.855          ODOMETRY_POSE        iPlatform  Pose=[3x1]{4.2216,18.5450,-0.7990},"
+    "time=1225719873.5024,Speed=1.1025,Empty=[0]{},Tail=[2x2]{1,2,3,4,} \n"
     "61.963          DB_TIME              DB\n";
 
 class AlogFile : public ::testing::Test {
@@ -96,7 +97,8 @@ TEST_F(AlogFile, NamesFileAndLineOfWhatIsNoLog) {
 
 TEST(AlogFields, KnowsNumbersStampsAndArrays) {
   const AlogFields fields(
-      " Name=LISA, Sensor_0=LMS, Pose=[3x1]{4.2216,18.5450,-0.7990},time=1225719873.5024,Tail=[2x2]{1,2,3,4,},Empty=[0]{}",
+      " Name=LISA, Sensor_0=LMS, Pose=[3x1]{4.2216,18.5450,-0.7990},time=1225719873.5024,"
+      "Tail=[2x2]{1,2,3,4,},Empty=[0]{}",
       "a:1");
   EXPECT_EQ(fields.text("Name"), "LISA");
   EXPECT_EQ(fields.text("Sensor_0"), "LMS");

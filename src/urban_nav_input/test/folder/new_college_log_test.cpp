@@ -21,16 +21,18 @@ using urban_nav_core::Vector3d;
 
 const char* const kStart = "%% LOGSTART 1225719811.65\n";
 const char* const kScan =
-    "61.850 LMS_LASER_2D_LEFT LMS1 ID=4044,time=1225719873.501685,angRes=0.50,offset=0.00,minAngle=45.00,maxAngle=46.00,scanCount=41,"
-    "Range=[3]{1.054,-1.000,1.059},Reflectance=[3]{40.000,0.000,44.000} \n";
+    "61.850 LMS_LASER_2D_LEFT LMS1 ID=4044,time=1225719873.501685,angRes=0.50,offset=0.00,minAngle=45.00,"
+    "maxAngle=46.00,scanCount=41,Range=[3]{1.054,-1.000,1.059},Reflectance=[3]{40.000,0.000,44.000} \n";
 const char* const kRaw =
     "61.855 RAW_ODOMETRY_POSE iPlatform Pose=[3x1]{4.2,18.5,-0.7993},Vel=[3x1]{-0.7,-0.7,-6.2},Raw=[2x1]{19.9,-0.7},"
     "time=1225719873.50240921974182,Speed=1.10247948365994,Pitch=0.02,Roll=0.03,PitchDot=0.5,RollDot=0.001 \n";
 const char* const kOdometry =
-    "61.855 ODOMETRY_POSE iPlatform Pose=[3x1]{4.2216,18.5450,-0.7990},Vel=[3x1]{-0.7,-0.7,0.0011},Raw=[2x1]{19.9,-0.7},"
-    "time=1225719873.5024,Speed=1.1025,Pitch=-0.0241,Roll=0.0235,PitchDot=0.0359,RollDot=0.0013 \n";
+    "61.855 ODOMETRY_POSE iPlatform Pose=[3x1]{4.2216,18.5450,-0.7990},Vel=[3x1]{-0.7,-0.7,0.0011},"
+    "Raw=[2x1]{19.9,-0.7},time=1225719873.5024,Speed=1.1025,Pitch=-0.0241,Roll=0.0235,PitchDot=0.0359,RollDot=0.0013 "
+    "\n";
 const char* const kPanorama =
-    "61.244 CAMERA_FILE_WRITE iCameraLadybug time=1225719872.892,Pan=0.00,NumImages=2,File0=/home/x/Images/ladybug_1225719872.892-0.jpg,"
+    "61.244 CAMERA_FILE_WRITE iCameraLadybug time=1225719872.892,Pan=0.00,NumImages=2,"
+    "File0=/home/x/Images/ladybug_1225719872.892-0.jpg,"
     "File1=/home/x/Images/ladybug_1225719872.892-1.jpg \n";
 
 class NewCollege : public ::testing::Test {

@@ -42,8 +42,8 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        false,
        false,
        {"auto", "raw", "rectified"},
-       "Whether images are rectified here by camera_info (raw) or were before; auto: the rows of the first pairs decide, "
-       "and where they do not, rectified if the topic's name contains `rect`.",
+       "Whether images are rectified here by camera_info (raw) or were before; auto: the rows of the first pairs "
+       "decide, and where they do not, rectified if the topic's name contains `rect`.",
        "image_proc",
        {"images"}},
       {"compressed",
@@ -72,7 +72,8 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        10.0,
        {},
-       "Time, by stamps, that an image waits for its partner and for motion inputs; it does not wait once all have arrived.",
+       "Time, by stamps, that an image waits for its partner and for motion inputs; it does not wait once all have "
+       "arrived.",
        "docs/conventions.md"},
       {"sync_tolerance",
        &P::sync_tolerance,

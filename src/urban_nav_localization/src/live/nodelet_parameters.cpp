@@ -24,7 +24,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"odom_frame", &P::odom_frame, "", frames::kOdom, false, false, {},
            "Frame of the odometry, which map_frame is tied to.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", true, false, true, {},
-           "Whether to publish map_frame to odom_frame on /tf, with the stamp of each odometry message, as soon as the robot has been LOCALIZED.", "REP-105"},
+           "Whether to publish map_frame to odom_frame on /tf, with the stamp of each odometry message, as soon as the "
+           "robot has been LOCALIZED.", "REP-105"},
           {"path_spacing", &P::path_spacing, "m", 1.0, 0.01, 1000.0, {},
            "Distance between poses of the published path of the map.", ""},
       }, 2000));

@@ -35,8 +35,8 @@ const Table<DeviceParameters>& deviceTable() {
           {"clock", &P::clock, "", "", false, false, {},
            "Clock of the device against the host's: OFFSET_S:PPM; empty: none is off.", ""},
           {"delay", &P::delay, "", "", false, false, {},
-           "Delays from measurement to first byte: exponential:MIN:MEAN:MAX, uniform:MIN:MAX or batch:MS, in ms; empty: "
-           "the device's own, without jitter.",
+           "Delays from measurement to first byte: exponential:MIN:MEAN:MAX, uniform:MIN:MAX or batch:MS, in ms; "
+           "empty: the device's own, without jitter.",
            ""},
           {"begin", &P::begin, "", "", false, false, {},
            "File in which devices agree on the begin of their session, new for each launch; empty: at once.", ""},

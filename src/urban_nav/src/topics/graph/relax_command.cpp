@@ -270,7 +270,8 @@ Command relaxCommand() {
        {}},
       {"-o,--output",
        "OUT",
-       "file to write: every vertex, and the edges of IN; in TORO's format if it ends in .toro or .graph, else in g2o's",
+       "file to write: every vertex, and the edges of IN; in TORO's format if it ends in .toro or .graph, else in "
+       "g2o's",
        true,
        false,
        {}},
@@ -283,8 +284,8 @@ Command relaxCommand() {
       {"--solver",
        "NAME",
        "gauss_newton (default): sparse, over the poses; relative_pcg: conjugate gradients on the transforms along the "
-       "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined; ceres: Ceres, as a "
-       "second word on the same residuals. The last two relax the edges that --robust accepted",
+       "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined; ceres: Ceres, "
+       "as a second word on the same residuals. The last two relax the edges that --robust accepted",
        false,
        false,
        {"gauss_newton", "relative_pcg", "ceres"}},

@@ -94,12 +94,13 @@ std::string toLines(const std::vector<ClosureTest>& tests) {
 constexpr const char* kHowToReadViews =
     "Lines: matches, green where they fit and red where they do not; grey: looked for and not found there.";
 constexpr const char* kHowToReadClouds =
-    "What the lasers saw around the first moment (red) and the second (blue): as odometry lays them, or one upon the other where it "
-    "says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
+    "What the lasers saw around the first moment (red) and the second (blue): as odometry lays them, or one upon the "
+    "other where it says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
 constexpr const char* kGate = "Against odometry and its neighbours";
 constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
 constexpr const char* kPlaneEvidence =
-    "Planes around both moments, which the lasers measured in two passes; how far the passes of each lie apart is in quality.csv.";
+    "Planes around both moments, which the lasers measured in two passes; how far the passes of each lie apart is in "
+    "quality.csv.";
 
 std::string sentenceWithoutEvidence(const StoredClosure& closure) {
   return closure.edge.kind == urban_nav_store::EdgeKind::Plane ? kPlaneEvidence : kNoEvidence;

@@ -197,7 +197,8 @@ Command icpCommand() {
        {}},
       {"--global",
        "",
-       "search for the pose at once, whatever the heading; without, only where the alignment from the guess is rejected",
+       "search for the pose at once, whatever the heading; without, only where the alignment from the guess is "
+       "rejected",
        false,
        false,
        {}},

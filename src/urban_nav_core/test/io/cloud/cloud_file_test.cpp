@@ -49,7 +49,8 @@ std::string plyAscii() {
 std::string plyBinary(bool big) {
   std::string bytes =
       std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
-      " 1.0\ncomment of two kinds\nelement face 2\nproperty list uchar int corners\nelement vertex 4\nproperty double z\n"
+      " 1.0\ncomment of two kinds\nelement face 2\nproperty list uchar int corners\nelement vertex 4\n"
+      "property double z\n"
       "property uchar colour\nproperty float x\nproperty float y\nelement edge 1\nproperty int a\nend_header\n";
   for (int face = 0; face < 2; ++face) {
     append<std::uint8_t>(bytes, static_cast<std::uint8_t>(face + 1));
@@ -66,7 +67,8 @@ std::string plyBinary(bool big) {
 }
 
 std::string pcdHeader(const std::string& data) {
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS ring x y z\nSIZE 2 4 4 4\nTYPE U F F F\nCOUNT 2 1 1 1\nWIDTH 4\nHEIGHT 1\n"
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS ring x y z\nSIZE 2 4 4 4\nTYPE U F F F\n"
+         "COUNT 2 1 1 1\nWIDTH 4\nHEIGHT 1\n"
          "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA " +
          data + "\n";
 }
