@@ -6,7 +6,7 @@
     scripts/pictures.py report.png tracks.jpg  these
     scripts/pictures.py --list                 what each picture is made from
 
-Pictures replace those in docs/; look at every one before you commit it. Most show one simulated session of a minute and half a minute of another
+Pictures replace those in docs/; look at every one before you commit it. Most show one simulated session of a minute and a short one of another
 day, which are made once and stay in build/pictures. A picture whose program, tool or data is not here stays as it is, and a line says what it needs:
 bench programs (./run_tests.sh --benches builds them), a headless Chromium, rviz with Xvfb and the nodelets, real data in URBAN_NAV_DATA.
 docs/data_flow.svg is drawn by hand; a test compares it with the list of stages.
@@ -34,7 +34,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
 WORKSPACE = ROOT / "build" / "ws"
-DAY_S, OTHER_DAY_S = 60, 30  # durations of the simulated sessions, s
+DAY_S, OTHER_DAY_S = 60, 20  # durations of the simulated sessions, s
 QUALITY = 85  # of JPEG
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 
@@ -130,7 +130,7 @@ class Material:
     def map(self, name, *arguments):
         """The output folder of `map`."""
         out = self.folder / name
-        if not is_newer(out / "report.html", self.program):
+        if not is_newer(out / "summary.json", self.program):  # written last
             print(f"maps {name}", file=sys.stderr)
             urban_nav("map", *arguments, "--out", out, "--overwrite")
         return out
@@ -155,18 +155,17 @@ class Material:
     def map_of_both(self):
         return self.map("both", self.other_day, "--store", self.one_map / "session.db")
 
-    def closure(self, kind, angles):
-        """The picture of an accepted closure between the days whose turn is within the angles, deg: the one nearest to their middle."""
-        with (self.map_of_both / "closures.csv").open(encoding="utf-8") as file:
-            rows = [row for row in csv.DictReader(file) if row["kind"] == kind and row["verdict"] == "accepted" and row["session_a"] != row["session_b"]]
-        turn = {id(row): math.degrees(2.0 * math.acos(min(1.0, abs(float(row["qw"]))))) for row in rows}
-        rows = [row for row in rows if angles[0] <= turn[id(row)] <= angles[1]]
+    def closure(self, out, kind, between_days, size):
+        """The picture of the accepted closure of a map with the largest size, a function of its row in closures.csv."""
+        with (out / "closures.csv").open(encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if (row["kind"], row["verdict"]) == (kind, "accepted")]
+        rows = [row for row in rows if (row["session_a"] != row["session_b"]) == between_days]
         if not rows:
-            raise RuntimeError(f"no closure by {kind} with a turn of {angles[0]} to {angles[1]} deg between the two days was accepted")
-        best = min(rows, key=lambda row: abs(turn[id(row)] - sum(angles) / 2.0))
+            raise RuntimeError(f"no closure by {kind} was accepted")
+        best = max(rows, key=size)
         page = self.folder / f"{kind}.html"
         moments = [f"{int(best[stamp]) // 10**9}.{int(best[stamp]) % 10**9:09d}" for stamp in ("stamp_a_ns", "stamp_b_ns")]
-        urban_nav("why", self.map_of_both / "session.db", *moments, "-o", page)
+        urban_nav("why", out / "session.db", *moments, "-o", page)
         found = re.findall(r'src="data:image/jpeg;base64,([^"]+)"', page.read_text(encoding="utf-8"))
         images = [cv2.imdecode(np.frombuffer(base64.b64decode(jpeg), np.uint8), cv2.IMREAD_COLOR) for jpeg in found]
         if not images:
@@ -221,8 +220,7 @@ def report_page(material):
 
 
 def tracks(material):
-    pictures = material.report.pictures("views")
-    write("tracks.jpg", pictures[len(pictures) // 2][1])
+    write("tracks.jpg", material.report.pictures("views")[1][1])  # the robot drives towards a wing of the college
 
 
 def dense_stereo(material):
@@ -242,20 +240,28 @@ def laser_map(material):
     write("laser_map.jpg", material.report.pictures("map")[1][1])
 
 
+def shift(row):
+    return math.hypot(*(float(row[name]) for name in "xyz"))
+
+
+def turn(row):
+    return 1.0 - abs(float(row["qw"]))
+
+
 def cloud_closure(material):
-    write("cloud_closure.jpg", material.closure("icp", (120.0, 180.0)))
+    write("cloud_closure.jpg", material.closure(material.one_map, "icp", False, shift))
 
 
 def stereo_closure(material):
-    write("stereo_closure.jpg", material.closure("stereo", (0.0, 30.0)))
+    write("stereo_closure.jpg", material.closure(material.map_of_both, "stereo", True, turn))
 
 
 def places_matches(material):
-    """The surest right match, the least sure right one and the surest wrong one, if there is a wrong one."""
+    """The surest right match with the other day, the least sure right one and the surest wrong one, if there is a wrong one; their captions are printed."""
     truth, out = material.folder / "days.tum", material.folder / "places"
     bags = (material.day, material.other_day)
     truth.write_text("".join((bag.with_suffix(".truth") / "trajectory.tum").read_text(encoding="utf-8") for bag in bags), encoding="utf-8")
-    urban_nav("places", "evaluate", "default", *bags, "--truth", truth, "-o", out)
+    urban_nav("places", "evaluate", "default", *bags, "--truth", truth, "--mask", 1000, "-o", out)  # s: of the other day alone
     text = (out / "report.html").read_text(encoding="utf-8")
     name = re.search(r'<section id="([^"]+)">(?:(?!</section>).)*?<figcaption>Right', text, re.S)
     pictures = Report(out / "report.html").pictures(name.group(1))
@@ -346,7 +352,7 @@ def rviz(material, seconds=25.0, rate=0.5, width=1200, height=720):
 
 SESSION = "the simulated session and its map"
 PICTURES = {  # name: (function, what it is made from); a function may make several
-    "cloud_closure.jpg": (cloud_closure, "a closure by laser clouds between two simulated days in opposite directions, as `why` shows it"),
+    "cloud_closure.jpg": (cloud_closure, "a closure by laser clouds in opposite directions of the simulated session, as `why` shows it"),
     "demo_map.jpg": (demo_map, SESSION),
     "dense_stereo.jpg": (dense_stereo, SESSION),
     "figure4.png": (figure4, "swf_vo-bench-figure4; Chromium"),
