@@ -59,8 +59,8 @@ TEST_F(ParameterSetTest, AssignsInOrderAndRemembersOrigins) {
   EXPECT_EQ(set.get(roof()).shape, "steep") << "set() keeps what was loaded";
   EXPECT_NE(set.toJson().print().find("\"roof.shape\": {\n    \"value\": \"steep\""), std::string::npos)
       << set.toJson().print();
-  EXPECT_NE(set.help("roof").find("shape"), std::string::npos);
-  EXPECT_EQ(set.help("roof").find("height"), std::string::npos);
+  EXPECT_NE(set.help("roof", urban_nav_core::Audience::Experts).find("shape"), std::string::npos);
+  EXPECT_EQ(set.help("roof", urban_nav_core::Audience::Experts).find("height"), std::string::npos);
   set.load({});
   EXPECT_EQ(set.get(walls()).height, 2.5) << "load() starts from the defaults";
 }
