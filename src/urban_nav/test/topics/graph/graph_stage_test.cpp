@@ -287,5 +287,32 @@ TEST(GraphRunTest, NamesClosuresThatCannotBeUsed) {
   EXPECT_NE(run.warnings.at(0).find("5 closures"), std::string::npos);
 }
 
+TEST(GraphRunTest, CarriesMeasuredInformationToTheNearestFrames) {
+  const SessionOdometry monday = driveCircle(0, 900, 0.0);
+  // Sure of x alone at the moments; 0.4 steps later x has turned by 0.24 deg.
+  MetricClosure measured = closure("monday", 20.4, "monday", 620.4);
+  measured.measured.information(0, 0) = 1e6;
+  MetricClosure given = measured;
+  measured.evidence = "evidence";
+  const auto toGraph = [&](const MetricClosure& each) {
+    const GraphRun run = runGraph({}, {&monday}, {"monday"}, {each});
+    return run.graph.closures().at(run.assessments.at(0).id).measured;
+  };
+  const urban_nav_core::Constraint at_frames = toGraph(measured), as_stated = toGraph(given);
+  EXPECT_EQ(as_stated.information, given.measured.information) << "of a file, at the nearest frames as it is";
+  EXPECT_GT((at_frames.information - measured.measured.information).norm(), 1e3);
+  EXPECT_EQ(at_frames.T_a_b.matrix(), as_stated.T_a_b.matrix());
+}
+
+TEST(GraphRunTest, StereoIsWhatAFileWithoutAKindGives) {
+  const SessionOdometry monday = driveCircle(0, 900, 0.0);
+  std::vector<MetricClosure> rows = {closure("monday", 20, "monday", 620), closure("monday", 40, "monday", 640)};
+  rows[0].method = urban_nav_core::ClosureMethod::None;
+  rows[1].method = urban_nav_core::ClosureMethod::Icp;
+  const GraphRun run = runGraph({}, {&monday}, {"monday"}, rows);
+  EXPECT_EQ(run.graph.closures().at(run.assessments.at(0).id).kind, pose_graph::EdgeKind::Stereo);
+  EXPECT_EQ(run.graph.closures().at(run.assessments.at(1).id).kind, pose_graph::EdgeKind::Icp);
+}
+
 }  // namespace
 }  // namespace urban_nav

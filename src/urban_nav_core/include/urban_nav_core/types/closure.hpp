@@ -37,14 +37,14 @@ std::optional<ClosureMethod> parseClosureMethod(std::string_view word);
 enum class ClosureVerdict {
   Accepted,    ///< the transform is right in all its directions, to its covariance
   Rejected,    ///< an outlier, or there is no transform
-  Waiting,     ///< of the pose graph alone: not decided, for lack of a second closure that supports it
+  Waiting,     ///< not decided: the transform is not measured, or the graph lacks a second closure that supports it
   Degenerate,  ///< of an alignment alone: right but for the directions that it names free
 };
 /// "accepted", "rejected", "waiting", "degenerate".
 const char* toString(ClosureVerdict verdict);
 std::optional<ClosureVerdict> parseClosureVerdict(std::string_view word);
 
-/// A closure with its transform, or why there is none. The information is zero where the verdict is Rejected.
+/// A closure with its transform, or why there is none. The information is zero unless the verdict is Accepted.
 struct MetricClosure {
   PoseRef a, b;
   Constraint measured;                    ///< T_a_b
