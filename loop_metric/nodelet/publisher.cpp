@@ -37,7 +37,7 @@ std::string makeSentence(const urban_nav_core::MetricClosure& closure) {
 }
 
 Picture drawViews(const ClosureVerifier::Verdict& verdict) {
-  const StereoAttempt& shown = verdict.closure.stereo.back();
+  const StereoAttempt& shown = verdict.attempts.stereo.back();
   MatchPictureOptions options;
   options.title_a = makeTitle(shown.keyframe_a.at);
   options.title_b = makeTitle(shown.keyframe_b.at);
@@ -47,12 +47,12 @@ Picture drawViews(const ClosureVerifier::Verdict& verdict) {
 }
 
 Picture drawAlignment(const ClosureVerifier::Verdict& verdict) {
-  const urban_nav_core::PoseRef &a = verdict.closure.metric.a, &b = verdict.closure.metric.b;
+  const urban_nav_core::PoseRef &a = verdict.metric.a, &b = verdict.metric.b;
   CloudPictureOptions options;
-  options.free_directions = verdict.closure.icp->free_directions;
+  options.free_directions = verdict.attempts.icp->free_directions;
   options.caption = "red: " + makeTitle(a) + "; blue: " + makeTitle(b) + "; " + makeSentence(verdict.metric);
-  return drawClouds(verdict.cloud(b), verdict.cloud(a), verdict.closure.icp_guess, verdict.closure.icp->T_target_source,
-                    options);
+  return drawClouds(verdict.cloud(b), verdict.cloud(a), verdict.attempts.icp_guess,
+                    verdict.attempts.icp->T_target_source, options);
 }
 
 }  // namespace
@@ -64,20 +64,20 @@ Publisher::Publisher(ros::NodeHandle& nh, std::string base_frame)
 
 void Publisher::publish(const ClosureVerifier::Verdict& verdict) {
   metric_.publish(urban_nav_ros::toMetricClosureMessage(verdict.metric, base_frame_, kMetresPerRadian));
-  if (matches_.getNumSubscribers() > 0 && (verdict.closure.icp || !verdict.closure.stereo.empty()))
+  if (matches_.getNumSubscribers() > 0 && (verdict.attempts.icp || !verdict.attempts.stereo.empty()))
     publishPicture(verdict);
 }
 
 void Publisher::publishPicture(const ClosureVerifier::Verdict& verdict) {
   Picture picture;
   try {
-    picture = verdict.closure.icp ? drawAlignment(verdict) : drawViews(verdict);
+    picture = verdict.attempts.icp ? drawAlignment(verdict) : drawViews(verdict);
   } catch (const urban_nav_core::Error&) {
     return;  // damaged in the store: the verdict says so
   }
   sensor_msgs::Image message;
   message.header.stamp = urban_nav_ros::toRosTime(verdict.metric.b.stamp);
-  message.header.frame_id = verdict.closure.icp ? base_frame_ : kKeyframeCamera;
+  message.header.frame_id = verdict.attempts.icp ? base_frame_ : kKeyframeCamera;
   message.width = static_cast<std::uint32_t>(picture.width);
   message.height = static_cast<std::uint32_t>(picture.height);
   message.encoding = sensor_msgs::image_encodings::BGR8;

@@ -11,6 +11,7 @@
 
 namespace loop_metric {
 
+using urban_nav_core::ClosureMethod;
 using urban_nav_core::CsvTable;
 using urban_nav_core::Pose;
 using urban_nav_core::printNumber;
@@ -53,10 +54,10 @@ void print(std::string& text, const char* name, const Pose& T) {
 Evidence::Try toTry(const StereoAttempt& made) {
   const StereoClosure& result = made.result;
   Evidence::Try its;
-  its.method = "stereo";
+  its.method = ClosureMethod::Stereo;
   its.keyframe_a = made.keyframe_a.at;
   its.keyframe_b = made.keyframe_b.at;
-  its.verdict = toString(result.verdict);
+  its.verdict = result.verdict;
   its.reason = toString(result.reason);
   its.sentence = result.sentence;
   its.tests = result.tests;
@@ -65,15 +66,15 @@ Evidence::Try toTry(const StereoAttempt& made) {
   return its;
 }
 
-Evidence::Try toTry(const Alignment& alignment, const LoopClosure& closure) {
+Evidence::Try toTry(const Alignment& alignment, const CandidateMeasurement& measurement) {
   Evidence::Try its;
-  its.method = "icp";
-  its.keyframe_a = closure.metric.a;
-  its.keyframe_b = closure.metric.b;
-  its.verdict = toString(alignment.verdict);
+  its.method = ClosureMethod::Icp;
+  its.keyframe_a = measurement.metric.a;
+  its.keyframe_b = measurement.metric.b;
+  its.verdict = alignment.verdict;
   its.reason = toString(alignment.reason);
   its.sentence = alignment.sentence;
-  its.guess = closure.icp_guess;
+  its.guess = measurement.attempts.icp_guess;
   its.T_a_b = alignment.T_target_source;
   for (const AlignmentTest& test : alignment.tests)
     its.tests.push_back({test.name, test.value, test.threshold, test.at_least, test.passed});
@@ -92,7 +93,7 @@ class Reader {
       const std::string& kind = table_.text(row, 0);
       if (kind == "try") {
         Evidence::Try begun;
-        begun.method = table_.text(row, 1);
+        begun.method = methodAt(row);
         begun.keyframe_a = {table_.text(row, 6), table_.integer(row, 7)};
         begun.keyframe_b = {table_.text(row, 8), table_.integer(row, 9)};
         evidence.tries.push_back(begun);
@@ -102,7 +103,7 @@ class Reader {
         refuse(row, "a line that belongs to a try before the first");
       } else if (kind == "verdict") {
         Evidence::Try& last = evidence.tries.back();
-        last.verdict = table_.text(row, 1);
+        last.verdict = verdictAt(row);
         last.reason = table_.text(row, 6);
         last.sentence = table_.text(row, 10);
       } else if (kind == "test") {
@@ -124,6 +125,16 @@ class Reader {
     const std::int64_t value = table_.integer(row, column);
     if (value != 0 && value != 1) refuse(row, "neither 0 nor 1");
     return value == 1;
+  }
+  ClosureMethod methodAt(std::size_t row) const {
+    const auto method = urban_nav_core::parseClosureMethod(table_.text(row, 1));
+    if (!method || *method == ClosureMethod::None) refuse(row, "no method");
+    return *method;
+  }
+  urban_nav_core::ClosureVerdict verdictAt(std::size_t row) const {
+    const auto verdict = urban_nav_core::parseClosureVerdict(table_.text(row, 1));
+    if (!verdict) refuse(row, "no verdict");
+    return *verdict;
   }
   ClosureTest testAt(std::size_t row) const {
     return {table_.text(row, 1), table_.number(row, 2), table_.number(row, 3), yes(row, 4), yes(row, 5)};
@@ -157,20 +168,22 @@ class Reader {
 
 }  // namespace
 
-Evidence collectEvidence(const LoopClosure& closure) {
+Evidence collectEvidence(const CandidateMeasurement& measurement) {
+  const RegistrationAttempts& attempts = measurement.attempts;
   Evidence evidence;
-  for (const StereoAttempt& made : closure.stereo) evidence.tries.push_back(toTry(made));
-  if (closure.icp) evidence.tries.push_back(toTry(*closure.icp, closure));
-  evidence.gate = closure.tests;
+  for (const StereoAttempt& made : attempts.stereo) evidence.tries.push_back(toTry(made));
+  if (attempts.icp) evidence.tries.push_back(toTry(*attempts.icp, measurement));
+  evidence.gate = attempts.tests;
   return evidence;
 }
 
 std::string printEvidence(const Evidence& evidence) {
   std::string text = kHeader;
   for (const Evidence::Try& each : evidence.tries) {
-    print(text, {"try", each.method, "", "", "", "", each.keyframe_a.session, std::to_string(each.keyframe_a.stamp),
-                 each.keyframe_b.session, std::to_string(each.keyframe_b.stamp)});
-    print(text, {"verdict", each.verdict, "", "", "", "", each.reason, "", "", "", each.sentence});
+    print(text,
+          {"try", toString(each.method), "", "", "", "", each.keyframe_a.session, std::to_string(each.keyframe_a.stamp),
+           each.keyframe_b.session, std::to_string(each.keyframe_b.stamp)});
+    print(text, {"verdict", toString(each.verdict), "", "", "", "", each.reason, "", "", "", each.sentence});
     for (const ClosureTest& test : each.tests) print(text, test, "test");
     if (each.guess) print(text, "guess", *each.guess);
     if (each.T_a_b) print(text, "T_a_b", *each.T_a_b);

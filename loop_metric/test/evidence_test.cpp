@@ -16,10 +16,10 @@ using urban_nav_registration::MatchedPixels;
 Evidence someEvidence() {
   Evidence evidence;
   Evidence::Try views;
-  views.method = "stereo";
+  views.method = urban_nav_core::ClosureMethod::Stereo;
   views.keyframe_a = {"monday", 12};
   views.keyframe_b = {"tuesday, the \"second\"", 34};
-  views.verdict = "rejected";
+  views.verdict = urban_nav_core::ClosureVerdict::Rejected;
   views.reason = "small_share";
   views.sentence = "alike, in parts";
   views.tests.push_back({"matches", 51.0, 50.0, true, true});
@@ -32,10 +32,10 @@ Evidence someEvidence() {
   views.pixels.push_back(pixels);
   evidence.tries.push_back(views);
   Evidence::Try clouds;
-  clouds.method = "icp";
+  clouds.method = urban_nav_core::ClosureMethod::Icp;
   clouds.keyframe_a = {"monday", 12};
   clouds.keyframe_b = {"tuesday", 34};
-  clouds.verdict = "accepted";
+  clouds.verdict = urban_nav_core::ClosureVerdict::Degenerate;
   clouds.guess = urban_nav_core::Pose();
   clouds.T_a_b = urban_nav_core::expSe3((urban_nav_core::Vector6d() << 1.0, -2.5, 0.1, 0.02, -0.3, 3.0).finished());
   evidence.tries.push_back(clouds);
@@ -49,12 +49,18 @@ TEST(Evidence, ReadsBackAsItWasWritten) {
   const Evidence again = parseEvidence(text);
   ASSERT_EQ(again.tries.size(), 2U);
   EXPECT_EQ(again.tries[0].keyframe_b, evidence.tries[0].keyframe_b);
+  EXPECT_EQ(again.tries[0].method, urban_nav_core::ClosureMethod::Stereo);
+  EXPECT_EQ(again.tries[0].verdict, urban_nav_core::ClosureVerdict::Rejected);
   EXPECT_EQ(again.tries[0].sentence, evidence.tries[0].sentence);
   EXPECT_EQ(again.tries[0].pixels.at(0).in_b, evidence.tries[0].pixels[0].in_b);
   EXPECT_FALSE(again.tries[0].T_a_b.has_value());
   EXPECT_EQ(again.tries[1].guess.value().matrix(), evidence.tries[1].guess->matrix());
   EXPECT_LT(distanceBetween(again.tries[1].T_a_b.value(), *evidence.tries[1].T_a_b), 1e-12);
   EXPECT_LT(angleBetween(again.tries[1].T_a_b.value(), *evidence.tries[1].T_a_b), 1e-12);
+  EXPECT_EQ(again.tries[1].method, urban_nav_core::ClosureMethod::Icp);
+  EXPECT_EQ(again.tries[1].verdict, urban_nav_core::ClosureVerdict::Degenerate);
+  EXPECT_NE(text.find("\ntry,icp,"), std::string::npos) << "stores of earlier versions have these words";
+  EXPECT_NE(text.find("\nverdict,degenerate,"), std::string::npos);
   EXPECT_EQ(printEvidence(again), text);
   EXPECT_EQ(parseEvidence(printEvidence({})).tries.size(), 0U);
 }
@@ -76,7 +82,8 @@ TEST(Evidence, IsFoundAfterOtherText) {
 
 TEST(Evidence, DamageIsDataAndNamesItsLine) {
   for (const char* line :
-       {"pixels,,1,2,,1,3,,4,,5\n", "judge,,,,,,,,,,\n", "gate,x,1,2,7,1,,,,,\n", "gate,x,one,2,1,1,,,,,\n"}) {
+       {"pixels,,1,2,,1,3,,4,,5\n", "judge,,,,,,,,,,\n", "gate,x,1,2,7,1,,,,,\n", "gate,x,one,2,1,1,,,,,\n",
+        "try,lidar,,,,,monday,1,tuesday,2,\n", "try,none,,,,,monday,1,tuesday,2,\n"}) {
     std::string text = printEvidence({});
     text += line;
     try {
@@ -90,6 +97,8 @@ TEST(Evidence, DamageIsDataAndNamesItsLine) {
   for (const char* numbers : {"", "1 2 3", "1 2 3 0 0 0 2", "1 2 3 0 0 0 1 0", "1 2 3 0 0 0 nan", "1 2 x 0 0 0 1"})
     EXPECT_THROW(parseEvidence(begun + "transform,T_a_b,,,,,,,,," + numbers + "\n"), urban_nav_core::DataError)
         << numbers;
+  EXPECT_NO_THROW(parseEvidence(begun + "verdict,rejected,,,,,,,,,\n"));
+  EXPECT_THROW(parseEvidence(begun + "verdict,good,,,,,,,,,\n"), urban_nav_core::DataError);
   EXPECT_THROW(parseEvidence(""), urban_nav_core::DataError);
 }
 

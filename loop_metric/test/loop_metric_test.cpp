@@ -66,7 +66,7 @@ struct Street {
   }
 };
 
-std::string toReason(const LoopClosure& closure) {
+std::string toReason(const CandidateMeasurement& closure) {
   EXPECT_EQ(closure.metric.verdict, ClosureVerdict::Rejected);
   EXPECT_TRUE(closure.metric.measured.information.isZero(0.0));
   EXPECT_FALSE(closure.metric.sentence.empty());
@@ -76,7 +76,7 @@ std::string toReason(const LoopClosure& closure) {
 
 TEST(LoopMetric, TwoViewsOfAPlaceAreATransformBetweenTheMomentsThemselves) {
   Street street;
-  const LoopClosure closure = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  const CandidateMeasurement closure = street.stage.measure(street.candidate(3.4, 4.3), street.around);
   ASSERT_EQ(closure.metric.verdict, ClosureVerdict::Accepted) << closure.metric.sentence;
   EXPECT_EQ(closure.metric.method, ClosureMethod::Stereo);
   const Pose truth = lookingAlong({7.4, 0.0, 1.2}, 0.0).inverse() * lookingAlong({8.3, 0.7, 1.2}, 0.014);
@@ -110,9 +110,9 @@ TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
   const TopologicalClosure candidate{{"both", 4 * kSecond}, {"both", second + 4 * kSecond}, 0.9};
   EXPECT_EQ(toReason(street.stage.measure(candidate, around)), "odometry");
   const TopologicalClosure far{{"both", 0}, {"both", second + 12 * kSecond}, 0.9};
-  const LoopClosure closure = street.stage.measure(far, around);
+  const CandidateMeasurement closure = street.stage.measure(far, around);
   EXPECT_EQ(toReason(closure), "odometry");
-  EXPECT_TRUE(closure.stereo.empty());  // sixteen metres apart by odometry: no view is looked at
+  EXPECT_TRUE(closure.attempts.stereo.empty());  // sixteen metres apart by odometry: no view is looked at
 }
 
 TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
@@ -129,7 +129,7 @@ TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
                                          at.session == "there" ? 1U : 2U);
   };
   LoopMetric stage(Parameters(), {}, Pose());
-  const LoopClosure closure = stage.measure({{"there", 0}, {"back", 0}, 0.9}, around);
+  const CandidateMeasurement closure = stage.measure({{"there", 0}, {"back", 0}, 0.9}, around);
   ASSERT_EQ(closure.metric.verdict, ClosureVerdict::Accepted) << closure.metric.sentence;
   EXPECT_EQ(closure.metric.method, ClosureMethod::Icp);
   EXPECT_LT(urban_nav_core::distanceBetween(closure.metric.measured.T_a_b, poses[0].inverse() * others[0]), 0.1);
@@ -152,9 +152,9 @@ TEST(LoopMetric, AFacadeIsNoProofOfAPlaceUnlessOdometryHasBroughtUsThere) {
                                          {}, later ? 2U : 1U);
   };
   LoopMetric stage(Parameters(), {}, Pose());
-  const LoopClosure slid = stage.measure({{"there", 0}, {"another day", 0}, 0.9}, around);
+  const CandidateMeasurement slid = stage.measure({{"there", 0}, {"another day", 0}, 0.9}, around);
   EXPECT_EQ(toReason(slid), "not_registered");
-  const LoopClosure held = stage.measure({{"there", 0}, {"there", 2 * kSecond}, 0.9}, around);
+  const CandidateMeasurement held = stage.measure({{"there", 0}, {"there", 2 * kSecond}, 0.9}, around);
   ASSERT_EQ(held.metric.verdict, ClosureVerdict::Accepted) << held.metric.sentence;
   EXPECT_FALSE(held.metric.free_directions.empty());
   const auto d = urban_nav_core::boxMinus(poses[0].inverse() * poses[2], held.metric.measured.T_a_b);
@@ -171,9 +171,9 @@ TEST(LoopMetric, UnknownMomentsAndEmptyPlacesAreNamed) {
 
 TEST(LoopMetric, TheSameBitsWhateverCameBefore) {
   Street street;
-  const LoopClosure first = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  const CandidateMeasurement first = street.stage.measure(street.candidate(3.4, 4.3), street.around);
   street.stage.measure(street.candidate(9.0, 10.0), street.around);
-  const LoopClosure again = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  const CandidateMeasurement again = street.stage.measure(street.candidate(3.4, 4.3), street.around);
   EXPECT_EQ(first.metric.measured.T_a_b.matrix(), again.metric.measured.T_a_b.matrix());
   EXPECT_EQ(first.metric.measured.information, again.metric.measured.information);
   EXPECT_EQ(first.metric.evidence, again.metric.evidence);
@@ -181,21 +181,21 @@ TEST(LoopMetric, TheSameBitsWhateverCameBefore) {
 
 TEST(LoopMetric, EvidenceHoldsTheTestsTheViewsAndTheMatches) {
   Street street;
-  const LoopClosure closure = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  const CandidateMeasurement closure = street.stage.measure(street.candidate(3.4, 4.3), street.around);
   const Evidence evidence = parseEvidence(closure.metric.evidence);
   ASSERT_FALSE(evidence.tries.empty());
   const Evidence::Try& last = evidence.tries.back();
-  EXPECT_EQ(last.method, "stereo");
-  EXPECT_EQ(last.verdict, "accepted");
-  EXPECT_EQ(last.keyframe_a, closure.stereo.back().keyframe_a.at);
-  EXPECT_EQ(last.keyframe_b, closure.stereo.back().keyframe_b.at);
-  ASSERT_EQ(last.tests.size(), closure.stereo.back().result.tests.size());
+  EXPECT_EQ(last.method, ClosureMethod::Stereo);
+  EXPECT_EQ(last.verdict, ClosureVerdict::Accepted);
+  EXPECT_EQ(last.keyframe_a, closure.attempts.stereo.back().keyframe_a.at);
+  EXPECT_EQ(last.keyframe_b, closure.attempts.stereo.back().keyframe_b.at);
+  ASSERT_EQ(last.tests.size(), closure.attempts.stereo.back().result.tests.size());
   for (std::size_t i = 0; i < last.tests.size(); ++i) {
-    EXPECT_EQ(last.tests[i].name, closure.stereo.back().result.tests[i].name);
-    EXPECT_EQ(last.tests[i].value, closure.stereo.back().result.tests[i].value);
+    EXPECT_EQ(last.tests[i].name, closure.attempts.stereo.back().result.tests[i].name);
+    EXPECT_EQ(last.tests[i].value, closure.attempts.stereo.back().result.tests[i].value);
   }
   EXPECT_GE(last.pixels.size(), 20U);
-  EXPECT_EQ(evidence.gate.size(), closure.tests.size());
+  EXPECT_EQ(evidence.gate.size(), closure.attempts.tests.size());
 }
 
 }  // namespace

@@ -13,10 +13,11 @@ namespace loop_metric {
 /// Reasons of a verdict, small enough to be stored for every candidate; shown by `urban_nav why`.
 struct Evidence {
   struct Try {
-    std::string method;  ///< "stereo", "icp"
+    urban_nav_core::ClosureMethod method = urban_nav_core::ClosureMethod::None;
     urban_nav_core::PoseRef keyframe_a,
         keyframe_b;  ///< of stereo: whose keyframes were matched; of icp: the moments of the clouds
-    std::string verdict, reason, sentence;
+    urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Rejected;
+    std::string reason, sentence;
     std::vector<urban_nav_registration::ClosureTest> tests;
     std::vector<urban_nav_registration::MatchedPixels> pixels;  ///< of stereo, at most a hundred, spread over all
     std::optional<urban_nav_core::Pose> guess, T_a_b;  ///< of icp: where it began, and where it ended, right or not
@@ -26,7 +27,7 @@ struct Evidence {
 };
 
 /// Returns the evidence of a measured closure.
-Evidence collectEvidence(const LoopClosure& closure);
+Evidence collectEvidence(const CandidateMeasurement& measurement);
 
 /// Returns the evidence as lines of comma separated values.
 std::string printEvidence(const Evidence& evidence);

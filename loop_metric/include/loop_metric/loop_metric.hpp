@@ -32,14 +32,18 @@ struct StereoAttempt {
   urban_nav_registration::StereoClosure result;
 };
 
-/// Result of a candidate: the closure for the graph, and all data of its verdict.
-struct LoopClosure {
-  /// `evidence` is printEvidence() of this (evidence.hpp).
-  urban_nav_core::MetricClosure metric;
+/// How the views and clouds of a candidate were registered: the data of its verdict.
+struct RegistrationAttempts {
   std::vector<StereoAttempt> stereo;  ///< in the order in which they were made; the last is the accepted one, if any is
   std::optional<urban_nav_registration::Alignment> icp;    ///< where clouds were aligned: source b, target a
-  urban_nav_core::Pose icp_guess;                          ///< T_a_b from which it began
+  urban_nav_core::Pose icp_guess;                          ///< T_a_b from which the alignment began
   std::vector<urban_nav_registration::ClosureTest> tests;  ///< of the transform against odometry
+};
+
+/// Result of LoopMetric::measure(). `metric.evidence` is printEvidence() of both (evidence.hpp).
+struct CandidateMeasurement {
+  urban_nav_core::MetricClosure metric;
+  RegistrationAttempts attempts;
 };
 
 /// Measures topological closures: T_a_b with its information (Newman et al. 2009, section 4), by stereo if two
@@ -54,7 +58,7 @@ class LoopMetric {
   LoopMetric(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
              const urban_nav_core::Pose& T_base_left);
 
-  LoopClosure measure(const urban_nav_core::TopologicalClosure& candidate, const PlaceData& place_data);
+  CandidateMeasurement measure(const urban_nav_core::TopologicalClosure& candidate, const PlaceData& place_data);
 
  private:
   friend class Measuring;  // one candidate on its way to a verdict

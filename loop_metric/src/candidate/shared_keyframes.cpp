@@ -33,7 +33,7 @@ std::optional<SharedKeyframes> findKeyframes(const MetricClosure& closure) {
   if (text.empty()) return std::nullopt;
   const Evidence evidence = parseEvidence(text);
   const auto accepted = std::find_if(evidence.tries.rbegin(), evidence.tries.rend(),
-                                     [](const Evidence::Try& each) { return each.method == "stereo"; });
+                                     [](const Evidence::Try& each) { return each.method == ClosureMethod::Stereo; });
   if (accepted == evidence.tries.rend()) return std::nullopt;
   SharedKeyframes views{accepted->keyframe_a, accepted->keyframe_b};
   if (orderKey(views.second) < orderKey(views.first)) std::swap(views.first, views.second);

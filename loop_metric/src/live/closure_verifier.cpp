@@ -167,35 +167,34 @@ bool ClosureVerifier::verifyNext() {
 
 void ClosureVerifier::verify(const Candidate& candidate, bool by_id) {
   const Clock::time_point begin = Clock::now();
-  LoopClosure closure;
+  CandidateMeasurement measurement;
   try {
-    closure = measure(candidate.closure);
-    if (place_data_) checks_.apply(closure.metric, *place_data_, parameters_);
+    measurement = measure(candidate.closure);
+    if (place_data_) checks_.apply(measurement.metric, *place_data_, parameters_);
   } catch (const urban_nav_core::Error& error) {  // the data of this place is damaged or cannot be read
-    closure.metric = {};
-    closure.metric.probability = candidate.closure.probability;
-    closure.metric.source = "loop_metric";
-    reject(closure.metric, LoopReason::NothingKept, error.what());
+    measurement.metric = {};
+    measurement.metric.probability = candidate.closure.probability;
+    measurement.metric.source = "loop_metric";
+    reject(measurement.metric, LoopReason::NothingKept, error.what());
   }
-  report(candidate, closure, by_id, begin);
+  report(candidate, measurement, by_id, begin);
 }
 
 /// Poses are reported by the frames of odometry, sessions as the candidate names them: a pose without a name is of the
 /// running session, whatever its id.
-void ClosureVerifier::report(const Candidate& candidate, LoopClosure& closure, bool by_id, Clock::time_point begin) {
-  MetricClosure reported = closure.metric;
+void ClosureVerifier::report(const Candidate& candidate, CandidateMeasurement& measurement, bool by_id,
+                             Clock::time_point begin) {
+  MetricClosure& reported = measurement.metric;
   for (const auto& [at, asked] :
        {std::pair(&reported.a, &candidate.closure.a), std::pair(&reported.b, &candidate.closure.b)}) {
     if (at->stamp == 0) at->stamp = asked->stamp;
     at->session = asked->session.empty() && by_id ? running_ : asked->session;
   }
-  for (StereoAttempt& each : closure.stereo) {
+  for (StereoAttempt& each : measurement.attempts.stereo) {
     restoreName(each.keyframe_a.at);
     restoreName(each.keyframe_b.at);
   }
-  closure.metric.a.session = reported.a.session;
-  closure.metric.b.session = reported.b.session;
-  if (!reported.evidence.empty()) reported.evidence = printEvidence(collectEvidence(closure));
+  if (!reported.evidence.empty()) reported.evidence = printEvidence(collectEvidence(measurement));
   if (reported.verdict == ClosureVerdict::Rejected) ++rejected_;
   else ++(reported.method == ClosureMethod::Stereo ? stereo_ : icp_);
   const auto keyframe = [this](const PoseRef& at) {
@@ -205,7 +204,7 @@ void ClosureVerifier::report(const Candidate& candidate, LoopClosure& closure, b
     return place_data_ ? place_data_->cloud(resolve(at), parameters_.registration.cloud_half_length)
                        : urban_nav_core::PointCloud();
   };
-  listener_({std::move(reported), closure, keyframe, cloud,
+  listener_({std::move(reported), measurement.attempts, keyframe, cloud,
              std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
 }
 
@@ -221,10 +220,10 @@ void ClosureVerifier::followStore() {
   store_fault_ = std::move(fault);
 }
 
-LoopClosure ClosureVerifier::measure(const TopologicalClosure& closure) {
+CandidateMeasurement ClosureVerifier::measure(const TopologicalClosure& closure) {
   followStore();
   TopologicalClosure candidate{resolve(closure.a), resolve(closure.b), closure.probability};
-  LoopClosure made;
+  CandidateMeasurement made;
   made.metric.a = candidate.a;
   made.metric.b = candidate.b;
   made.metric.probability = candidate.probability;

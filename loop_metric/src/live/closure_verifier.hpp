@@ -45,10 +45,10 @@ class ClosureVerifier {
   /// A verdict, and access to the data of its picture.
   struct Verdict {
     urban_nav_core::MetricClosure metric;
-    const LoopClosure& closure;
-    /// By the references in `closure.stereo`.
+    const RegistrationAttempts& attempts;
+    /// By the references in `attempts.stereo`.
     std::function<urban_nav_registration::Keyframe(const urban_nav_core::PoseRef&)> keyframe;
-    /// By the poses of `closure.metric`.
+    /// By the poses of `metric`.
     std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> cloud;
     double ms = 0.0;
   };
@@ -93,8 +93,8 @@ class ClosureVerifier {
   bool verifyNext();
   /// `by_id`: the running session is named by its id, since another one is about to begin.
   void verify(const Candidate& candidate, bool by_id);
-  void report(const Candidate& candidate, LoopClosure& closure, bool by_id, Clock::time_point begin);
-  LoopClosure measure(const urban_nav_core::TopologicalClosure& closure);
+  void report(const Candidate& candidate, CandidateMeasurement& measurement, bool by_id, Clock::time_point begin);
+  CandidateMeasurement measure(const urban_nav_core::TopologicalClosure& closure);
   void followStore();
   /// Returns the pose by the name of its part and the nearest frame of odometry.
   urban_nav_core::PoseRef resolve(const urban_nav_core::PoseRef& at);

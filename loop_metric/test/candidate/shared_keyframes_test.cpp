@@ -15,7 +15,7 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::MetricClosure;
 using urban_nav_core::PoseRef;
 
-Evidence::Try toTry(const std::string& method, const PoseRef& a, const PoseRef& b) {
+Evidence::Try toTry(ClosureMethod method, const PoseRef& a, const PoseRef& b) {
   Evidence::Try made;
   made.method = method;
   made.keyframe_a = a;
@@ -30,7 +30,7 @@ MetricClosure toClosure(const PoseRef& a, const PoseRef& b, ClosureMethod method
   made.verdict = ClosureVerdict::Accepted;
   made.measured.information = 6.0 * Matrix6d::Identity();
   Evidence evidence;
-  evidence.tries = {toTry("stereo", {"day", 1}, {"day", 2}), toTry("stereo", a, b)};
+  evidence.tries = {toTry(ClosureMethod::Stereo, {"day", 1}, {"day", 2}), toTry(ClosureMethod::Stereo, a, b)};
   made.evidence = printEvidence(evidence);
   return made;
 }

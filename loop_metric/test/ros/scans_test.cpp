@@ -43,7 +43,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   const Pose truth = Scanning::T_world_base(a).inverse() * Scanning::T_world_base(b);
   const Pose T_a_b = *urban_nav_ros::toPose(first.T_a_b);
   const Evidence evidence = parseEvidence(first.evidence);
-  ASSERT_EQ(evidence.tries.back().method, "icp");
+  ASSERT_EQ(evidence.tries.back().method, urban_nav_core::ClosureMethod::Icp);
   EXPECT_GT(urban_nav_core::distanceBetween(*evidence.tries.back().guess, truth), 0.3) << "odometry knows less";
   EXPECT_LT(urban_nav_core::distanceBetween(T_a_b, truth), 0.03);
   EXPECT_LT(urban_nav_core::angleBetween(T_a_b, truth), 0.005);

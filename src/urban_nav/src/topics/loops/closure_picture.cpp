@@ -9,10 +9,14 @@
 namespace urban_nav {
 
 using loop_metric::Evidence;
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureVerdict;
 
 namespace {
 
-bool isShown(const Evidence::Try& tried) { return tried.method == "stereo" || (tried.guess && tried.T_a_b); }
+bool isShown(const Evidence::Try& tried) {
+  return tried.method == ClosureMethod::Stereo || (tried.guess && tried.T_a_b);
+}
 
 std::optional<Evidence::Try> findShown(const urban_nav_core::MetricClosure& closure) {
   Evidence evidence;
@@ -25,8 +29,8 @@ std::optional<Evidence::Try> findShown(const urban_nav_core::MetricClosure& clos
   for (const Evidence::Try& tried : evidence.tries) {
     if (!isShown(tried)) continue;
     if (shown == nullptr) shown = &tried;
-    if (tried.verdict == "accepted" || tried.verdict == "degenerate")
-      shown = &tried;  // later ones are had only without
+    if (tried.verdict == ClosureVerdict::Accepted || tried.verdict == ClosureVerdict::Degenerate)
+      shown = &tried;  // a later try is made only without
   }
   if (shown == nullptr) return std::nullopt;
   return *shown;
@@ -51,7 +55,7 @@ std::optional<PagePicture> toPicture(const Evidence::Try& tried, const loop_metr
   if (!isShown(tried)) return std::nullopt;
   try {
     urban_nav_registration::Picture drawn;
-    if (tried.method == "stereo") {
+    if (tried.method == ClosureMethod::Stereo) {
       urban_nav_registration::MatchPictureOptions options;
       options.title_a = makeTitle(tried.keyframe_a);
       options.title_b = makeTitle(tried.keyframe_b);

@@ -15,6 +15,7 @@
 namespace urban_nav {
 
 using loop_metric::Evidence;
+using urban_nav_core::ClosureMethod;
 using urban_nav_registration::ClosureTest;
 using urban_nav_store::EdgeKind;
 
@@ -77,7 +78,7 @@ PageTable makeTable(const std::string& title, const std::vector<ClosureTest>& te
 }
 
 std::string makeTitle(const Evidence::Try& each, std::size_t number, std::size_t of) {
-  std::string title = each.method == "icp" ? "Clouds of the lasers" : "Two views";
+  std::string title = each.method == ClosureMethod::Icp ? "Clouds of the lasers" : "Two views";
   if (of > 1) title += " (" + std::to_string(number + 1) + " of " + std::to_string(of) + " tries)";
   return title;
 }
@@ -130,7 +131,7 @@ std::string explain(const StoredClosure& closure) {
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
     const Evidence::Try& each = evidence.tries[i];
-    text += "  " + makeTitle(each, i, evidence.tries.size()) + ": " + each.verdict +
+    text += "  " + makeTitle(each, i, evidence.tries.size()) + ": " + toString(each.verdict) +
             (each.sentence.empty() ? "" : ": " + each.sentence) + "\n" + toLines(each.tests);
   }
   if (!evidence.gate.empty()) text += "  " + std::string(kGate) + ":\n" + toLines(evidence.gate);
@@ -156,12 +157,12 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
     const Evidence::Try& each = evidence.tries[i];
     Section section{"try" + std::to_string(i + 1),
                     makeTitle(each, i, evidence.tries.size()),
-                    each.verdict + (each.sentence.empty() ? "" : ": " + each.sentence),
+                    toString(each.verdict) + (each.sentence.empty() ? "" : ": " + each.sentence),
                     {},
                     {},
                     {makeTable("Tests", each.tests)}};
     if (auto picture = toPicture(each, place_data, cloud_half_length)) {
-      picture->caption = each.method == "stereo" ? kHowToReadViews : kHowToReadClouds;
+      picture->caption = each.method == ClosureMethod::Stereo ? kHowToReadViews : kHowToReadClouds;
       section.pictures.push_back(std::move(*picture));
     }
     page.sections.push_back(std::move(section));
@@ -200,8 +201,8 @@ Json explainAsJson(const StoredClosure& closure) {
   Json& tries = json["tries"] = Json::array();
   for (const Evidence::Try& each : closure.evidence.tries) {
     Json one = Json::object();
-    one["method"] = each.method;
-    one["verdict"] = each.verdict;
+    one["method"] = toString(each.method);
+    one["verdict"] = toString(each.verdict);
     one["reason"] = each.reason;
     one["sentence"] = each.sentence;
     one["tests"] = listTests(each.tests);
