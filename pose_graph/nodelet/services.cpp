@@ -10,6 +10,7 @@
 
 #include <memory>
 
+#include "live/closure_input.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/graph.hpp"
@@ -40,13 +41,16 @@ void addEdge(LiveGraph& graph, const AddEdge::Request& request, AddEdge::Respons
     throw UserError("", "the transform or its information",
                     "finite numbers, a quaternion of length 1 (1 %), a symmetric matrix");
   }
-  if (request.kind != "asserted" && request.kind != "stereo" && request.kind != "icp" && request.kind != "plane")
-    throw UserError("kind", "`" + request.kind + "`", "asserted, stereo, icp, plane");
-  const std::string source = request.source.empty() ? "operator" : request.source;
-  const auto reply = graph.addEdge(
-      {urban_nav_ros::toPoseRef(request.a), urban_nav_ros::toPoseRef(request.b), request.kind, source}, *measured);
+  Closure edge;
+  edge.a = {request.a.session, toStampNs(request.a.stamp)};
+  edge.b = {request.b.session, toStampNs(request.b.stamp)};
+  edge.kind = toEdgeKind(request.kind);
+  edge.source = request.source.empty() ? "operator" : request.source;
+  edge.measured = *measured;
+  const auto reply = graph.addEdge(edge);
   response.message = reply.message;
-  for (const auto& edge : reply.contradicting) response.contradicting.push_back(urban_nav_ros::toEdgeRefMessage(edge));
+  for (const auto& other : reply.contradicting)
+    response.contradicting.push_back(urban_nav_ros::toEdgeRefMessage(other));
 }
 
 void getTrajectory(LiveGraph& graph, const GetTrajectory::Request& request, GetTrajectory::Response& response) {

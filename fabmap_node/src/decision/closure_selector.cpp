@@ -28,14 +28,14 @@ void ClosureSelector::beginSession() {
 }
 
 /// After enough of them, one more has to be clearly likelier than all before.
-bool ClosureSelector::isWorthOneMore(const Proposed& before, double probability) const {
+bool ClosureSelector::isWorthOneMore(const Tally& before, double probability) const {
   return before.count < enough_ || closureOdds(probability) >= kClearlyLikelier * before.best_odds;
 }
 
-void ClosureSelector::add(double probability, Proposed& proposed) {
-  proposed.expected += probability;
-  proposed.count += 1.0;
-  proposed.best_odds = std::max(proposed.best_odds, closureOdds(probability));
+void ClosureSelector::add(double probability, Tally& proposals) {
+  proposals.expected += probability;
+  proposals.count += 1.0;
+  proposals.best_odds = std::max(proposals.best_odds, closureOdds(probability));
 }
 
 bool ClosureSelector::select(const PlacePosition& earlier, const PlacePosition& query, double probability) {
@@ -43,8 +43,8 @@ bool ClosureSelector::select(const PlacePosition& earlier, const PlacePosition& 
   travelled_ = std::max(travelled_, query.travelled);
   if (probability <= closure_probability_ || allowance_ < 1.0) return false;
   const auto number = [](double travelled) { return static_cast<std::int64_t>(std::floor(travelled / kStretch)); };
-  Proposed& pair = proposed_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
-  Proposed& unlikely = unlikely_[{query.session, number(query.travelled)}];
+  Tally& pair = proposed_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
+  Tally& unlikely = unlikely_[{query.session, number(query.travelled)}];
   const bool is_unlikely = probability < 0.5;
   if (pair.expected >= enough_ || !isWorthOneMore(pair, probability)) return false;
   if (is_unlikely && !isWorthOneMore(unlikely, probability)) return false;

@@ -8,17 +8,12 @@
 
 namespace pose_graph {
 
-/// Closure on its way into the graph.
-struct ClosureInput {
-  Closure closure;
-  bool rejected = false;  ///< by the stage that measured it: stored as evidence, not part of the graph
-  std::string evidence;
-};
-
-/// Converts a measured closure. A pose without a session belongs to the running one: its session is left empty.
-ClosureInput toClosureInput(const urban_nav_core::MetricClosure& closure);
+/// Converts a measured closure. A pose without a session belongs to the running one: its session is left empty. The
+/// verdict is Rejected for a closure that its stage has rejected: it is stored for its evidence and is not part of the
+/// graph.
+Closure toClosure(const urban_nav_core::MetricClosure& closure);
 /// Converts a constraint. Throws UserError for a kind that may not be added from outside.
-ClosureInput toClosureInput(const urban_nav_core::RelativeConstraint& constraint);
+Closure toClosure(const urban_nav_core::RelativeConstraint& constraint);
 /// Returns the kind of that name. Throws UserError for a kind that may not be added from outside.
 EdgeKind toEdgeKind(const std::string& word);
 

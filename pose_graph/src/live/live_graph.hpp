@@ -110,7 +110,8 @@ class LiveGraph {
   /// Returns the poses from `from` to `to` (0: no bound) that moved since a revision (0: all).
   virtual Trajectory trajectory(urban_nav_core::StampNs from, urban_nav_core::StampNs to, std::int64_t since) const = 0;
 
-  virtual EdgeReply addEdge(const urban_nav_core::EdgeRef& edge, const urban_nav_core::Constraint& measured) = 0;
+  /// Adds an edge by hand. Poses without a session belong to the running one.
+  virtual EdgeReply addEdge(const Closure& edge) = 0;
   virtual EdgeReply removeEdge(const urban_nav_core::EdgeRef& edge) = 0;
   virtual DeferredTask save(const std::string& path) = 0;
   /// Adds the sessions that are not in the graph; a batch follows. Returns what was added.

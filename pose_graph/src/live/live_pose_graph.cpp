@@ -163,9 +163,11 @@ void LivePoseGraph::level() {
   if (const auto levelled = graph_.level()) ready_.push_back(finish(*levelled));
 }
 
-void LivePoseGraph::add(const urban_nav_core::MetricClosure& closure) { addOrHold(toClosureInput(closure)); }
+void LivePoseGraph::add(const urban_nav_core::MetricClosure& closure) {
+  addOrHold(toClosure(closure), toEvidence(closure));
+}
 
-void LivePoseGraph::add(const urban_nav_core::RelativeConstraint& constraint) { addOrHold(toClosureInput(constraint)); }
+void LivePoseGraph::add(const urban_nav_core::RelativeConstraint& constraint) { addOrHold(toClosure(constraint), ""); }
 
 NodeRef LivePoseGraph::toNode(const PoseRef& ref) const {
   return {ref.session.empty() ? session_ : ref.session, ref.stamp};
@@ -175,51 +177,48 @@ bool LivePoseGraph::isAhead(const NodeRef& node) const {
   return node.session.empty() || (node.session == session_ && node.stamp > newest());
 }
 
-bool LivePoseGraph::isAhead(const ClosureInput& input) const {
-  return isAhead(input.closure.a) || isAhead(input.closure.b);
+bool LivePoseGraph::isAhead(const Closure& closure) const { return isAhead(closure.a) || isAhead(closure.b); }
+
+void LivePoseGraph::nameSessions(Closure& closure) const {
+  if (closure.a.session.empty()) closure.a.session = session_;
+  if (closure.b.session.empty()) closure.b.session = session_;
 }
 
-void LivePoseGraph::nameSessions(ClosureInput& input) const {
-  if (input.closure.a.session.empty()) input.closure.a.session = session_;
-  if (input.closure.b.session.empty()) input.closure.b.session = session_;
-}
-
-void LivePoseGraph::addOrHold(ClosureInput input) {
-  nameSessions(input);
-  if (isAhead(input)) {
+void LivePoseGraph::addOrHold(Closure closure, const std::string& evidence) {
+  nameSessions(closure);
+  if (isAhead(closure)) {
     if (held_.size() == kMaxHeld) held_.pop_front();
-    held_.push_back(std::move(input));
+    held_.emplace_back(std::move(closure), evidence);
     return;
   }
-  addClosure(input);
+  addClosure(closure, evidence);
 }
 
-void LivePoseGraph::addClosure(ClosureInput& input) {
-  if (input.rejected) {
+void LivePoseGraph::addClosure(const Closure& closure, const std::string& evidence) {
+  if (closure.verdict == ClosureVerdict::Rejected) {
     if (!writer_) return;
-    urban_nav_store::Edge edge = toEdge(input.closure);
+    urban_nav_store::Edge edge = toEdge(closure);
     edge.measured.information.setZero();  // it constrains nothing, and is not read back into a graph
-    edge.verdict = ClosureVerdict::Rejected;
     edge.weight = 0.0;
-    writer_->putRejected(edge, input.evidence);
+    writer_->putRejected(edge, evidence);
     return;
   }
-  graph_.addClosure(input.closure);
-  if (writer_ && !input.evidence.empty()) writer_->putEvidence(toEdge(input.closure), input.evidence);
+  graph_.addClosure(closure);
+  if (writer_ && !evidence.empty()) writer_->putEvidence(toEdge(closure), evidence);
   changed_ = true;
 }
 
 void LivePoseGraph::addHeldClosures() {
-  std::deque<ClosureInput> held;
+  std::deque<std::pair<Closure, std::string>> held;
   std::string refusal;
-  for (ClosureInput& input : std::exchange(held_, {})) {
-    nameSessions(input);  // of one that arrived before the first odometry of its session
-    if (isAhead(input)) {
-      held.push_back(std::move(input));
+  for (auto& [closure, evidence] : std::exchange(held_, {})) {
+    nameSessions(closure);  // of one that arrived before the first odometry of its session
+    if (isAhead(closure)) {
+      held.emplace_back(std::move(closure), std::move(evidence));
       continue;
     }
     try {
-      addClosure(input);
+      addClosure(closure, evidence);
     } catch (const UserError& error) {
       refusal = error.what();
     }
@@ -347,14 +346,10 @@ LiveGraph::Trajectory LivePoseGraph::trajectory(StampNs from, StampNs to, std::i
   return toTrajectory(graph_, revisions_, from, to, since);
 }
 
-LiveGraph::EdgeReply LivePoseGraph::addEdge(const EdgeRef& edge, const urban_nav_core::Constraint& measured) {
-  Closure input;
-  input.a = toNode(edge.a);
-  input.b = toNode(edge.b);
-  input.kind = toEdgeKind(edge.kind);
-  input.source = edge.source;
-  input.measured = measured;
-  const ClosureId id = graph_.addClosure(input);
+LiveGraph::EdgeReply LivePoseGraph::addEdge(const Closure& edge) {
+  Closure named = edge;
+  nameSessions(named);
+  const ClosureId id = graph_.addClosure(named);
   changed_ = false;
   ready_.push_back(finish(graph_.update()));
   const Closure& judged = graph_.closures().at(id);
@@ -373,7 +368,7 @@ LiveGraph::EdgeReply LivePoseGraph::removeEdge(const EdgeRef& edge) {
   for (const auto& [id, closure] : graph_.closures()) {
     if (!(closure.a == a && closure.b == b)) continue;
     between += (between.empty() ? "" : ", ") + std::string(toString(closure.kind)) + " of " + closure.source;
-    const bool fits = (edge.kind.empty() || edge.kind == toString(closure.kind)) &&
+    const bool fits = (edge.kind.empty() || urban_nav_store::parseEdgeKind(edge.kind) == closure.kind) &&
                       (edge.source.empty() || edge.source == closure.source);
     if (fits) meant.push_back(id);
   }

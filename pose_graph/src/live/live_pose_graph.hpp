@@ -56,7 +56,7 @@ class LivePoseGraph : public LiveGraph {
   Picture picture() const override;
   Trajectory trajectory(StampNs from, StampNs to, std::int64_t since) const override;
 
-  EdgeReply addEdge(const urban_nav_core::EdgeRef& edge, const urban_nav_core::Constraint& measured) override;
+  EdgeReply addEdge(const Closure& edge) override;
   EdgeReply removeEdge(const urban_nav_core::EdgeRef& edge) override;
   DeferredTask save(const std::string& path) override;
   std::string load(const StoredGraph& stored) override;
@@ -73,11 +73,11 @@ class LivePoseGraph : public LiveGraph {
   NodeRef toNode(const urban_nav_core::PoseRef& ref) const;
   /// Returns true if odometry has not reached the pose yet.
   bool isAhead(const NodeRef& node) const;
-  bool isAhead(const ClosureInput& input) const;
+  bool isAhead(const Closure& closure) const;
   /// Assigns poses without a session to the running one.
-  void nameSessions(ClosureInput& input) const;
-  void addOrHold(ClosureInput input);
-  void addClosure(ClosureInput& input);
+  void nameSessions(Closure& closure) const;
+  void addOrHold(Closure closure, const std::string& evidence);
+  void addClosure(const Closure& closure, const std::string& evidence);
   void addHeldClosures();
   /// `own`: from the store that this graph is written to.
   Loaded addStored(const StoredGraph& stored, bool own);
@@ -99,7 +99,7 @@ class LivePoseGraph : public LiveGraph {
   urban_nav_live::TimeJumpDetector odometry_time_;          // of the running session
   std::map<SessionId, urban_nav_store::Session> sessions_;  // of the graph and of the store
   std::set<SessionId> resumable_;                           // begun by an earlier process
-  std::deque<ClosureInput> held_;                           // until odometry reaches their poses
+  std::deque<std::pair<Closure, std::string>> held_;        // with their evidence, until odometry reaches their poses
   std::vector<PoseRevisions> revisions_;                    // of each track
   std::deque<Outcome> ready_;                               // of relaxations that a service made
   bool changed_ = false;                                    // since the last relaxation

@@ -79,7 +79,7 @@ class Note : public LiveGraph {
   std::optional<urban_nav_core::Pose> T_map_odom() const override { return {}; }
   Picture picture() const override { return {}; }
   Trajectory trajectory(urban_nav_core::StampNs, urban_nav_core::StampNs, std::int64_t) const override { return {}; }
-  EdgeReply addEdge(const urban_nav_core::EdgeRef&, const urban_nav_core::Constraint&) override { return {}; }
+  EdgeReply addEdge(const Closure&) override { return {}; }
   EdgeReply removeEdge(const urban_nav_core::EdgeRef&) override { return {}; }
   DeferredTask save(const std::string&) override { return {}; }
   std::string load(const StoredGraph&) override { return {}; }

@@ -34,19 +34,19 @@ class ClosureSelector {
   using Stretch = std::pair<std::size_t, std::int64_t>;
   using StretchPair = std::tuple<std::size_t, std::int64_t, std::size_t, std::int64_t>;
 
-  /// Closures proposed between two stretches, or from one.
-  struct Proposed {
+  /// How many closures were proposed between two stretches, or from one.
+  struct Tally {
     double expected = 0.0;  ///< sum of their probabilities
     double count = 0.0, best_odds = 0.0;
   };
 
-  bool isWorthOneMore(const Proposed& before, double probability) const;
-  static void add(double probability, Proposed& proposed);
+  bool isWorthOneMore(const Tally& before, double probability) const;
+  static void add(double probability, Tally& proposals);
 
   double closure_probability_, per_metre_, enough_;
   double allowance_ = 0.0, travelled_ = 0.0;
-  std::map<StretchPair, Proposed> proposed_;
-  std::map<Stretch, Proposed> unlikely_;  // by the stretch of the query
+  std::map<StretchPair, Tally> proposed_;
+  std::map<Stretch, Tally> unlikely_;  // by the stretch of the query
 };
 
 }  // namespace fabmap_node
