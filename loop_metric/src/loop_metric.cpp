@@ -62,24 +62,24 @@ class Measuring {
  public:
   Measuring(LoopMetric& stage, const TopologicalClosure& candidate, const PlaceData& place_data)
       : stage_(stage), parameters_(stage.parameters_), place_data_(place_data) {
-    made_.metric.a = candidate.a;
-    made_.metric.b = candidate.b;
-    made_.metric.probability = candidate.probability;
-    made_.metric.source = "loop_metric";
+    measurement_.metric.a = candidate.a;
+    measurement_.metric.b = candidate.b;
+    measurement_.metric.probability = candidate.probability;
+    measurement_.metric.source = "loop_metric";
     if (const auto way = place_data.between(candidate.a, candidate.b))
       gate_.emplace(*way, parameters_.registration.odometry_scale);
   }
 
   CandidateMeasurement run() {
     judge();
-    made_.metric.reason_name = toString(static_cast<LoopReason>(made_.metric.reason));
-    made_.metric.evidence = printEvidence(collectEvidence(made_));
-    return std::move(made_);
+    measurement_.metric.reason_name = toString(static_cast<LoopReason>(measurement_.metric.reason));
+    measurement_.metric.evidence = printEvidence(collectEvidence(measurement_));
+    return std::move(measurement_);
   }
 
  private:
   void judge() {
-    MetricClosure& metric = made_.metric;
+    MetricClosure& metric = measurement_.metric;
     for (const urban_nav_core::PoseRef* at : {&metric.a, &metric.b}) {
       std::string why;
       if (!place_data_.knows(*at, why)) return refuse(LoopReason::UnknownMoment, why);
@@ -95,11 +95,13 @@ class Measuring {
     if (parameters_.stereo && byStereo()) return;
     if (parameters_.icp && byClouds()) return;
     if (metric.reason != 0) return;  // a transform was found, and is not allowed
-    if (made_.attempts.stereo.empty() && !made_.attempts.icp)
+    if (measurement_.attempts.stereo.empty() && !measurement_.attempts.icp)
       return refuse(LoopReason::NothingKept, "neither two views that may show the same nor clouds of both moments");
     std::string sentence;
-    if (!made_.attempts.stereo.empty()) sentence = "stereo: " + made_.attempts.stereo.front().result.sentence;
-    if (made_.attempts.icp) sentence += (sentence.empty() ? "icp: " : "; icp: ") + made_.attempts.icp->sentence;
+    if (!measurement_.attempts.stereo.empty())
+      sentence = "stereo: " + measurement_.attempts.stereo.front().result.sentence;
+    if (measurement_.attempts.icp)
+      sentence += (sentence.empty() ? "icp: " : "; icp: ") + measurement_.attempts.icp->sentence;
     refuse(LoopReason::NotRegistered, sentence);
   }
 
@@ -107,11 +109,11 @@ class Measuring {
     const double way = parameters_.keyframe_search_distance;
     std::optional<PoseWithCovariance> T_a_b;
     if (gate_) T_a_b = gate_->T_a_b();
-    for (const KeyframePair& pair :
-         chooseKeyframePairs(place_data_.views(made_.metric.a, way), place_data_.views(made_.metric.b, way), T_a_b, way,
-                             static_cast<std::size_t>(parameters_.stereo_tries))) {
+    for (const KeyframePair& pair : chooseKeyframePairs(place_data_.views(measurement_.metric.a, way),
+                                                        place_data_.views(measurement_.metric.b, way), T_a_b, way,
+                                                        static_cast<std::size_t>(parameters_.stereo_tries))) {
       StereoAttempt made{pair.a, pair.b, stage_.match(pair.a, pair.b, place_data_)};
-      made_.attempts.stereo.push_back(made);
+      measurement_.attempts.stereo.push_back(made);
       if (made.result.verdict != ClosureVerdict::Accepted) continue;
       const Constraint measured =
           atMoments(betweenBases(made.result.lefts, stage_.T_base_left_), made.keyframe_a, made.keyframe_b);
@@ -121,23 +123,23 @@ class Measuring {
   }
 
   bool byClouds() {
-    const auto target = place_data_.cloud(made_.metric.a, parameters_.registration.cloud_half_length),
-               source = place_data_.cloud(made_.metric.b, parameters_.registration.cloud_half_length);
+    const auto target = place_data_.cloud(measurement_.metric.a, parameters_.registration.cloud_half_length),
+               source = place_data_.cloud(measurement_.metric.b, parameters_.registration.cloud_half_length);
     if (target.points.empty() || source.points.empty()) return false;
     Pose guess;
     SearchMode search = SearchMode::AtOnce;
     AlignmentPrior known;
     known.deformation_sigma =
-        std::hypot(place_data_.deformationSigma(made_.metric.a, parameters_.registration.cloud_half_length),
-                   place_data_.deformationSigma(made_.metric.b, parameters_.registration.cloud_half_length));
+        std::hypot(place_data_.deformationSigma(measurement_.metric.a, parameters_.registration.cloud_half_length),
+                   place_data_.deformationSigma(measurement_.metric.b, parameters_.registration.cloud_half_length));
     if (gate_) {
       guess = gate_->T_a_b().pose;
       search = SearchMode::IfRejected;
       known.is_possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
     }
-    made_.attempts.icp_guess = guess;
-    made_.attempts.icp = align(source, target, parameters_.registration, guess, search, known);
-    Alignment& found = *made_.attempts.icp;
+    measurement_.attempts.icp_guess = guess;
+    measurement_.attempts.icp = align(source, target, parameters_.registration, guess, search, known);
+    Alignment& found = *measurement_.attempts.icp;
     if (found.verdict == ClosureVerdict::Rejected) return false;
     if (found.verdict == ClosureVerdict::Degenerate && !gate_) {
       // One flat facade lies on any other: what slides tells no place from another, unless odometry has said that it is
@@ -152,7 +154,7 @@ class Measuring {
   /// False, with the reason, where odometry does not allow it.
   bool accept(ClosureMethod method, const Constraint& measured,
               const std::vector<urban_nav_core::Vector6d>& free_directions, const std::string& sentence) {
-    MetricClosure& metric = made_.metric;
+    MetricClosure& metric = measurement_.metric;
     metric.method = method;
     metric.measured.T_a_b = measured.T_a_b;
     metric.free_directions = free_directions;
@@ -181,22 +183,22 @@ class Measuring {
   }
 
   bool test(const char* name, double value, double threshold) {
-    made_.attempts.tests.push_back({name, value, threshold, false, value <= threshold});
+    measurement_.attempts.tests.push_back({name, value, threshold, false, value <= threshold});
     return value <= threshold;
   }
 
   void refuse(LoopReason reason, const std::string& sentence) {
-    made_.metric.verdict = ClosureVerdict::Rejected;
-    made_.metric.reason = static_cast<int>(reason);
-    made_.metric.sentence = sentence;
-    made_.metric.measured.information.setZero();
+    measurement_.metric.verdict = ClosureVerdict::Rejected;
+    measurement_.metric.reason = static_cast<int>(reason);
+    measurement_.metric.sentence = sentence;
+    measurement_.metric.measured.information.setZero();
   }
 
   LoopMetric& stage_;
   const Parameters& parameters_;
   const PlaceData& place_data_;
   std::optional<OdometryGate> gate_;
-  CandidateMeasurement made_;
+  CandidateMeasurement measurement_;
 };
 
 const char* toString(LoopReason reason) {

@@ -16,4 +16,4 @@ RULES = [long_lines, long_files, long_functions, double_types, unity_names, gtes
          bag_readers, closure_states]
 
 # Rules that do not hold yet: they are counted, and a breach fails no run.
-COUNTED = {"closure_states"}
+COUNTED = set()

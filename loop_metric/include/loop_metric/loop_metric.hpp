@@ -32,7 +32,7 @@ struct StereoAttempt {
   urban_nav_registration::StereoClosure result;
 };
 
-/// How the views and clouds of a candidate were registered: the data of its verdict.
+/// Attempts to register the views and clouds of a candidate: the data of its verdict.
 struct RegistrationAttempts {
   std::vector<StereoAttempt> stereo;  ///< in the order in which they were made; the last is the accepted one, if any is
   std::optional<urban_nav_registration::Alignment> icp;    ///< where clouds were aligned: source b, target a

@@ -15,28 +15,28 @@ NodeRef toNodeRef(const urban_nav_core::PoseRef& ref) { return {ref.session, ref
 }  // namespace
 
 Closure toClosure(const urban_nav_core::MetricClosure& closure) {
-  Closure made;
-  made.a = toNodeRef(closure.a);
-  made.b = toNodeRef(closure.b);
-  made.kind = closure.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
-  made.source = closure.source;
-  made.measured = closure.measured;
-  made.odometry_gate = closure.odometry_gate;
+  Closure result;
+  result.a = toNodeRef(closure.a);
+  result.b = toNodeRef(closure.b);
+  result.kind = closure.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
+  result.source = closure.source;
+  result.measured = closure.measured;
+  result.odometry_gate = closure.odometry_gate;
   if (closure.verdict != ClosureVerdict::Accepted || closure.method == ClosureMethod::None) {
-    made.verdict = ClosureVerdict::Rejected;
-    made.reason = closure.reason_name + (closure.sentence.empty() ? "" : ": " + closure.sentence);
+    result.verdict = ClosureVerdict::Rejected;
+    result.reason = closure.reason_name + (closure.sentence.empty() ? "" : ": " + closure.sentence);
   }
-  return made;
+  return result;
 }
 
 Closure toClosure(const urban_nav_core::RelativeConstraint& constraint) {
-  Closure made;
-  made.a = toNodeRef(constraint.a);
-  made.b = toNodeRef(constraint.b);
-  made.kind = toEdgeKind(constraint.kind);
-  made.source = constraint.source;
-  made.measured = constraint.measured;
-  return made;
+  Closure result;
+  result.a = toNodeRef(constraint.a);
+  result.b = toNodeRef(constraint.b);
+  result.kind = toEdgeKind(constraint.kind);
+  result.source = constraint.source;
+  result.measured = constraint.measured;
+  return result;
 }
 
 EdgeKind toEdgeKind(const std::string& word) {

@@ -34,7 +34,7 @@ class ClosureSelector {
   using Stretch = std::pair<std::size_t, std::int64_t>;
   using StretchPair = std::tuple<std::size_t, std::int64_t, std::size_t, std::int64_t>;
 
-  /// How many closures were proposed between two stretches, or from one.
+  /// Counts of the closures proposed between two stretches, or from one.
   struct Tally {
     double expected = 0.0;  ///< sum of their probabilities
     double count = 0.0, best_odds = 0.0;

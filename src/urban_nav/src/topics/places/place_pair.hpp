@@ -9,6 +9,7 @@
 #include "base/time_query.hpp"
 #include "fabmap_node/parameters.hpp"
 #include "fabmap_node/recognition/place_matcher.hpp"
+#include "urban_nav_store/store.hpp"
 #include "urban_nav_store/tables/stored_place.hpp"
 
 namespace urban_nav {
