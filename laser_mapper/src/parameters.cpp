@@ -5,6 +5,7 @@
 
 namespace laser_mapper {
 
+using urban_nav_core::Audience;
 using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
@@ -36,17 +37,18 @@ const Table<Parameters>& table() {
            "docs/methods/laser_mapper.md"},
           {"ghost_gap", &P::ghost_gap, "s", 20.0, 1.0, 1000000.0, {},
            "Least time between a beam that ended and one that passed through there, for `ghosts`.",
-           "docs/methods/laser_mapper.md"},
+           "docs/methods/laser_mapper.md", {}, Audience::Experts},
           {"stereo", &P::stereo, "", true, false, false, {},
            "Points of dense stereo fill the map where no laser measured anything.", "section 6.2"},
           {"stereo_sigma", &P::stereo_sigma, "m", 0.05, 0.001, 1.0, {},
            "Points of dense stereo less certain along the line of sight are left out.",
-           "docs/methods/laser_mapper.md"},
+           "docs/methods/laser_mapper.md", {}, Audience::Experts},
           {"max_gap", &P::max_gap, "s", 0.5, 0.01, 10.0, {},
-           "Beams between two poses of the trajectory further apart in time are left out.", "section 6.1"},
+           "Beams between two poses of the trajectory further apart in time are left out.",
+           "section 6.1", {}, Audience::Experts},
           {"max_shift", &P::max_shift, "m", 0.005, 0.0, 10.0, {},
            "A part of the map is rendered again when its points have moved by more than this.",
-           "docs/methods/laser_mapper.md"},
+           "docs/methods/laser_mapper.md", {}, Audience::Experts},
           {"constraints", &P::constraints, "", true, false, false, {},
            "Planes that several passes measured take part in the relaxation of the pose graph, in `map`.",
            "section 6.3; src/urban_nav/bench/plane_drift.cpp"},

@@ -5,6 +5,7 @@
 
 namespace loop_metric {
 
+using urban_nav_core::Audience;
 using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
@@ -24,17 +25,16 @@ const Table<Parameters>& table() {
            "paper 4.2"},
           {"stereo_tries", &P::stereo_tries, "", std::int64_t{2}, std::int64_t{1}, std::int64_t{20}, {},
            "Largest number of keyframe pairs that are tried.",
-           "paper 4.1; measured"},
+           "paper 4.1; measured", {}, Audience::Experts},
           {"keyframe_search_distance", &P::keyframe_search_distance, "m", 6.0, 0.0, 50.0, {},
            "Largest distance travelled between a pose and a keyframe that represents it.",
-           "paper 3: places within 7.5 m", {"view_way"}},
+           "paper 3: places within 7.5 m", {"view_way"}, Audience::Experts},
           {"place_radius", &P::place_radius, "m", 9.0, 1.0, 100.0, {},
            "Largest distance between two poses of one place: a candidate whose transform exceeds it is rejected.",
            "paper 3: places within 7.5 m, and a fifth for uncertainty"},
           {"gate", &P::gate, "", 5.0, 1.0, 1000.0, {},
-           "Largest difference of a transform from odometry and from its neighbours, in standard deviations (root mean "
-           "square).",
-           "paper 4"},
+           "Largest difference of a transform from odometry and from its neighbours, in standard deviations (root mean square).",
+           "paper 4", {}, Audience::Experts},
       });
   return rows;
 }
