@@ -5,6 +5,7 @@
 
 namespace fabmap_node {
 
+using urban_nav_core::Audience;
 using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
@@ -27,26 +28,25 @@ const Table<Parameters>& table() {
            "paper 4"},
           {"closures_per_metre", &P::closures_per_metre, "1/m", 3.0, 0.01, 1000.0, {},
            "Largest number of closures proposed per metre driven.",
-           "paper 4"},
+           "paper 4", {}, Audience::Experts},
           {"enough_closures", &P::enough_closures, "", 3.0, 0.1, 1000.0, {},
-           "No closures are proposed between two stretches of 5 m once the probabilities of those proposed add up to "
-           "this number; after as many proposals, only one that is clearly likelier than all before.",
-           "paper 4"},
+           "No closures are proposed between two stretches of 5 m once the probabilities of those proposed add up to this number; after as many proposals, only one that is clearly likelier than all before.",
+           "paper 4", {}, Audience::Experts},
           {"mask", &P::mask, "s", 20.0, 0.0, 100000.0, {},
            "Places of the same session that are younger are no candidates.",
            "paper 3.2"},
           {"second_look", &P::second_look, "", true, false, false, {},
            "Compare the likeliest places descriptor by descriptor.",
-           "docs/results/fabmap_node.md"},
+           "docs/results/fabmap_node.md", {}, Audience::Experts},
           {"sequence", &P::sequence, "", true, false, false, {},
            "The observations before an observation count as evidence for places of other sessions.",
-           "paper 3.2"},
+           "paper 3.2", {}, Audience::Experts},
           {"panorama_features", &P::panorama_features, "", std::int64_t{250}, std::int64_t{50}, std::int64_t{5000}, {},
            "Largest number of features of each image of a panorama.",
-           "docs/methods/fabmap_node.md"},
+           "docs/methods/fabmap_node.md", {}, Audience::Experts},
           {"image_features", &P::image_features, "", std::int64_t{500}, std::int64_t{50}, std::int64_t{5000}, {},
            "Largest number of features of a single image.",
-           "docs/methods/fabmap_node.md"},
+           "docs/methods/fabmap_node.md", {}, Audience::Experts},
       });
   return rows;
 }

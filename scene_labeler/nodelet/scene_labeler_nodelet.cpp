@@ -21,7 +21,6 @@
 #include "live/nodelet_parameters.hpp"
 #include "scene_labeler/class_map.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
-#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -49,10 +48,6 @@ struct CameraCalibration {
   std::size_t side = 0;
   sensor_msgs::CameraInfoConstPtr info;
 };
-
-LabelModel readNodeletModel(const std::string& name) {
-  return name == "default" ? defaultModel() : parseModel(urban_nav_core::readTextFile(name), name);
-}
 
 sensor_msgs::PointCloud2 toMessage(const std::vector<DriveReturn>& returns, const SceneLabels& labels) {
   sensor_msgs::PointCloud2 cloud;
@@ -120,7 +115,7 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   Parameters parameters;
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
-  labels_ = std::make_unique<LiveLabels>(parameters, readNodeletModel(parameters.model), outputs());
+  labels_ = std::make_unique<LiveLabels>(parameters, readModel(parameters.model), outputs());
   image_ = node.nh().advertise<sensor_msgs::Image>(urban_nav_ros::topics::kLabelImage, 10);
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kLabelCloud, 10);
   subscribeRobot(node, nodelet_.queue_size, false, false, true);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace scene_labeler {
@@ -87,6 +88,10 @@ LabelModel parseModel(std::string_view bytes, const std::string& name) {
     throw urban_nav_core::UserError(name, error.what(), "a model of `urban_nav labels train`");
   }
   return model;
+}
+
+LabelModel readModel(const std::string& path) {
+  return path == "default" ? defaultModel() : parseModel(urban_nav_core::readTextFile(path), path);
 }
 
 std::string modelDigest(std::string_view bytes) {

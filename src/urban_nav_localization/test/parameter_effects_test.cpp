@@ -50,7 +50,7 @@ void writeMap(const std::string& path) {
   store.sessions().put(session, urban_nav_store::Extrinsic{"laser", Pose()});
   urban_nav_registration::Keyframe keyframe;
   keyframe.width = keyframe.height = 1;
-  store.keyframes().put(session, urban_nav_registration::keyframe_camera,
+  store.keyframes().put(session, urban_nav_registration::kKeyframeCamera,
                         urban_nav_registration::toStoredKeyframe(keyframe));
   for (StampNs i = 0; i <= 20; ++i) {
     urban_nav_store::Node node{i * kEffectSecond,

@@ -61,6 +61,8 @@ LabelModel parseModel(std::string_view bytes, const std::string& name);
 /// Returns the model that is part of the library, from simulated drives, and its bytes.
 LabelModel defaultModel();
 std::string_view defaultModelBytes();
+/// Reads the model that the parameter `model` names: a file, or `default`. Throws UserError as parseModel().
+LabelModel readModel(const std::string& path);
 
 /// Returns the digest of the bytes of a model: 16 hexadecimal digits (FNV-1a).
 std::string modelDigest(std::string_view bytes);

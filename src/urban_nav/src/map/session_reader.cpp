@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/command_parameters.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/examination/sampled_pairs.hpp"
 #include "urban_nav_input/session/calibration_check.hpp"
@@ -18,6 +17,11 @@ constexpr std::int64_t kJudgedPairs = 12, kLeastJudgedStep = 10;
 
 }  // namespace
 
+int readAheadDepth(const CommandParameters& parameters, const urban_nav_core::Pinhole& camera) {
+  const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
+  return std::clamp(static_cast<int>(kReadAheadShare * parameters.memory_mb / pair_mb), 2, kMaxReadAhead);
+}
+
 SessionReader::SessionReader(MapContext& context, const StageList& stages, RunCheckpoint& checkpoint,
                              std::size_t session)
     : context_(context), stages_(stages), checkpoint_(checkpoint), session_(session) {}
@@ -30,10 +34,8 @@ std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_n
   context_.sessions[session_].info = source->info();
   if (!input.note.empty()) context_.sessions[session_].info.notes.push_back(input.note);
   if (options.threads == 1) return source;
-  const urban_nav_core::Pinhole& camera = source->info().camera.left;
-  const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
-  const int fits = static_cast<int>(kReadAheadShare * options.parameters.get(commandTable()).memory_mb / pair_mb);
-  return urban_nav_input::readAhead(std::move(source), std::clamp(fits, 2, kMaxReadAhead));
+  const int depth = readAheadDepth(options.parameters.get(commandTable()), source->info().camera.left);
+  return urban_nav_input::readAhead(std::move(source), depth);
 }
 
 std::vector<std::string> SessionReader::calibrationFaults() const {

@@ -7,10 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/command_parameters.hpp"
 #include "map/run_checkpoint.hpp"
 #include "map/stage_list.hpp"
 
 namespace urban_nav {
+
+/// Returns how many pairs of this camera are read ahead: those that fit into a share of `memory_mb`, within limits.
+int readAheadDepth(const CommandParameters& parameters, const urban_nav_core::Pinhole& camera);
 
 /// Reads one session once, with the parts that all stages have in that pass, and stores its progress. Not thread-safe.
 class SessionReader {

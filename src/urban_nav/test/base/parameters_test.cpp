@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "commands/stages.hpp"
 #include "loop_metric/parameters.hpp"
+#include "map/map_command.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
 #include "urban_nav_localization/parameters.hpp"
 #include "urban_nav_registration/parameters.hpp"
@@ -47,6 +51,47 @@ TEST(Parameters, MotionInputIsUnderstoodUnderTheNameOfTheStageThatHadIt) {
   ASSERT_EQ(parameterWarnings(old).size(), 1U);
   EXPECT_NE(parameterWarnings(old)[0].find("input.motion_input"), std::string::npos) << parameterWarnings(old)[0];
   EXPECT_TRUE(warningsOn({"input.motion_input=wheels"}).empty());
+}
+
+/// Parameters that a text lists: "swf_vo.window" of "  swf_vo.window = 10  (default)".
+std::vector<std::string> listedParameters(const std::string& help) {
+  std::vector<std::string> names;
+  for (const std::string_view line : urban_nav_core::splitAt(help, '\n')) {
+    const std::size_t equals = line.find(" = "), origin = line.find("  (", 2);
+    const bool is_parameter = line.size() > 2 && line.substr(0, 2) == "  " && line[2] != ' ' && equals < origin &&
+                              origin != std::string_view::npos;
+    if (is_parameter) names.emplace_back(line.substr(2, equals - 2));
+  }
+  return names;
+}
+
+std::string helpOfMap(const char* option) {
+  const std::vector<const char*> words = {"urban_nav", "map", option};
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(runCommandLine({mapCommand(makeStages)}, addStageTables, static_cast<int>(words.size()), words.data()), 0);
+  return ::testing::internal::GetCapturedStdout();
+}
+
+TEST(Parameters, HelpOfMapIsShortAndListsThoseForUsersInTheOrderOfTheStages) {
+  const std::string help = helpOfMap("--help");
+  const std::vector<std::string> listed = listedParameters(help);
+  EXPECT_LT(std::count(help.begin(), help.end(), '\n'), 160);
+  EXPECT_LE(listed.size(), 60U);
+  EXPECT_GE(listed.size(), 40U);
+  EXPECT_NE(help.find("--help-all"), std::string::npos);
+  const auto first = std::find_if(listed.begin(), listed.end(), [](const std::string& name) {
+    return name.find('.') != std::string::npos && name.rfind("input.", 0) != 0;
+  });
+  ASSERT_NE(first, listed.end());
+  EXPECT_EQ(first->rfind("swf_vo.", 0), 0U) << *first;
+  EXPECT_EQ(std::count(listed.begin(), listed.end(), "scene_labeler.samples"), 0) << "of training alone";
+}
+
+TEST(Parameters, HelpAllOfMapListsEveryOne) {
+  std::vector<std::string> names;
+  for (const urban_nav_core::Setting& setting : loaded({}).settings())
+    names.push_back(urban_nav_core::fullName(setting.stage, setting.name));
+  EXPECT_EQ(listedParameters(helpOfMap("--help-all")), names);
 }
 
 }  // namespace

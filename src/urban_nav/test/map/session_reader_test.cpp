@@ -6,6 +6,7 @@
 #include "base/parameters.hpp"
 #include "commands/stages.hpp"
 #include "topics/vo/vo.hpp"
+#include "urban_nav_core/testing/parameter_effects.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 
 namespace urban_nav {
@@ -100,6 +101,15 @@ TEST_F(SessionReaderTest, ASessionIsReadAgainWithOtherParameters) {
   read();
   EXPECT_EQ(counting.frames, 2 * kFramesRead);
   EXPECT_EQ(counting.restored, "");
+}
+
+TEST(SessionReader, ReadsAheadWhatFitsIntoTheMemory) {
+  const auto depth = [](const CommandParameters& parameters) {
+    return std::to_string(readAheadDepth(parameters, {2000.0, 2000.0, 2000.0, 1500.0, 4000, 3000}));
+  };
+  EXPECT_EQ(urban_nav_core::testing::findParametersWithoutEffect(commandTable(),
+                                                                 {{"pairs of 24 MB", depth, {{"memory_mb", 200}}}}),
+            "");
 }
 
 }  // namespace

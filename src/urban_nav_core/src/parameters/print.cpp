@@ -63,9 +63,10 @@ std::string markdownTable(const std::string& stage, const std::vector<RowInfo>& 
     out += "|" + cell("`" + fullName(stage, row.name) + "`") + cell("`" + printValue(row.standard) + "`") +
            cell(row.unit) + cell(formatRange(row)) + cell(row.sentence) + cell(row.source) + "\n";
   }
-  const std::string head =
-      "| parameter | default | unit | allowed | what it does | source |\n|---|---|---|---|---|---|\n";
-  return out.empty() ? "" : head + out;
+  const std::string head = audience == Audience::Users
+                               ? "| parameter | default | unit | allowed | what it does | source |"
+                               : "|parameter|default|unit|allowed|what it does|source|";
+  return out.empty() ? "" : head + "\n|---|---|---|---|---|---|\n" + out;
 }
 
 // "  swf_vo.window = 25  (--set swf_vo.window=25)"

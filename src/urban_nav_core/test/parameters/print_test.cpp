@@ -92,7 +92,7 @@ TEST(Print, MarkdownFoldsWhatIsForExperts) {
   std::vector<RowInfo> some = rows();
   some[1].audience = Audience::Experts;
   const std::string text = printMarkdown("stage", some);
-  const std::size_t fold = text.find("\n\n<details><summary>Parameters for experts</summary>\n\n| parameter |");
+  const std::size_t fold = text.find("\n\n<details><summary>Parameters for experts</summary>\n\n|parameter|");
   ASSERT_NE(fold, std::string::npos) << text;
   EXPECT_LT(text.find("`stage.name`"), fold);
   EXPECT_GT(text.find("`stage.noise`"), fold);

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "base/command.hpp"
+#include "commands/stages.hpp"
+#include "map/map_command.hpp"
+#include "simulate/simulate_command.hpp"
 #include "support/circle_drive.hpp"
 #include "topics/graph/graph_g2o.hpp"
 #include "topics/graph/graph_report.hpp"
 #include "topics/graph/graph_run.hpp"
+#include "urban_nav_input/testing/folders.hpp"
 
 namespace urban_nav {
 namespace {
@@ -107,6 +114,26 @@ TEST(GraphPlanesTest, WithoutPlanesNothingChanges) {
   EXPECT_EQ(with.planes.rounds, 0U);
   EXPECT_EQ(graphG2o(with), graphG2o(without));
   EXPECT_EQ(with.closures.size(), 2U);
+}
+
+TEST(GraphPlanesTest, AreSearchedInTheScansUnlessSwitchedOff) {
+  const urban_nav_input::testing::TemporaryFolder folder;
+  const auto call = [](const std::vector<std::string>& words) {
+    std::vector<const char*> argv = {"urban_nav"};
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return runCommandLine({simulateCommand(), mapCommand(makeStages)}, addStageTables, static_cast<int>(argv.size()),
+                          argv.data());
+  };
+  const std::string bag = folder.file("drive.bag");
+  ASSERT_EQ(call({"simulate", "--seed", "3", "--duration", "1", "--sensors", "stereo,lasers", "-o", bag}), 0);
+  for (const std::string constraints : {"true", "false"}) {
+    const std::string out = folder.file(constraints);
+    ASSERT_EQ(call({"map", bag, "--out", out, "--stages", "vo,graph,lasers", "--set",
+                    "laser_mapper.constraints=" + constraints}),
+              0);
+    const auto summary = nlohmann::json::parse(urban_nav_input::testing::readFile(out + "/summary.json"));
+    EXPECT_EQ(summary.at("pose_graph").contains("planes"), constraints == "true");
+  }
 }
 
 }  // namespace

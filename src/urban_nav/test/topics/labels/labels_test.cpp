@@ -158,6 +158,10 @@ TEST_F(Labels, OfABagAreThoseOfItsReturnsWhateverItsTruth) {
                     "scene_labeler.samples=300", "--threads", "1"}),
             0);
   EXPECT_EQ(urban_nav_input::testing::readFile(path("m")), urban_nav_input::testing::readFile(path("again")));
+  ASSERT_EQ(labels({"train", one, two, "--trajectory", pose_one, "--trajectory", pose_two, "-o", path("fewer"), "--set",
+                    "scene_labeler.samples=200"}),
+            0);
+  EXPECT_NE(urban_nav_input::testing::readFile(path("m")), urban_nav_input::testing::readFile(path("fewer")));
   std::filesystem::rename(path("two.truth/trajectory.tum"), path("two.tum"));
   std::filesystem::remove_all(path("two.truth"));
   ASSERT_EQ(labels({"apply", path("m"), two, "--trajectory", path("two.tum"), "-o", path("out")}), 0);
