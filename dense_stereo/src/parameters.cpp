@@ -18,17 +18,21 @@ const Table<Parameters>& table() {
       "dense_stereo",
       {
           {"method", &P::method, "", std::string("sgm"), false, false, {"sgm", "paper"},
-           "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison; in the command only).",
+           "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison; in "
+           "the command only).",
            "section 6.2; Hirschmueller 2008", {}, Audience::Experts},
           {"disparities", &P::disparities, "px", std::int64_t{64}, std::int64_t{16}, std::int64_t{240}, {},
            "Disparities searched, from 0, rounded up to a multiple of 16. Nearer surfaces are not matched.",
            "section 6.2"},
           {"min_component", &P::min_component, "px", std::int64_t{100}, std::int64_t{0}, std::int64_t{1000000}, {},
-           "Connected patches of similar disparity with fewer pixels than this are removed.", "section 6.2", {}, Audience::Experts},
+           "Connected patches of similar disparity with fewer pixels than this are removed.",
+           "section 6.2", {}, Audience::Experts},
           {"max_sigma", &P::max_sigma, "px", 2.0, 0.05, 100.0, {},
-           "Disparities with a larger standard deviation are invalid.", "dense_stereo/bench, accuracy", {}, Audience::Experts},
+           "Disparities with a larger standard deviation are invalid.",
+           "dense_stereo/bench, accuracy", {}, Audience::Experts},
           {"max_range", &P::max_range, "m", 5.0, 0.5, 100.0, {},
-           "Points farther from the camera than this are used neither for the ground nor for obstacles and maps. Cameras "
+           "Points farther from the camera than this are used neither for the ground nor for obstacles and maps. "
+           "Cameras "
            "of a long baseline: up to the range where 0.1 px of disparity are 5 cm of depth.",
            "section 6.2"},
           {"obstacle_height", &P::obstacle_height, "m", 0.1, 0.02, 2.0, {},

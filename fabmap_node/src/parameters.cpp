@@ -30,7 +30,8 @@ const Table<Parameters>& table() {
            "Largest number of closures proposed per metre driven.",
            "paper 4", {}, Audience::Experts},
           {"enough_closures", &P::enough_closures, "", 3.0, 0.1, 1000.0, {},
-           "No closures are proposed between two stretches of 5 m once the probabilities of those proposed add up to this number; after as many proposals, only one that is clearly likelier than all before.",
+           "No closures are proposed between two stretches of 5 m once the probabilities of those proposed add up to "
+           "this number; after as many proposals, only one that is clearly likelier than all before.",
            "paper 4", {}, Audience::Experts},
           {"mask", &P::mask, "s", 20.0, 0.0, 100000.0, {},
            "Places of the same session that are younger are no candidates.",

@@ -38,7 +38,7 @@ Trajectory twoDrives() {
   return both;
 }
 
-/// In the first drive a board of 0.5 m stands 1 m before the wall, and beams at its edges end between both.
+/// In the first drive there is a board of 0.5 m, 1 m before the wall, and beams at its edges end between both.
 void addBoard(Scan& scan) {
   const double t = urban_nav_core::secondsBetween(testing_room::kRoomStart, scan.stamp);
   if (t < 3.0 || t > 4.0) return;

@@ -33,7 +33,8 @@ const Table<Parameters>& table() {
            "Largest distance between two poses of one place: a candidate whose transform exceeds it is rejected.",
            "paper 3: places within 7.5 m, and a fifth for uncertainty"},
           {"gate", &P::gate, "", 5.0, 1.0, 1000.0, {},
-           "Largest difference of a transform from odometry and from its neighbours, in standard deviations (root mean square).",
+           "Largest difference of a transform from odometry and from its neighbours, in standard deviations (root "
+           "mean square).",
            "paper 4", {}, Audience::Experts},
       });
   return rows;

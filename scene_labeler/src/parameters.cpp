@@ -27,14 +27,16 @@ const Table<Parameters>& table() {
            "Length of the path before and after an image whose returns are projected into it.",
            "field of view of the cameras", {}, Audience::Experts},
           {"class_topic", &P::class_topic, "", "", false, false, {},
-           "Topic of class images by another source: mono8, in the frame and at the stamp of a side camera's image. Empty: none.",
+           "Topic of class images by another source: mono8, in the frame and at the stamp of a side camera's image. "
+           "Empty: none.",
            "docs/files.md"},
           {"class_file", &P::class_file, "", "", false, false, {},
            "Table id,class for the values of the class images; empty: the classes' own numbers.", "docs/files.md"},
           {"class_accuracy", &P::class_accuracy, "", 0.8, 0.2, 0.99, {},
            "Share of the pixels of class images that are right.", "assumed"},
           {"samples", &P::samples, "", std::int64_t{3000}, std::int64_t{100}, std::int64_t{100000}, {},
-           "Samples of each class that training draws from all sources together.", "scene_labeler/bench", {}, Audience::Experts},
+           "Samples of each class that training draws from all sources together.",
+           "scene_labeler/bench", {}, Audience::Experts},
       });
   return rows;
 }

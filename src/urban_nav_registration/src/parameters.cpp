@@ -37,10 +37,12 @@ const Table<Parameters>& table() {
            "Rotation between keyframes.",
            "paper 4", {"keyframe_turn", "loop_metric.keyframe_turn"}},
           {"cloud_half_length", &P::cloud_half_length, "m", 10.0, 1.0, 100.0, {},
-           "Half the length of a local cloud: it has the scans from this distance before a pose to this distance after it.",
+           "Half the length of a local cloud: it has the scans from this distance before a pose to this distance "
+           "after it.",
            "paper 4.2: a few seconds", {"cloud_way", "loop_metric.cloud_way"}},
           {"odometry_scale", &P::odometry_scale, "", 0.01, 0.0, 1.0, {},
-           "Scale error common to all steps of odometry, as a share of the distance driven; not part of the covariance of the steps.",
+           "Scale error common to all steps of odometry, as a share of the distance driven; not part of the "
+           "covariance of the steps.",
            "swf_vo.disparity_offset", {"loop_metric.odometry_scale"}},
           {"points", &P::points, "", std::int64_t{500}, std::int64_t{50}, std::int64_t{5000}, {},
            "Largest number of points of a keyframe, spread over the image.",
@@ -52,7 +54,8 @@ const Table<Parameters>& table() {
            "Largest mean reprojection error of a transform by stereo.",
            "paper 4.1", {"loop_metric.max_reprojection_error"}, Audience::Experts},
           {"min_likeness", &P::min_likeness, "", 0.5, 0.0, 1.0, {},
-           "Smallest mean correlation of patches with the other image at their predicted places; low where places are similar only in parts.",
+           "Smallest mean correlation of patches with the other image at their predicted places; low where places are "
+           "similar only in parts.",
            "src/urban_nav_registration/bench, pairs", {"loop_metric.min_likeness"}, Audience::Experts},
           withOldName(urban_nav_core::disparityOffsetRow<P>(), "loop_metric.disparity_offset"),
           withOldName(urban_nav_core::pixelNoiseFloorRow<P>(), "loop_metric.pixel_noise_floor"),
@@ -66,10 +69,12 @@ const Table<Parameters>& table() {
            "Largest number of Gauss-Newton steps at one level; fewer at convergence.",
            "paper 4.2", {"loop_metric.iterations"}, Audience::Experts},
           {"laser_bias", &P::laser_bias, "m", 0.02, 0.0, 1.0, {},
-           "Error common to all points of a cloud: free directions are detected by it, and information is limited by it. If the deformation of local clouds is known, that and their noise take its place.",
+           "Error common to all points of a cloud: free directions are detected by it, and information is limited by "
+           "it. If the deformation of local clouds is known, that and their noise take its place.",
            "data sheets: HDL-32E 2 cm, LMS 291 3.5 cm", {"loop_metric.laser_bias"}},
           {"free_deviation", &P::free_deviation, "m", 0.2, 0.001, 100.0, {},
-           "A direction that laser_bias alone could move by more than this, at the mean distance of the matches, is free: it has no information.",
+           "A direction that laser_bias alone could move by more than this, at the mean distance of the matches, is "
+           "free: it has no information.",
            "paper 4.2, Fig. 15b; measured", {"loop_metric.free_deviation"}, Audience::Experts},
           {"max_residual", &P::max_residual, "m", 0.12, 0.001, 10.0, {},
            "Largest robust standard deviation of point-to-plane distances of an accepted alignment.",
@@ -81,20 +86,26 @@ const Table<Parameters>& table() {
            "Smallest share of inliers among the surfaces of the source.",
            "paper 4.2: inlier ratio; measured", {"loop_metric.min_inliers"}, Audience::Experts},
           {"min_upright_inliers", &P::min_upright_inliers, "", 0.45, 0.0, 1.0, {},
-           "Smallest share of inliers among the vertical surfaces of the source, since ground surfaces overlap everywhere; not tested if there are few.",
+           "Smallest share of inliers among the vertical surfaces of the source, since ground surfaces overlap "
+           "everywhere; not tested if there are few.",
            "paper 4.2; measured", {"loop_metric.min_upright_inliers"}, Audience::Experts},
           {"max_misfit", &P::max_misfit, "", 1.25, 1.0, 100.0, {},
            "Local clouds: largest residual, as a multiple of what their noise and the drift of odometry explain.",
-           "paper 4.2: final residual norm; 99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds", {"loop_metric.max_misfit"}, Audience::Experts},
+           "paper 4.2: final residual norm; 99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds", {
+           "loop_metric.max_misfit"}, Audience::Experts},
           {"max_unknown_misfit", &P::max_unknown_misfit, "", 2.0, 1.0, 100.0, {},
-           "Clouds from files, whose deformation is unknown: largest residual of a pose found by the search, as a multiple of what noise and laser_bias explain.",
+           "Clouds from files, whose deformation is unknown: largest residual of a pose found by the search, as a "
+           "multiple of what noise and laser_bias explain.",
            "paper 4.2: final residual norm; measured", {"loop_metric.max_unknown_misfit"}, Audience::Experts},
           {"min_shared", &P::min_shared, "", 0.15, 0.0, 1.0, {},
-           "Local clouds: smallest share of inliers among the vertical surfaces of the source, in place of min_inliers and min_upright_inliers.",
+           "Local clouds: smallest share of inliers among the vertical surfaces of the source, in place of "
+           "min_inliers and min_upright_inliers.",
            "src/urban_nav_registration/bench, local_clouds", {"loop_metric.min_shared"}, Audience::Experts},
           {"max_seen_through", &P::max_seen_through, "", 0.12, 0.0, 1.0, {},
-           "Local clouds: largest share of vertical surfaces that beams of the other cloud passed through, among those and the coinciding ones.",
-           "99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds", {"loop_metric.max_seen_through"}, Audience::Experts},
+           "Local clouds: largest share of vertical surfaces that beams of the other cloud passed through, among "
+           "those and the coinciding ones.",
+           "99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds", {
+           "loop_metric.max_seen_through"}, Audience::Experts},
           {"min_surfels", &P::min_surfels, "", std::int64_t{25}, std::int64_t{6}, std::int64_t{1000000}, {},
            "Smallest number of surfaces with a counterpart.",
            "paper 4.2", {"loop_metric.min_surfels"}, Audience::Experts},
@@ -102,7 +113,8 @@ const Table<Parameters>& table() {
            "Radius of the global search around the guess, for the origin of the source.",
            "paper 4: closures within 7.5 m", {"loop_metric.search_radius"}, Audience::Experts},
           {"max_second", &P::max_second, "", 0.85, 0.0, 1.0, {},
-           "Largest fit of the second best, different pose of a global search relative to the best one; above it the place is ambiguous.",
+           "Largest fit of the second best, different pose of a global search relative to the best one; above it the "
+           "place is ambiguous.",
            "paper 4.2; measured", {"loop_metric.max_second"}, Audience::Experts},
       });
   return rows;
