@@ -93,7 +93,7 @@ urban_nav_msgs::GroundPlane toGroundMessage(const GroundPlane& ground, const std
       message.covariance[static_cast<std::size_t>(4 * row + column)] = ground.covariance(row, column);
   message.support = ground.support;
   message.verdict = static_cast<std::uint8_t>(ground.verdict);
-  message.sentence = ground.sentence;
+  message.message = ground.sentence;
   return message;
 }
 

@@ -12,7 +12,7 @@ from launch_case import PATIENCE, LaunchCase  # noqa: E402
 TOPICS = {
     "/vo/odometry": "nav_msgs/Odometry",
     "/vo/relative_pose": "urban_nav_msgs/RelativePose",
-    "/vo/frame": "urban_nav_msgs/VoFrame",
+    "/vo/statistics": "urban_nav_msgs/VoStatistics",
     "/vo/landmarks": "sensor_msgs/PointCloud2",
     "/vo/tracks": "sensor_msgs/Image",
     "/vo/path": "nav_msgs/Path",
@@ -24,7 +24,7 @@ TOPICS = {
     "/map/cloud": "sensor_msgs/PointCloud2",
     "/laser_mapper/status": "urban_nav_msgs/StageStatus",
     "/graph/update": "urban_nav_msgs/GraphUpdate",
-    "/graph/jump": "urban_nav_msgs/MapJump",
+    "/graph/correction": "urban_nav_msgs/PoseCorrection",
     "/graph/path": "nav_msgs/Path",
     "/graph/state": "urban_nav_msgs/GraphState",
     "/graph/markers": "visualization_msgs/MarkerArray",

@@ -16,7 +16,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock, Log
 from tf2_msgs.msg import TFMessage
-from urban_nav_msgs.msg import RelativePose, VoFrame
+from urban_nav_msgs.msg import RelativePose, VoStatistics
 
 # Debian's image_proc ships a plugin description without content; pluginlib says so whenever a nodelet is loaded.
 # Where all nodes are ended at once, a manager may be gone before those that loaded nodelets into it.
@@ -72,7 +72,7 @@ class Listener:
         self.subscribers = [
             rospy.Subscriber("vo/odometry", Odometry, self.odometry.append),
             rospy.Subscriber("vo/relative_pose", RelativePose, self.relative.append),
-            rospy.Subscriber("vo/frame", VoFrame, self.frames.append),
+            rospy.Subscriber("vo/statistics", VoStatistics, self.frames.append),
             rospy.Subscriber("/diagnostics", DiagnosticArray, self.diagnostics.append),
             rospy.Subscriber("/clock", Clock, lambda message: self.clock.append(message.clock.to_nsec())),
             rospy.Subscriber("/rosout", Log, self._log),

@@ -12,7 +12,7 @@ import rospy
 from nav_msgs.msg import Path as RosPath
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
-from urban_nav_msgs.msg import GraphState, MapJump, MetricClosure, StageStatus
+from urban_nav_msgs.msg import GraphState, PoseCorrection, MetricClosure, StageStatus
 from urban_nav_msgs.srv import GetTrajectory
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -90,7 +90,7 @@ class GraphLaunch(LaunchCase):
     def test_closures_pinch_the_trajectory_and_false_ones_do_not(self):
         states, paths, statuses = (self.listen("graph/state", GraphState), self.listen("graph/path", RosPath),
                                    self.listen("pose_graph/status", StageStatus))
-        jumps, ties = self.listen("graph/jump", MapJump), []
+        corrections, ties = self.listen("graph/correction", PoseCorrection), []
         self.listener.subscribers.append(rospy.Subscriber("/tf", TFMessage, lambda message: ties.extend(
             t for t in message.transforms if t.child_frame_id == "odom" and t.header.frame_id == "map")))
         closures = rospy.Publisher("loops/metric", MetricClosure, queue_size=100)
@@ -107,7 +107,7 @@ class GraphLaunch(LaunchCase):
         get = rospy.ServiceProxy("/pose_graph/get_trajectory", GetTrajectory)
 
         def poses():
-            return [pose_of(pose) for run in get(rospy.Time(), rospy.Time(), 0).runs for pose in run.T_map_base]
+            return [pose_of(pose) for run in get(rospy.Time(), rospy.Time(), 0).segments for pose in run.T_map_base]
         self.expect(lambda: len(poses()) == len(self.stamps), lambda: f"{len(poses())} of {len(self.stamps)} poses")
         self.expect(lambda: states and states[-1].closures == len(self.closures), lambda: f"{states[-1:]}")
         expected, verdicts = self.offline()
@@ -119,7 +119,7 @@ class GraphLaunch(LaunchCase):
         self.assertEqual(verdicts, ["accepted" if (a, b) in TRUE else "rejected" for a, b, _ in self.closures])
         self.expect(lambda: states[-1].closures_rejected + states[-1].closures_waiting == len(FALSE), lambda: f"{states[-1]}")
         np.testing.assert_allclose(live, expected, rtol=0, atol=1e-9, err_msg="the batch over the same edges, live and offline")
-        self.assertTrue(any(jump.reason_name == "Levelled" for jump in jumps), str(jumps))
+        self.assertTrue(any(correction.reason_name == "Levelled" for correction in corrections), str(corrections))
         tilt = np.degrees(np.arccos(min(1.0, live[0][2, :3] @ self.truth[0][2, :3])))
         print(f"the map is level to {tilt:.2f} deg")
         self.assertFalse(np.allclose(live[0], np.eye(4), atol=1e-9))

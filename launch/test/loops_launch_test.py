@@ -104,10 +104,10 @@ class LoopsLaunch(LaunchCase):
         found = {(closure.a.stamp, closure.b.stamp): closure for closure in closures}
         for a, b, truth in self.closures:
             closure = found[a, b]
-            self.assertEqual(closure.verdict, MetricClosure.ACCEPTED, f"{closure.reason_name}: {closure.text}")
+            self.assertEqual(closure.verdict, MetricClosure.ACCEPTED, f"{closure.reason_name}: {closure.message}")
             self.assertTrue(closure.odometry_gate)
             off = np.linalg.inv(truth) @ pose_of(closure.T_a_b)
-            print(f"{'none stereo icp'.split()[closure.method]}: {1e3 * np.linalg.norm(off[:3, 3]):.1f} mm, {closure.text}")
+            print(f"{'none stereo icp'.split()[closure.method]}: {1e3 * np.linalg.norm(off[:3, 3]):.1f} mm, {closure.message}")
             self.assertLess(np.linalg.norm(off[:3, 3]), 0.03)
             self.assertLess(np.arccos(min(1.0, (np.trace(off[:3, :3]) - 1) / 2)), np.radians(0.2))
         rejected = [closure for closure in closures if closure.verdict == MetricClosure.REJECTED]

@@ -9,7 +9,7 @@ import rosbag
 import rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CompressedImage, Image, Imu, LaserScan, NavSatFix
-from urban_nav_msgs.msg import RawFrame, VoFrame
+from urban_nav_msgs.msg import RawFrame, VoStatistics
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from graph import Launched, command, connections, subscriptions  # noqa: E402
@@ -97,7 +97,7 @@ class RobotLaunch(LaunchCase):
         out = Path(self.folder) / "again"
         subprocess.run([command(), "map", str(pairs), "--stages", "vo", "--out", str(out)], check=True, stdout=subprocess.DEVNULL)
         self.expect_bits(out)
-        self.assertEqual([frame.text for frame in self.session_frames() if frame.status == VoFrame.LOST], [])
+        self.assertEqual([frame.message for frame in self.session_frames() if frame.status == VoStatistics.LOST], [])
 
     def session_frames(self):
         """The frames of the odometry since its newest session began."""

@@ -5,7 +5,7 @@
 
 namespace pose_graph {
 
-using urban_nav_core::PoseRun;
+using urban_nav_core::TrajectorySegment;
 using urban_nav_ros::toColour;
 
 namespace {
@@ -35,8 +35,9 @@ const std::vector<Drawing>& drawings() {
 
 }  // namespace
 
-visualization_msgs::MarkerArray toMarkers(const std::vector<ClosureMarker>& closures, const std::vector<PoseRun>& runs,
-                                          urban_nav_core::StampNs stamp, const std::string& map_frame) {
+visualization_msgs::MarkerArray toMarkers(const std::vector<ClosureMarker>& closures,
+                                          const std::vector<TrajectorySegment>& runs, urban_nav_core::StampNs stamp,
+                                          const std::string& map_frame) {
   urban_nav_ros::MarkerBuilder markers(map_frame, stamp);
   for (const Drawing& drawing : drawings()) {
     std::vector<Eigen::Vector3d> points;
@@ -45,7 +46,7 @@ visualization_msgs::MarkerArray toMarkers(const std::vector<ClosureMarker>& clos
     markers.addLines(drawing.name, points, drawing.width, drawing.colour);
   }
   std::int32_t id = 0;
-  for (const PoseRun& run : runs) {
+  for (const TrajectorySegment& run : runs) {
     std::vector<Eigen::Vector3d> points;
     points.reserve(run.poses.size());
     for (const auto& pose : run.poses) points.push_back(pose.T_map_base.t());

@@ -4,7 +4,7 @@
 #include <nav_msgs/Path.h>
 #include <urban_nav_msgs/GraphState.h>
 #include <urban_nav_msgs/GraphUpdate.h>
-#include <urban_nav_msgs/MapJump.h>
+#include <urban_nav_msgs/PoseCorrection.h>
 
 #include "markers.hpp"
 #include "urban_nav_ros/graph.hpp"
@@ -15,8 +15,8 @@
 namespace pose_graph {
 
 namespace topics = urban_nav_ros::topics;
-using urban_nav_core::PoseRun;
 using urban_nav_core::StampNs;
+using urban_nav_core::TrajectorySegment;
 using urban_nav_ros::toRosTime;
 
 namespace {
@@ -45,7 +45,7 @@ urban_nav_msgs::GraphState toStateMessage(const Figures& figures, double relax_m
 Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
     : parameters_(parameters),
       update_(nh.advertise<urban_nav_msgs::GraphUpdate>(topics::kGraphUpdate, 100)),
-      jump_(nh.advertise<urban_nav_msgs::MapJump>(topics::kGraphJump, 100)),
+      correction_(nh.advertise<urban_nav_msgs::PoseCorrection>(topics::kGraphCorrection, 100)),
       path_(nh.advertise<nav_msgs::Path>(topics::kGraphPath, 1, true)),
       state_(nh.advertise<urban_nav_msgs::GraphState>(topics::kGraphState, 1, true)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>(topics::kGraphMarkers, 1, true)),
@@ -58,16 +58,18 @@ void Publisher::sendTransform(StampNs stamp) {
 void Publisher::publish(const LiveGraph::Outcome& outcome, StampNs newest, double relax_ms) {
   const std::string& frame = parameters_.map_frame;
   if (outcome.update) update_.publish(urban_nav_ros::toGraphUpdateMessage(*outcome.update, newest, frame));
-  for (const urban_nav_core::MapJump& jump : outcome.jumps) jump_.publish(urban_nav_ros::toMapJumpMessage(jump, frame));
+  for (const urban_nav_core::PoseCorrection& correction : outcome.corrections)
+    correction_.publish(urban_nav_ros::toPoseCorrectionMessage(correction, frame));
   state_.publish(toStateMessage(outcome.figures, relax_ms, newest, frame));
 }
 
 bool Publisher::isWatched() const { return path_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0; }
 
 void Publisher::publish(const LiveGraph::Picture& picture, StampNs newest) {
-  std::vector<PoseRun> drawn;
-  drawn.reserve(picture.runs.size());
-  for (const PoseRun& run : picture.runs) drawn.push_back(urban_nav_ros::thinned(run, parameters_.path_spacing));
+  std::vector<TrajectorySegment> drawn;
+  drawn.reserve(picture.segments.size());
+  for (const TrajectorySegment& run : picture.segments)
+    drawn.push_back(urban_nav_ros::thinned(run, parameters_.path_spacing));
   if (!drawn.empty()) path_.publish(urban_nav_ros::toPathMessage(drawn.back(), parameters_.map_frame));
   markers_.publish(toMarkers(picture.closures, drawn, newest, parameters_.map_frame));
 }

@@ -57,7 +57,8 @@ void getTrajectory(LiveGraph& graph, const GetTrajectory::Request& request, GetT
   const auto trajectory = graph.trajectory(toStampNs(request.from_stamp), toStampNs(request.to_stamp),
                                            static_cast<std::int64_t>(request.revision));
   response.revision = static_cast<std::uint64_t>(trajectory.revision);
-  for (const auto& run : trajectory.runs) response.runs.push_back(urban_nav_ros::toPoseRunMessage(run));
+  for (const auto& run : trajectory.segments)
+    response.segments.push_back(urban_nav_ros::toTrajectorySegmentMessage(run));
 }
 
 /// A service that the graph answers in the worker's thread.

@@ -3,7 +3,7 @@
 
 #include <nav_msgs/Odometry.h>
 #include <urban_nav_msgs/RelativePose.h>
-#include <urban_nav_msgs/VoFrame.h>
+#include <urban_nav_msgs/VoStatistics.h>
 
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/path.hpp"
@@ -29,7 +29,7 @@ Publisher::Publisher(urban_nav_ros::StageNode& node)
     : node_(node),
       odometry_(node.nh().advertise<nav_msgs::Odometry>(topics::kVoOdometry, 50)),
       relative_(node.nh().advertise<urban_nav_msgs::RelativePose>(topics::kVoRelativePose, 200)),
-      frame_(node.nh().advertise<urban_nav_msgs::VoFrame>(topics::kVoFrame, 50)),
+      frame_(node.nh().advertise<urban_nav_msgs::VoStatistics>(topics::kVoStatistics, 50)),
       landmarks_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::kVoLandmarks, 5)),
       tracks_(node.nh().advertise<sensor_msgs::Image>(topics::kVoTracks, 2)),
       path_(node.nh().advertise<nav_msgs::Path>(topics::kVoPath, 1, true)) {}
@@ -75,7 +75,7 @@ void Publisher::publishOdometry(const Frame& frame) {
 }
 
 void Publisher::publishFrame(const Frame& frame, double process_ms) {
-  urban_nav_msgs::VoFrame message;
+  urban_nav_msgs::VoStatistics message;
   message.header.stamp = toRosTime(frame.stamp);
   message.header.frame_id = frames_.camera;
   message.frame = static_cast<std::uint64_t>(frame.frame);
@@ -83,7 +83,7 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   message.status = urban_nav_ros::toMessage(frame.status.health);
   message.reason = frame.status.reason;
   message.reason_name = toString(static_cast<Reason>(frame.status.reason));
-  message.text = frame.status.sentence;
+  message.message = frame.status.sentence;
   const Statistics& figures = frame.statistics;
   message.corners = static_cast<std::uint32_t>(figures.corners);
   message.features = static_cast<std::uint32_t>(figures.features);

@@ -95,7 +95,7 @@ TEST_F(DenseStereoNodelet, PublishesWhatTheCoreComputes) {
     EXPECT_FLOAT_EQ(disparity.T, static_cast<float>(camera().baseline));
     EXPECT_EQ(disparity.max_disparity, 63.0F);
     const urban_nav_msgs::GroundPlane& ground = graph.grounds[n];
-    ASSERT_EQ(ground.verdict, urban_nav_msgs::GroundPlane::FOUND) << ground.sentence;
+    ASSERT_EQ(ground.verdict, urban_nav_msgs::GroundPlane::FOUND) << ground.message;
     EXPECT_EQ(ground.height, scene.ground.height);
     EXPECT_EQ(ground.up.y, scene.ground.up.y());
     EXPECT_NEAR(ground.height, kCameraHeight, 0.02);

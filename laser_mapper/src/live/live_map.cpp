@@ -110,7 +110,7 @@ void LiveMap::addStep(const urban_nav_core::RelativePose& step) {
 void LiveMap::addGraph(const urban_nav_core::GraphUpdate& update) {
   if (revision_ && update.previous != *revision_) ++counts_.updates_missed;
   revision_ = update.revision;
-  for (const urban_nav_core::PoseRun& run : update.runs)
+  for (const urban_nav_core::TrajectorySegment& run : update.segments)
     for (const urban_nav_core::StampedMapPose& pose : run.poses) T_map_base_[pose.stamp] = pose.T_map_base;
 }
 

@@ -56,9 +56,9 @@ TEST_F(LiveMapTest, FollowsThePosesOfTheGraphAndRendersOnlyWhatMoved) {
   map_.render();
   urban_nav_core::GraphUpdate update;
   update.revision = 1;
-  update.runs.emplace_back();
+  update.segments.emplace_back();
   for (std::size_t i = 0; i < trajectory_.size(); i += 10)
-    update.runs.back().poses.push_back({trajectory_[i].stamp, trajectory_[i].pose});
+    update.segments.back().poses.push_back({trajectory_[i].stamp, trajectory_[i].pose});
   map_.addGraph(update);
   EXPECT_LT(median(map_.render(), Pose()), 0.003);
   EXPECT_EQ(map_.counts().chunks_rendered, map_.counts().chunks);

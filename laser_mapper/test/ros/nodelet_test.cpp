@@ -98,9 +98,9 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     urban_nav_core::GraphUpdate update;
     update.revision = revision;
     update.previous = revision - 1;
-    update.runs.emplace_back();
+    update.segments.emplace_back();
     for (int i = 0; i < kFrames; ++i)
-      update.runs.back().poses.push_back(
+      update.segments.back().poses.push_back(
           {toStamp(i), Pose(Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, dz)) * T_odom_base(i)});
     graph_.publish(urban_nav_ros::toGraphUpdateMessage(update, toStamp(kFrames - 1), "map"));
   }
@@ -240,7 +240,7 @@ TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {
   ASSERT_TRUE(
       WallRobot::until([&] { return !robot.statuses.empty() && robot.statuses.back().reason_name == "NoOdometry"; }));
   EXPECT_EQ(robot.statuses.back().status, urban_nav_msgs::StageStatus::DEGRADED);
-  EXPECT_NE(robot.statuses.back().text.find("/vo/odometry"), std::string::npos) << robot.statuses.back().text;
+  EXPECT_NE(robot.statuses.back().message.find("/vo/odometry"), std::string::npos) << robot.statuses.back().message;
 }
 
 TEST(LaserMapperNodelet, PlanesOfTwoRoundsConstrainThePosesOfTheGraph) {

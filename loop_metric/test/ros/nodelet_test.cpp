@@ -81,7 +81,7 @@ class LoopMetricNodelet : public ::testing::Test {
   }
   std::string toId(StampNs first) { return urban_nav_store::makeSessionId({"lisa", "", first, ""}); }
   void expectTrue(const MetricClosure& closure, int a, int b) {
-    EXPECT_EQ(closure.verdict, MetricClosure::ACCEPTED) << closure.reason_name << ": " << closure.text;
+    EXPECT_EQ(closure.verdict, MetricClosure::ACCEPTED) << closure.reason_name << ": " << closure.message;
     EXPECT_EQ(closure.method, MetricClosure::STEREO);
     EXPECT_EQ(closure.source, "loop_metric");
     const Pose T_a_b = *urban_nav_ros::toPose(closure.T_a_b);
@@ -92,8 +92,8 @@ class LoopMetricNodelet : public ::testing::Test {
   }
   void expectRejected(const MetricClosure& closure, const std::string& reason) {
     EXPECT_EQ(closure.verdict, MetricClosure::REJECTED);
-    EXPECT_EQ(closure.reason_name, reason) << closure.text;
-    EXPECT_FALSE(closure.text.empty());
+    EXPECT_EQ(closure.reason_name, reason) << closure.message;
+    EXPECT_FALSE(closure.message.empty());
     for (const double each : closure.information) EXPECT_EQ(each, 0.0);
   }
 
@@ -213,7 +213,7 @@ TEST_F(LoopMetricNodelet, LasersThatDoNotComeAreNamed) {
   const auto& status = robot().statuses.back();
   EXPECT_EQ(status.stage, "loop_metric");
   EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
-  EXPECT_NE(status.text.find("/laser_left/scan has not come"), std::string::npos) << status.text;
+  EXPECT_NE(status.message.find("/laser_left/scan has not come"), std::string::npos) << status.message;
 }
 
 TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
@@ -224,10 +224,10 @@ TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
     robot().recognise(3, kLap + 3);
     ASSERT_TRUE(robot().judged(1));
     EXPECT_EQ(robot().closures[0].verdict, MetricClosure::REJECTED);
-    EXPECT_NE(robot().closures[0].text.find("the disk is full"), std::string::npos) << robot().closures[0].text;
+    EXPECT_NE(robot().closures[0].message.find("the disk is full"), std::string::npos) << robot().closures[0].message;
     const auto& status = robot().statuses.back();
     EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
-    EXPECT_NE(status.text.find("the disk is full"), std::string::npos) << status.text;
+    EXPECT_NE(status.message.find("the disk is full"), std::string::npos) << status.message;
     EXPECT_TRUE(
         Robot::until([&] { return std::atol(robot().diagnosis("store: writes that wait").c_str()) > kLap / 2; }));
     EXPECT_EQ(robot().diagnosis("store: writes lost"), "0");

@@ -35,7 +35,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   recognise(a, b);
   ASSERT_TRUE(robot.judged(1));
   const MetricClosure first = robot.closures[0];
-  ASSERT_EQ(first.verdict, MetricClosure::ACCEPTED) << first.reason_name << ": " << first.text << "\n"
+  ASSERT_EQ(first.verdict, MetricClosure::ACCEPTED) << first.reason_name << ": " << first.message << "\n"
                                                     << first.evidence;
   EXPECT_EQ(first.method, MetricClosure::ICP);
   EXPECT_TRUE(first.odometry_gate);
@@ -68,7 +68,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   recognise(a - 5, b + 5);
   ASSERT_TRUE(robot.judged(2));
   const MetricClosure& second = robot.closures[1];
-  ASSERT_EQ(second.verdict, MetricClosure::ACCEPTED) << second.reason_name << ": " << second.text;
+  ASSERT_EQ(second.verdict, MetricClosure::ACCEPTED) << second.reason_name << ": " << second.message;
   EXPECT_EQ(second.method, MetricClosure::ICP);
   const double share = toInformation(second).trace() / toInformation(first).trace();
   EXPECT_GT(share, 0.01);

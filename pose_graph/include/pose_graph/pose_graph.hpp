@@ -40,17 +40,17 @@ enum class Trouble : int {
 };
 const char* toString(Trouble trouble);
 
-/// Why the newest pose jumped: the reason on graph/jump.
-enum class JumpReason : int {
+/// Why the newest pose jumped: the reason on graph/correction.
+enum class CorrectionReason : int {
   None = 0,
-  Believed,   ///< closures that were not believed before: the witnesses
-  Asserted,   ///< the same, and one of them was asserted by hand
-  Withdrawn,  ///< closures that were believed no longer are: the witnesses
-  Removed,    ///< closures that were believed were removed by hand: the witnesses
-  Refined,    ///< none of these: relaxed from the measurements alone, the graph lies elsewhere
-  Levelled,   ///< which way is up is known now: the map was turned about its first pose
+  ClosuresAccepted,  ///< newly accepted closures: the causing edges
+  ClosureAsserted,   ///< the same, and one of them was asserted by hand
+  ClosuresRejected,  ///< closures that were accepted before: the causing edges
+  ClosuresRemoved,   ///< accepted closures removed by hand: the causing edges
+  Refined,           ///< none of these: relaxed from the measurements alone, the graph lies elsewhere
+  Levelled,          ///< which way is up is known now: the map was turned about its first pose
 };
-const char* toString(JumpReason reason);
+const char* toString(CorrectionReason reason);
 
 /// A closure, as offered and as judged.
 struct Closure {
@@ -92,16 +92,16 @@ struct Relaxed {
     std::size_t track = 0, first = 0, last = 0;
   };
   std::vector<Run> moved;
-  /// How the newest pose of the running session jumped, if by more than that: for graph/jump.
-  struct Jump {
+  /// How the newest pose of the running session jumped, if by more than that: for graph/correction.
+  struct Correction {
     NodeRef at;
     Pose before, after;  ///< T_map_base
     double distance = 0.0, angle = 0.0;
-    JumpReason reason = JumpReason::None;
+    CorrectionReason reason = CorrectionReason::None;
     std::string sentence;
-    std::vector<Closure> witnesses;  ///< as the reason has it
+    std::vector<Closure> causing_edges;  ///< as the reason has it
   };
-  std::optional<Jump> jump;
+  std::optional<Correction> correction;
   bool needs_batch = false;  ///< update() met a closure that disagrees
 };
 
@@ -136,7 +136,8 @@ class PoseGraph {
   /// A session begins; UserError where it has begun already.
   void beginSession(const SessionId& session);
   bool hasSession(const SessionId& session) const;
-  /// The session that is being recorded, whose jumps are reported: the one that began last, unless it is said here.
+  /// The session that is being recorded, whose corrections are reported: the one that began last, unless it is said
+  /// here.
   void goOn(const SessionId& session);
 
   /// The next step of a session's chain. The first one makes two poses. A step that does not begin at the session's

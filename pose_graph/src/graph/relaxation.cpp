@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "graph/correction_reason.hpp"
 #include "graph/jump_gate.hpp"
-#include "graph/jump_reason.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "solve/normal_equations.hpp"
@@ -174,14 +174,14 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Befor
                angle = angleBetween(*before.newest, track.map.back());
   const bool is_small = distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * kDegree;
   if (is_small && !levelled) return;
-  Relaxed::Jump jump;
-  jump.at = {track.session, track.stamps.back()};
-  jump.before = *before.newest;
-  jump.after = track.map.back();
-  jump.distance = distance;
-  jump.angle = angle;
-  explain(jump, before.accepted, removed, closures_, levelled);
-  made.jump = std::move(jump);
+  Relaxed::Correction correction;
+  correction.at = {track.session, track.stamps.back()};
+  correction.before = *before.newest;
+  correction.after = track.map.back();
+  correction.distance = distance;
+  correction.angle = angle;
+  explain(correction, before.accepted, removed, closures_, levelled);
+  made.correction = std::move(correction);
 }
 
 std::vector<int> PoseGraph::partNumbers() const {

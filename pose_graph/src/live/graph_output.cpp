@@ -8,7 +8,7 @@
 
 namespace pose_graph {
 
-using urban_nav_core::PoseRun;
+using urban_nav_core::TrajectorySegment;
 
 namespace {
 
@@ -33,17 +33,17 @@ std::optional<Eigen::Vector3d> findPosition(const PoseGraph& graph, const NodeRe
   return track->map[i].t();
 }
 
-urban_nav_core::MapJump toMapJump(const Relaxed& relaxed) {
-  urban_nav_core::MapJump jump;
-  jump.revision = relaxed.revision;
-  jump.at = toPoseRef(relaxed.jump->at);
-  jump.T_map_base_before = relaxed.jump->before;
-  jump.T_map_base_after = relaxed.jump->after;
-  jump.reason = static_cast<int>(relaxed.jump->reason);
-  jump.reason_name = toString(relaxed.jump->reason);
-  jump.sentence = relaxed.jump->sentence;
-  for (const Closure& witness : relaxed.jump->witnesses) jump.witnesses.push_back(toEdgeRef(witness));
-  return jump;
+urban_nav_core::PoseCorrection toPoseCorrection(const Relaxed& relaxed) {
+  urban_nav_core::PoseCorrection correction;
+  correction.revision = relaxed.revision;
+  correction.at = toPoseRef(relaxed.correction->at);
+  correction.T_map_base_before = relaxed.correction->before;
+  correction.T_map_base_after = relaxed.correction->after;
+  correction.reason = static_cast<int>(relaxed.correction->reason);
+  correction.reason_name = toString(relaxed.correction->reason);
+  correction.sentence = relaxed.correction->sentence;
+  for (const Closure& edge : relaxed.correction->causing_edges) correction.causing_edges.push_back(toEdgeRef(edge));
+  return correction;
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ std::size_t findPose(const Track& track, StampNs stamp) {
                                   track.stamps.begin());
 }
 
-PoseRun toPoseRun(const Track& track, const PoseRevisions::Range& range) {
-  PoseRun run;
+TrajectorySegment toTrajectorySegment(const Track& track, const PoseRevisions::Range& range) {
+  TrajectorySegment run;
   run.session = track.session;
   run.poses.reserve(range.second - range.first + 1);
   for (std::size_t i = range.first; i <= range.second; ++i) run.poses.push_back({track.stamps[i], track.map[i]});
@@ -81,9 +81,9 @@ LiveGraph::Outcome toOutcome(const Relaxed& relaxed, const PoseGraph& graph) {
   update.revision = relaxed.revision;
   update.previous = relaxed.revision - 1;
   for (const Relaxed::Run& run : relaxed.moved)
-    update.runs.push_back(toPoseRun(graph.tracks()[run.track], {run.first, run.last}));
-  if (!update.runs.empty()) outcome.update = std::move(update);
-  if (relaxed.jump) outcome.jumps.push_back(toMapJump(relaxed));
+    update.segments.push_back(toTrajectorySegment(graph.tracks()[run.track], {run.first, run.last}));
+  if (!update.segments.empty()) outcome.update = std::move(update);
+  if (relaxed.correction) outcome.corrections.push_back(toPoseCorrection(relaxed));
   Figures& figures = outcome.figures;
   figures.revision = relaxed.revision;
   figures.sessions = static_cast<std::int64_t>(graph.tracks().size());
@@ -105,9 +105,9 @@ LiveGraph::Picture toPicture(const PoseGraph& graph, const SessionId& running) {
   for (const Track& track : graph.tracks()) {
     if (track.stamps.empty()) continue;
     if (track.session == running) last = &track;
-    else picture.runs.push_back(toPoseRun(track, {0, track.stamps.size() - 1}));
+    else picture.segments.push_back(toTrajectorySegment(track, {0, track.stamps.size() - 1}));
   }
-  if (last != nullptr) picture.runs.push_back(toPoseRun(*last, {0, last->stamps.size() - 1}));
+  if (last != nullptr) picture.segments.push_back(toTrajectorySegment(*last, {0, last->stamps.size() - 1}));
   for (const auto& [id, closure] : graph.closures()) {
     const auto a = findPosition(graph, closure.a), b = findPosition(graph, closure.b);
     if (a && b) picture.closures.push_back({*a, *b, toStyle(closure)});
@@ -125,7 +125,7 @@ LiveGraph::Trajectory toTrajectory(const PoseGraph& graph, const std::vector<Pos
     const std::size_t end = to > 0 ? findPose(track, to + 1) : track.stamps.size();
     // Without a revision all poses are returned, those of revision 0 included.
     for (const PoseRevisions::Range& range : revisions[i].movedSince(since > 0 ? since : -1, first, end))
-      trajectory.runs.push_back(toPoseRun(track, range));
+      trajectory.segments.push_back(toTrajectorySegment(track, range));
   }
   return trajectory;
 }

@@ -17,7 +17,7 @@ urban_nav_core::EdgeRef toEdgeRef(const Closure& closure);
 std::size_t findPose(const Track& track, StampNs stamp);
 
 /// Returns a range of a track's poses in the map.
-urban_nav_core::PoseRun toPoseRun(const Track& track, const PoseRevisions::Range& range);
+urban_nav_core::TrajectorySegment toTrajectorySegment(const Track& track, const PoseRevisions::Range& range);
 
 /// Converts what a relaxation did; without status.
 LiveGraph::Outcome toOutcome(const Relaxed& relaxed, const PoseGraph& graph);

@@ -42,7 +42,7 @@ class LiveGraph {
  public:
   struct Outcome {
     std::optional<urban_nav_core::GraphUpdate> update;  ///< empty: no pose moved
-    std::vector<urban_nav_core::MapJump> jumps;
+    std::vector<urban_nav_core::PoseCorrection> corrections;
     Figures figures;
     urban_nav_core::Status status;
     std::string reason_name;
@@ -54,10 +54,10 @@ class LiveGraph {
   };
   struct Trajectory {
     std::int64_t revision = 0;
-    std::vector<urban_nav_core::PoseRun> runs;
+    std::vector<urban_nav_core::TrajectorySegment> segments;
   };
   struct Picture {
-    std::vector<urban_nav_core::PoseRun> runs;  ///< the running session last
+    std::vector<urban_nav_core::TrajectorySegment> segments;  ///< the running session last
     std::vector<ClosureMarker> closures;
   };
   /// Batch relaxation: from the edges alone, as the offline run.

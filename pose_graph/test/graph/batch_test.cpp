@@ -78,7 +78,7 @@ TEST(Batch, ASessionThatBeganAndJoinedMeanwhileStaysInTheMap) {
   run(batch);
   const Relaxed taken = live.take(batch);
   EXPECT_EQ(taken.parts, 1);
-  EXPECT_FALSE(taken.jump);
+  EXPECT_FALSE(taken.correction);
   EXPECT_TRUE(isApprox(live.tracks()[1].map.back(), before, 1e-2));
 }
 

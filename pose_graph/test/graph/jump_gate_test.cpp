@@ -57,8 +57,8 @@ TEST(JumpGate, ASecondOneThatAgreesEndsTheWaitAtOnce) {
   EXPECT_FALSE(both.needs_batch);
   EXPECT_TRUE(isAccepted(live, first));
   EXPECT_TRUE(isAccepted(live, second));
-  ASSERT_TRUE(both.jump);
-  EXPECT_EQ(both.jump->witnesses.size(), 2u);
+  ASSERT_TRUE(both.correction);
+  EXPECT_EQ(both.correction->causing_edges.size(), 2u);
   for (const int a : {20, 50}) batch.addClosure(large(a));
   EXPECT_EQ(batch.relax().accepted, 2u);
   for (std::size_t i = 0; i < live.tracks()[0].map.size(); i += 10)

@@ -59,10 +59,10 @@ TEST(Levelling, TurnsTheMapAboutItsFirstPoseOnceItIsKnown) {
   EXPECT_TRUE(graph.isLevel("a"));
   EXPECT_LT(computeTilt(graph), 0.01);
   EXPECT_EQ(graph.tracks()[0].map.front().t(), Eigen::Vector3d::Zero().eval());
-  ASSERT_TRUE(levelled->jump);
-  EXPECT_EQ(levelled->jump->reason, JumpReason::Levelled);
-  EXPECT_TRUE(levelled->jump->witnesses.empty());
-  EXPECT_TRUE(isApprox(levelled->jump->before, before, 0.0));
+  ASSERT_TRUE(levelled->correction);
+  EXPECT_EQ(levelled->correction->reason, CorrectionReason::Levelled);
+  EXPECT_TRUE(levelled->correction->causing_edges.empty());
+  EXPECT_TRUE(isApprox(levelled->correction->before, before, 0.0));
   ASSERT_EQ(levelled->moved.size(), 1u);
   EXPECT_EQ(levelled->moved[0].last, 2u * kLap);
   EXPECT_FALSE(graph.level()) << "once";

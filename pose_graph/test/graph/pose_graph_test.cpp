@@ -83,9 +83,9 @@ TEST(PoseGraph, ClosesALoop) {
   EXPECT_EQ(relaxed.revision, 1);
   EXPECT_LT(relaxed.cost_after, relaxed.cost_before);
   EXPECT_LT(worstError(graph.tracks()[0], 0), 0.7 * before);
-  ASSERT_TRUE(relaxed.jump);
-  EXPECT_EQ(relaxed.jump->reason, JumpReason::Believed);
-  EXPECT_EQ(relaxed.jump->witnesses.size(), 10u);
+  ASSERT_TRUE(relaxed.correction);
+  EXPECT_EQ(relaxed.correction->reason, CorrectionReason::ClosuresAccepted);
+  EXPECT_EQ(relaxed.correction->causing_edges.size(), 10u);
   ASSERT_FALSE(relaxed.moved.empty());
 }
 
@@ -98,24 +98,24 @@ TEST(PoseGraph, SaysWhyTheRobotJumped) {
   graph.removeClosure(first);
   EXPECT_TRUE(graph.removeClosure(second));
   const Relaxed without = graph.relax();
-  ASSERT_TRUE(without.jump);
-  EXPECT_EQ(without.jump->reason, JumpReason::Removed);
-  ASSERT_EQ(without.jump->witnesses.size(), 2u);
-  EXPECT_EQ(without.jump->witnesses[1].a.stamp, 300 * kNodeStep);
+  ASSERT_TRUE(without.correction);
+  EXPECT_EQ(without.correction->reason, CorrectionReason::ClosuresRemoved);
+  ASSERT_EQ(without.correction->causing_edges.size(), 2u);
+  EXPECT_EQ(without.correction->causing_edges[1].a.stamp, 300 * kNodeStep);
 
   Closure asserted = closureBetween("a", 20, "a", 20 + kRound);
   asserted.kind = EdgeKind::Asserted;
   graph.addClosure(asserted);
   const Relaxed by_hand = graph.relax();
-  ASSERT_TRUE(by_hand.jump);
-  EXPECT_EQ(by_hand.jump->reason, JumpReason::Asserted);
-  EXPECT_EQ(by_hand.jump->witnesses.size(), 1u);
+  ASSERT_TRUE(by_hand.correction);
+  EXPECT_EQ(by_hand.correction->reason, CorrectionReason::ClosureAsserted);
+  EXPECT_EQ(by_hand.correction->causing_edges.size(), 1u);
 
-  // Whoever is not being recorded does not jump, and neither does one who stays where he is.
-  EXPECT_FALSE(graph.relax().jump);
+  // Whoever is not being recorded is not corrected, and neither does one who stays where he is.
+  EXPECT_FALSE(graph.relax().correction);
   graph.beginSession("b");
   graph.removeClosure(*graph.findClosure(asserted.a, asserted.b, EdgeKind::Asserted, asserted.source));
-  EXPECT_FALSE(graph.relax().jump);
+  EXPECT_FALSE(graph.relax().correction);
 }
 
 TEST(PoseGraph, ReferenceSolversReachTheSameCost) {

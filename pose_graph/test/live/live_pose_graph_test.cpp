@@ -68,12 +68,12 @@ class LivePoseGraphTest : public ::testing::Test {
   }
   /// Tilt of the map, rad.
   static double tilt(const LivePoseGraph& graph) {
-    const Pose first = graph.trajectory(0, 0, 0).runs[0].poses[0].T_map_base;
+    const Pose first = graph.trajectory(0, 0, 0).segments[0].poses[0].T_map_base;
     return (first.R() * kUp - Eigen::Vector3d::UnitZ()).norm();
   }
   static std::size_t countPoses(const LivePoseGraph& graph) {
     std::size_t poses = 0;
-    for (const auto& run : graph.trajectory(0, 0, 0).runs) poses += run.poses.size();
+    for (const auto& run : graph.trajectory(0, 0, 0).segments) poses += run.poses.size();
     return poses;
   }
   static void relaxAll(LivePoseGraph& graph) {
@@ -94,13 +94,13 @@ class LivePoseGraphTest : public ::testing::Test {
     return readGraph(store);
   }
   static void expectSame(const LiveGraph::Trajectory& a, const LiveGraph::Trajectory& b) {
-    ASSERT_EQ(a.runs.size(), b.runs.size());
-    for (std::size_t r = 0; r < a.runs.size(); ++r) {
-      EXPECT_EQ(a.runs[r].session, b.runs[r].session);
-      ASSERT_EQ(a.runs[r].poses.size(), b.runs[r].poses.size());
-      for (std::size_t i = 0; i < a.runs[r].poses.size(); ++i) {
-        EXPECT_EQ(a.runs[r].poses[i].T_map_base.t(), b.runs[r].poses[i].T_map_base.t());
-        EXPECT_EQ(a.runs[r].poses[i].T_map_base.q().coeffs(), b.runs[r].poses[i].T_map_base.q().coeffs());
+    ASSERT_EQ(a.segments.size(), b.segments.size());
+    for (std::size_t r = 0; r < a.segments.size(); ++r) {
+      EXPECT_EQ(a.segments[r].session, b.segments[r].session);
+      ASSERT_EQ(a.segments[r].poses.size(), b.segments[r].poses.size());
+      for (std::size_t i = 0; i < a.segments[r].poses.size(); ++i) {
+        EXPECT_EQ(a.segments[r].poses[i].T_map_base.t(), b.segments[r].poses[i].T_map_base.t());
+        EXPECT_EQ(a.segments[r].poses[i].T_map_base.q().coeffs(), b.segments[r].poses[i].T_map_base.q().coeffs());
       }
     }
   }
@@ -113,7 +113,7 @@ TEST_F(LivePoseGraphTest, TheIdOfASessionHasRobotAndRecording) {
   const auto id = [](const std::string& robot, const std::string& recording) {
     LivePoseGraph graph(Parameters(), robot, recording);
     drive(graph, 0, 1);
-    return graph.trajectory(0, 0, 0).runs.at(0).session;
+    return graph.trajectory(0, 0, 0).segments.at(0).session;
   };
   EXPECT_EQ(id("lisa", "monday"), id("lisa", "monday"));
   EXPECT_NE(id("lisa", "monday"), id("bart", "monday"));
@@ -154,13 +154,13 @@ TEST_F(LivePoseGraphTest, ASessionResumesAfterItsNewestPose) {
 TEST_F(LivePoseGraphTest, AnotherRecordingIsAnotherSessionThatJoinsTheMapByClosures) {
   auto first = begin();
   drive(*first, 0, 2 * kLap);
-  const SessionId earlier = first->trajectory(0, 0, 0).runs[0].session;
+  const SessionId earlier = first->trajectory(0, 0, 0).segments[0].session;
   first.reset();
   auto second = begin("tuesday");
   EXPECT_TRUE(second->isBatchPending());
   drive(*second, 0, 2 * kLap);
   relaxAll(*second);
-  EXPECT_EQ(second->trajectory(0, 0, 0).runs.size(), 2u);
+  EXPECT_EQ(second->trajectory(0, 0, 0).segments.size(), 2u);
   EXPECT_EQ(second->status().reason, static_cast<int>(Trouble::Separate));
   for (int i : {10, 60, 90}) second->add(seenAgain(i, i + kLap, earlier));
   relaxAll(*second);
@@ -175,7 +175,7 @@ TEST_F(LivePoseGraphTest, AnotherRecordingIsAnotherSessionThatJoinsTheMapByClosu
 TEST_F(LivePoseGraphTest, ABagThatIsLoopedIsASessionEachTime) {
   auto graph = begin();
   for (int round = 0; round < 3; ++round) drive(*graph, 0, 30);
-  EXPECT_EQ(graph->trajectory(0, 0, 0).runs.size(), 3u);
+  EXPECT_EQ(graph->trajectory(0, 0, 0).segments.size(), 3u);
   graph->reset();
   EXPECT_EQ(countPoses(*graph), 0u);
   drive(*graph, 0, 5);
@@ -303,10 +303,10 @@ TEST_F(LivePoseGraphTest, LevelsOnceItIsKnownWhichWayIsUp) {
   drive(*graph, 100, 3 * kLap);
   ASSERT_TRUE(graph->isRelaxationPending());
   const LiveGraph::Outcome outcome = graph->relax();
-  ASSERT_EQ(outcome.jumps.size(), 1u);
-  EXPECT_EQ(outcome.jumps[0].reason_name, "Levelled");
+  ASSERT_EQ(outcome.corrections.size(), 1u);
+  EXPECT_EQ(outcome.corrections[0].reason_name, "Levelled");
   ASSERT_TRUE(outcome.update);
-  EXPECT_GT(outcome.update->runs[0].poses.size(), 100u) << "all of them";
+  EXPECT_GT(outcome.update->segments[0].poses.size(), 100u) << "all of them";
   EXPECT_FALSE(graph->isRelaxationPending()) << "once";
 }
 
@@ -316,7 +316,7 @@ TEST_F(LivePoseGraphTest, ForcesLevelTheMapAfterARestartToo) {
   drive(*graph, 0, 3 * kLap);
   relaxAll(*graph);
   const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
-  EXPECT_FALSE(isApprox(before.runs[0].poses[0].T_map_base, Pose(), 1e-3));
+  EXPECT_FALSE(isApprox(before.segments[0].poses[0].T_map_base, Pose(), 1e-3));
   graph.reset();
   ASSERT_EQ(stored().chains.size(), 1u);
   EXPECT_EQ(stored().chains[0].forces.size(), 3u * kLap + 1);
@@ -332,8 +332,8 @@ TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   drive(*graph, 0, 2 * kLap);
   ASSERT_TRUE(graph->isRelaxationPending());
   const LiveGraph::Outcome outcome = graph->relax();
-  ASSERT_EQ(outcome.jumps.size(), 1u);
-  EXPECT_EQ(outcome.jumps[0].reason_name, "Levelled");
+  ASSERT_EQ(outcome.corrections.size(), 1u);
+  EXPECT_EQ(outcome.corrections[0].reason_name, "Levelled");
   EXPECT_LT(tilt(*graph), 0.02);
   relaxAll(*graph);
   EXPECT_LT(tilt(*graph), 0.02);
@@ -389,7 +389,7 @@ TEST_F(LivePoseGraphTest, FixesBendTheWayAndAreThereAfterARestart) {
   graph->syncStore();
   const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
   Track track;
-  for (const auto& pose : before.runs.at(0).poses) track.map.push_back(pose.T_map_base);
+  for (const auto& pose : before.segments.at(0).poses) track.map.push_back(pose.T_map_base);
   EXPECT_LT(testing::positionError(way, track),
             0.5 * testing::positionError(way, testing::relaxDrive(way, false).tracks()[0]));
   graph.reset();
@@ -415,7 +415,7 @@ TEST_F(LivePoseGraphTest, MapFromOdomIsThatOfTheStampWhereverOdomBegins) {
   }
   graph->add(seenAgain(10, 10 + kLap - 40));
   relaxAll(*graph);
-  const auto newest = graph->trajectory(0, 0, 0).runs[0].poses.back();
+  const auto newest = graph->trajectory(0, 0, 0).segments[0].poses.back();
   EXPECT_TRUE(isApprox(*graph->T_map_odom() * odometry[static_cast<std::size_t>(newest.stamp / kPeriod)],
                        newest.T_map_base, 1e-9));
 }

@@ -8,8 +8,8 @@
 #include <urban_nav_msgs/GraphState.h>
 #include <urban_nav_msgs/GraphUpdate.h>
 #include <urban_nav_msgs/GroundPlane.h>
-#include <urban_nav_msgs/MapJump.h>
 #include <urban_nav_msgs/MetricClosure.h>
+#include <urban_nav_msgs/PoseCorrection.h>
 #include <urban_nav_msgs/RelativeConstraint.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
@@ -26,7 +26,7 @@ class Listener : public urban_nav_ros::testing::Listener {
  public:
   Listener() : urban_nav_ros::testing::Listener("pose_graph") {
     keep("graph/update", updates);
-    keep("graph/jump", jumps);
+    keep("graph/correction", corrections);
     keep("graph/path", paths);
     keep("graph/state", states);
     keep("graph/markers", markers);
@@ -39,7 +39,7 @@ class Listener : public urban_nav_ros::testing::Listener {
   void forget() {
     ros::spinOnce();
     updates.clear();
-    jumps.clear();
+    corrections.clear();
     paths.clear();
     states.clear();
     markers.clear();
@@ -54,7 +54,7 @@ class Listener : public urban_nav_ros::testing::Listener {
   ros::Publisher fixes = advertise<sensor_msgs::NavSatFix>("gps/fix");
   ros::Publisher ground = advertise<urban_nav_msgs::GroundPlane>("stereo/ground_plane");
   std::vector<urban_nav_msgs::GraphUpdate> updates;
-  std::vector<urban_nav_msgs::MapJump> jumps;
+  std::vector<urban_nav_msgs::PoseCorrection> corrections;
   std::vector<nav_msgs::Path> paths;
   std::vector<urban_nav_msgs::GraphState> states;
   std::vector<visualization_msgs::MarkerArray> markers;

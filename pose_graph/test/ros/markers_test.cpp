@@ -7,11 +7,11 @@ namespace pose_graph {
 namespace {
 
 using urban_nav_core::Pose;
-using urban_nav_core::PoseRun;
 using urban_nav_core::Quaterniond;
+using urban_nav_core::TrajectorySegment;
 
-PoseRun straight(int poses, double step) {
-  PoseRun run;
+TrajectorySegment straight(int poses, double step) {
+  TrajectorySegment run;
   run.session = "s";
   for (int i = 0; i < poses; ++i) run.poses.push_back({i, Pose(Quaterniond::Identity(), {step * i, 0, 0})});
   return run;

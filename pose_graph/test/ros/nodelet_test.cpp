@@ -95,7 +95,7 @@ class PoseGraphNodelet : public ::testing::Test {
   }
   std::size_t poses(std::uint64_t since = 0) {
     std::size_t count = 0;
-    for (const auto& run : trajectory(since).runs) count += run.stamps.size();
+    for (const auto& run : trajectory(since).segments) count += run.stamps.size();
     return count;
   }
   bool driven(int count) {
@@ -147,10 +147,10 @@ TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   for (int i = 1; i <= kPoses; ++i) publish(i);
   ros::WallDuration(0.2).sleep();  // topics have no order among each other
   drive(0, kPoses);
-  const auto isLevelled = [](const auto& jump) { return jump.reason_name == "Levelled"; };
-  EXPECT_TRUE(
-      Listener::until([&] { return std::any_of(listener().jumps.begin(), listener().jumps.end(), isLevelled); }));
-  const auto runs = trajectory().runs;
+  const auto isLevelled = [](const auto& correction) { return correction.reason_name == "Levelled"; };
+  EXPECT_TRUE(Listener::until(
+      [&] { return std::any_of(listener().corrections.begin(), listener().corrections.end(), isLevelled); }));
+  const auto runs = trajectory().segments;
   ASSERT_FALSE(runs.empty());
   const Pose first = *urban_nav_ros::toPose(runs[0].T_map_base[0]);
   EXPECT_LT((first.R() * up - Eigen::Vector3d::UnitZ()).norm(), 0.01);
@@ -168,9 +168,9 @@ TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
   ASSERT_TRUE(update);
   EXPECT_EQ(update->revision, static_cast<std::int64_t>(listener().states.back().revision));
   EXPECT_EQ(listener().updates.back().header.frame_id, "map");
-  ASSERT_FALSE(update->runs.empty());
-  EXPECT_EQ(update->runs.back().poses.back().stamp, toStamp(kLap));
-  EXPECT_LT(update->runs.back().poses.back().T_map_base.t().norm(), 0.1);
+  ASSERT_FALSE(update->segments.empty());
+  EXPECT_EQ(update->segments.back().poses.back().stamp, toStamp(kLap));
+  EXPECT_LT(update->segments.back().poses.back().T_map_base.t().norm(), 0.1);
   ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(kLap) * odomPose(kLap)).t().norm() < 0.1; }));
 
   const auto& state = listener().states.back();
@@ -179,13 +179,13 @@ TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
   EXPECT_EQ(state.closures_rejected, 0U);
   EXPECT_LT(state.cost_after, state.cost_before);
   EXPECT_GT(state.relax_ms, 0.0);
-  ASSERT_TRUE(Listener::until([&] { return !listener().jumps.empty(); }));
-  EXPECT_NEAR(listener().jumps.back().distance, odomPose(kLap).t().norm(), 0.2);
-  ASSERT_EQ(listener().jumps.back().witnesses.size(), 1U);
-  EXPECT_EQ(listener().jumps.back().witnesses[0].source, "loop_metric");
-  EXPECT_EQ(listener().jumps.back().reason, 1);
-  EXPECT_EQ(listener().jumps.back().reason_name, "Believed");
-  EXPECT_EQ(listener().jumps.back().text, "a closure is believed now");
+  ASSERT_TRUE(Listener::until([&] { return !listener().corrections.empty(); }));
+  EXPECT_NEAR(listener().corrections.back().distance, odomPose(kLap).t().norm(), 0.2);
+  ASSERT_EQ(listener().corrections.back().causing_edges.size(), 1U);
+  EXPECT_EQ(listener().corrections.back().causing_edges[0].source, "loop_metric");
+  EXPECT_EQ(listener().corrections.back().reason, 1);
+  EXPECT_EQ(listener().corrections.back().reason_name, "ClosuresAccepted");
+  EXPECT_EQ(listener().corrections.back().message, "a closure is newly accepted");
 }
 
 TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
@@ -210,7 +210,7 @@ TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
   }
   EXPECT_GT(odomPose(kAgain).t().norm(), 5.0) << "odometry has drifted";
   const auto apart = [&] {
-    const auto run = trajectory().runs.at(0);
+    const auto run = trajectory().segments.at(0);
     return distanceBetween(*urban_nav_ros::toPose(run.T_map_base.front()),
                            *urban_nav_ros::toPose(run.T_map_base.at(kAgain)));
   };
@@ -226,7 +226,7 @@ TEST_F(PoseGraphNodelet, AClosureThatIsAheadOfOdometryWaitsForIt) {
   EXPECT_TRUE(listener().updates.empty());
   drive(10, kLap);
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
-  EXPECT_LT(listener().updates.back().runs.back().T_map_base.back().position.x, 0.1);
+  EXPECT_LT(listener().updates.back().segments.back().T_map_base.back().position.x, 0.1);
 }
 
 TEST_F(PoseGraphNodelet, ARejectedClosureIsNone) {
@@ -244,12 +244,12 @@ TEST_F(PoseGraphNodelet, GivesTheTrajectoryOrWhatChangedOfIt) {
   drive(0, kLap);
   ASSERT_TRUE(driven(kLap + 1));
   const auto before = trajectory();
-  ASSERT_EQ(before.runs.size(), 1U);
-  EXPECT_EQ(before.runs[0].stamps.front(), urban_nav_ros::toRosTime(kStart));
-  EXPECT_EQ(before.runs[0].session.size(), 20U);
+  ASSERT_EQ(before.segments.size(), 1U);
+  EXPECT_EQ(before.segments[0].stamps.front(), urban_nav_ros::toRosTime(kStart));
+  EXPECT_EQ(before.segments[0].session.size(), 20U);
   const auto part = trajectory(0, 5, 9);
-  ASSERT_EQ(part.runs.size(), 1U);
-  EXPECT_EQ(part.runs[0].stamps.size(), 5U);
+  ASSERT_EQ(part.segments.size(), 1U);
+  EXPECT_EQ(part.segments[0].stamps.size(), 5U);
 
   close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
@@ -334,12 +334,12 @@ TEST_F(PoseGraphNodelet, ANewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
   drive(100, 103);
   ASSERT_TRUE(driven(6 + 4));
   const auto two = trajectory();
-  ASSERT_EQ(two.runs.size(), 2U);
-  EXPECT_NE(two.runs[0].session, two.runs[1].session);
-  EXPECT_EQ(two.runs[1].session, begin.response.session);
+  ASSERT_EQ(two.segments.size(), 2U);
+  EXPECT_NE(two.segments[0].session, two.segments[1].session);
+  EXPECT_EQ(two.segments[1].session, begin.response.session);
   drive(0, 2);  // the bag is played again
   ASSERT_TRUE(driven(6 + 4 + 3));
-  EXPECT_EQ(trajectory().runs.size(), 3U);
+  EXPECT_EQ(trajectory().segments.size(), 3U);
 }
 
 TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTheWay) {
@@ -350,7 +350,7 @@ TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTh
   ASSERT_TRUE(ros::service::call("pose_graph/new_session", begin));
   drive(10, 15);
   ASSERT_TRUE(driven(11 + 6));
-  const Pose newest = *urban_nav_ros::toPose(trajectory().runs.back().T_map_base.back());
+  const Pose newest = *urban_nav_ros::toPose(trajectory().segments.back().T_map_base.back());
   EXPECT_LT(distanceBetween(newest, odomPose(15)), 20.0);
   EXPECT_GT(distanceBetween(newest, odomPose(15)), 1.0) << "the map is that of the session";
   EXPECT_TRUE(isApprox(mapFromOdom(21) * odomPose(15), newest, 1e-9));
@@ -365,7 +365,7 @@ TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
   ASSERT_TRUE(Listener::until(
       [&] { return listener().isConnected() && ros::service::exists("pose_graph/get_trajectory", false); }));
   listener().forget();
-  const auto session = [&] { return trajectory().runs.back(); };
+  const auto session = [&] { return trajectory().segments.back(); };
   for (int i = 30; i <= 35; ++i) receive(i, odomPose(i));
   drive(25, 29);  // what came between is lost, and so is what odometry said of these
   ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(29)); }));

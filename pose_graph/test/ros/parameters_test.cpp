@@ -103,7 +103,7 @@ double pathMetres(const std::string& name) {
   urban_nav_msgs::GetTrajectory call;
   EXPECT_TRUE(ros::service::call(name + "/pose_graph/get_trajectory", call));
   double metres = 0.0;
-  for (const auto& run : call.response.runs)
+  for (const auto& run : call.response.segments)
     for (std::size_t i = 1; i < run.T_map_base.size(); ++i)
       metres +=
           distanceBetween(*urban_nav_ros::toPose(run.T_map_base[i - 1]), *urban_nav_ros::toPose(run.T_map_base[i]));

@@ -352,7 +352,7 @@ def fill_live(folder):
         store = disk.folder / "live.db"
         nodelet = begin_nodelet(store)
         feeder.feed(time.monotonic() + 1e9)
-        named = wait_until(lambda: feeder.status and feeder.status.reason_name == "NotStored" and "full" in feeder.status.text)
+        named = wait_until(lambda: feeder.status and feeder.status.reason_name == "NotStored" and "full" in feeder.status.message)
         before = nodes(store)
         disk.size(64)
         whole = wait_until(lambda: nodes(store) == STEPS + 1)

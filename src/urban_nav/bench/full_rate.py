@@ -24,7 +24,7 @@ except ImportError:
 
 # Hz, of the devices; 0: the rate of the session.
 RATES = {"/laser_left/scan": 74.97, "/laser_right/scan": 74.97, "/imu/data": 100.0, "/wheel_odom": 100.0, "/gps/fix": 1.0, "/stereo/left/image_raw": 0.0,
-         "/stereo/right/image_raw": 0.0, "/ladybug/raw": 0.0, "/vo/frame": 0.0, "/vo/relative_pose": 0.0}
+         "/stereo/right/image_raw": 0.0, "/ladybug/raw": 0.0, "/vo/statistics": 0.0, "/vo/relative_pose": 0.0}
 LOSSES = {"gaps", "messages dropped", "bad checksums", "stalls", "timeouts"}  # counted by the drivers
 PATIENCE = 20  # s for the session to begin, and for its end
 TICKS = os.sysconf("SC_CLK_TCK")
@@ -96,7 +96,7 @@ def stamps_and_losses(bags):
                                 losses[status.name.lstrip("/").partition(":")[0], item.key] = int(float(item.value))
                     continue
                 stamps[topic].append(message.header.stamp.to_sec())
-                if topic == "/vo/frame":
+                if topic == "/vo/statistics":
                     frames[message.status] += 1
     return {topic: np.sort(list_) for topic, list_ in stamps.items()}, frames, losses
 
@@ -127,7 +127,7 @@ def main():
     stamps, frames, losses = stamps_and_losses(bags)
     rows = [[topic, str(len(s)), f"{(len(s) - 1) / (s[-1] - s[0]):.2f}" if len(s) > 1 else "", f"{s[-1] - s[0]:.1f}" if len(s) > 1 else "",
              str(missing(s, RATES[topic])) if len(s) > 1 else ""] for topic, s in stamps.items()]
-    pairs, seen = set(stamps["/stereo/left/image_raw"]), set(stamps["/vo/frame"])
+    pairs, seen = set(stamps["/stereo/left/image_raw"]), set(stamps["/vo/statistics"])
     counted = {f"{name}, {key}": n for (name, key), n in sorted(losses.items()) if n}
     notes = ["Missing: steps between stamps that hold further periods of the topic. Seconds from the first stamp to the last.",
              f"Stereo pairs since the first that odometry took, and not taken by it: {sum(stamp > min(seen, default=0) for stamp in pairs - seen)}; "

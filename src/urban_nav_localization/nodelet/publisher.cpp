@@ -37,11 +37,11 @@ LocalizationPublisher::LocalizationPublisher(ros::NodeHandle& nh, const NodeletP
       map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
 
 void LocalizationPublisher::publish(const std::vector<urban_nav_store::StoredTrajectory>& map) {
-  urban_nav_core::PoseRun drawn;
+  urban_nav_core::TrajectorySegment drawn;
   for (const urban_nav_store::StoredTrajectory& session : map) {
-    urban_nav_core::PoseRun run;
+    urban_nav_core::TrajectorySegment run;
     for (const auto& [stamp, T_map_base] : session.T_map_base) run.poses.push_back({stamp, T_map_base});
-    const urban_nav_core::PoseRun thin = urban_nav_ros::thinned(run, parameters_.path_spacing);
+    const urban_nav_core::TrajectorySegment thin = urban_nav_ros::thinned(run, parameters_.path_spacing);
     drawn.poses.insert(drawn.poses.end(), thin.poses.begin(), thin.poses.end());
   }
   map_path_.publish(urban_nav_ros::toPathMessage(drawn, parameters_.map_frame));

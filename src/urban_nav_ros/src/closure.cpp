@@ -106,7 +106,7 @@ urban_nav_msgs::MetricClosure toMetricClosureMessage(const urban_nav_core::Metri
   message.verdict = closure.verdict == ClosureVerdict::Accepted ? Message::ACCEPTED : Message::REJECTED;
   message.reason = closure.reason;
   message.reason_name = closure.reason_name;
-  message.text = closure.sentence;
+  message.message = closure.sentence;
   message.source = closure.source;
   return message;
 }
@@ -128,7 +128,7 @@ std::optional<urban_nav_core::MetricClosure> toMetricClosure(const Message& mess
   closure.verdict = message.verdict == Message::ACCEPTED ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
   closure.reason = message.reason;
   closure.reason_name = message.reason_name;
-  closure.sentence = message.text;
+  closure.sentence = message.message;
   closure.evidence = message.evidence;
   closure.source = message.source;
   return closure;

@@ -7,8 +7,8 @@
 
 namespace urban_nav_ros {
 
-using urban_nav_core::PoseRun;
 using urban_nav_core::StampNs;
+using urban_nav_core::TrajectorySegment;
 
 urban_nav_msgs::EdgeRef toEdgeRefMessage(const urban_nav_core::EdgeRef& edge) {
   urban_nav_msgs::EdgeRef message;
@@ -23,8 +23,8 @@ urban_nav_core::EdgeRef toEdgeRef(const urban_nav_msgs::EdgeRef& message) {
   return {toPoseRef(message.a), toPoseRef(message.b), message.kind, message.source};
 }
 
-urban_nav_msgs::PoseRun toPoseRunMessage(const PoseRun& run) {
-  urban_nav_msgs::PoseRun message;
+urban_nav_msgs::TrajectorySegment toTrajectorySegmentMessage(const TrajectorySegment& run) {
+  urban_nav_msgs::TrajectorySegment message;
   message.session = run.session;
   message.stamps.reserve(run.poses.size());
   message.T_map_base.reserve(run.poses.size());
@@ -35,9 +35,9 @@ urban_nav_msgs::PoseRun toPoseRunMessage(const PoseRun& run) {
   return message;
 }
 
-std::optional<PoseRun> toPoseRun(const urban_nav_msgs::PoseRun& message) {
+std::optional<TrajectorySegment> toTrajectorySegment(const urban_nav_msgs::TrajectorySegment& message) {
   if (message.stamps.size() != message.T_map_base.size()) return std::nullopt;
-  PoseRun run;
+  TrajectorySegment run;
   run.session = message.session;
   run.poses.reserve(message.stamps.size());
   for (std::size_t i = 0; i < message.stamps.size(); ++i) {
@@ -56,8 +56,8 @@ urban_nav_msgs::GraphUpdate toGraphUpdateMessage(const urban_nav_core::GraphUpda
   message.header.frame_id = map_frame;
   message.revision = static_cast<std::uint64_t>(update.revision);
   message.previous = static_cast<std::uint64_t>(update.previous);
-  message.runs.reserve(update.runs.size());
-  for (const PoseRun& run : update.runs) message.runs.push_back(toPoseRunMessage(run));
+  message.segments.reserve(update.segments.size());
+  for (const TrajectorySegment& run : update.segments) message.segments.push_back(toTrajectorySegmentMessage(run));
   return message;
 }
 
@@ -65,44 +65,46 @@ std::optional<urban_nav_core::GraphUpdate> toGraphUpdate(const urban_nav_msgs::G
   urban_nav_core::GraphUpdate update;
   update.revision = static_cast<std::int64_t>(message.revision);
   update.previous = static_cast<std::int64_t>(message.previous);
-  for (const urban_nav_msgs::PoseRun& part : message.runs) {
-    auto run = toPoseRun(part);
+  for (const urban_nav_msgs::TrajectorySegment& part : message.segments) {
+    auto run = toTrajectorySegment(part);
     if (!run) return std::nullopt;
-    update.runs.push_back(std::move(*run));
+    update.segments.push_back(std::move(*run));
   }
   return update;
 }
 
-urban_nav_msgs::MapJump toMapJumpMessage(const urban_nav_core::MapJump& jump, const std::string& map_frame) {
-  urban_nav_msgs::MapJump message;
-  message.header.stamp = toRosTime(jump.at.stamp);
+urban_nav_msgs::PoseCorrection toPoseCorrectionMessage(const urban_nav_core::PoseCorrection& correction,
+                                                       const std::string& map_frame) {
+  urban_nav_msgs::PoseCorrection message;
+  message.header.stamp = toRosTime(correction.at.stamp);
   message.header.frame_id = map_frame;
-  message.revision = static_cast<std::uint64_t>(jump.revision);
-  message.at = toPoseRefMessage(jump.at);
-  message.T_map_base_before = toPoseMessage(jump.T_map_base_before);
-  message.T_map_base_after = toPoseMessage(jump.T_map_base_after);
-  message.distance = urban_nav_core::distanceBetween(jump.T_map_base_before, jump.T_map_base_after);
-  message.angle = urban_nav_core::angleBetween(jump.T_map_base_before, jump.T_map_base_after);
-  message.reason = jump.reason;
-  message.reason_name = jump.reason_name;
-  message.text = jump.sentence;
-  for (const urban_nav_core::EdgeRef& witness : jump.witnesses) message.witnesses.push_back(toEdgeRefMessage(witness));
+  message.revision = static_cast<std::uint64_t>(correction.revision);
+  message.at = toPoseRefMessage(correction.at);
+  message.T_map_base_before = toPoseMessage(correction.T_map_base_before);
+  message.T_map_base_after = toPoseMessage(correction.T_map_base_after);
+  message.distance = urban_nav_core::distanceBetween(correction.T_map_base_before, correction.T_map_base_after);
+  message.angle = urban_nav_core::angleBetween(correction.T_map_base_before, correction.T_map_base_after);
+  message.reason = correction.reason;
+  message.reason_name = correction.reason_name;
+  message.message = correction.sentence;
+  for (const urban_nav_core::EdgeRef& edge : correction.causing_edges)
+    message.causing_edges.push_back(toEdgeRefMessage(edge));
   return message;
 }
 
-std::optional<urban_nav_core::MapJump> toMapJump(const urban_nav_msgs::MapJump& message) {
+std::optional<urban_nav_core::PoseCorrection> toPoseCorrection(const urban_nav_msgs::PoseCorrection& message) {
   const auto before = toPose(message.T_map_base_before), after = toPose(message.T_map_base_after);
   if (!before || !after) return std::nullopt;
-  urban_nav_core::MapJump jump;
-  jump.revision = static_cast<std::int64_t>(message.revision);
-  jump.at = toPoseRef(message.at);
-  jump.T_map_base_before = *before;
-  jump.T_map_base_after = *after;
-  jump.reason = message.reason;
-  jump.reason_name = message.reason_name;
-  jump.sentence = message.text;
-  for (const urban_nav_msgs::EdgeRef& witness : message.witnesses) jump.witnesses.push_back(toEdgeRef(witness));
-  return jump;
+  urban_nav_core::PoseCorrection correction;
+  correction.revision = static_cast<std::int64_t>(message.revision);
+  correction.at = toPoseRef(message.at);
+  correction.T_map_base_before = *before;
+  correction.T_map_base_after = *after;
+  correction.reason = message.reason;
+  correction.reason_name = message.reason_name;
+  correction.sentence = message.message;
+  for (const urban_nav_msgs::EdgeRef& edge : message.causing_edges) correction.causing_edges.push_back(toEdgeRef(edge));
+  return correction;
 }
 
 }  // namespace urban_nav_ros

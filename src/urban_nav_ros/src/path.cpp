@@ -6,10 +6,10 @@
 
 namespace urban_nav_ros {
 
-using urban_nav_core::PoseRun;
+using urban_nav_core::TrajectorySegment;
 
-PoseRun thinned(const PoseRun& run, double spacing) {
-  PoseRun kept;
+TrajectorySegment thinned(const TrajectorySegment& run, double spacing) {
+  TrajectorySegment kept;
   kept.session = run.session;
   for (const auto& pose : run.poses) {
     const bool far =
@@ -20,7 +20,7 @@ PoseRun thinned(const PoseRun& run, double spacing) {
   return kept;
 }
 
-nav_msgs::Path toPathMessage(const PoseRun& run, const std::string& map_frame) {
+nav_msgs::Path toPathMessage(const TrajectorySegment& run, const std::string& map_frame) {
   nav_msgs::Path path;
   path.header.frame_id = map_frame;
   path.poses.reserve(run.poses.size());

@@ -36,7 +36,7 @@ StageStatus toStatusMessage(urban_nav_core::StampNs stamp, const std::string& st
   message.status = toMessage(status.health);
   message.reason = status.reason;
   message.reason_name = reason_name;
-  message.text = status.sentence;
+  message.message = status.sentence;
   return message;
 }
 

@@ -19,7 +19,7 @@ urban_nav_core::GraphUpdate update() {
   urban_nav_core::GraphUpdate update;
   update.revision = 7;
   update.previous = 5;
-  update.runs = {{"a", {{10, pose(1.0, 0.1)}, {20, pose(2.0, 0.2)}}}, {"b", {{5, pose(3.0, -3.0)}}}};
+  update.segments = {{"a", {{10, pose(1.0, 0.1)}, {20, pose(2.0, 0.2)}}}, {"b", {{5, pose(3.0, -3.0)}}}};
   return update;
 }
 
@@ -31,57 +31,58 @@ TEST(GraphUpdateMessage, ComesBackTheSame) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->revision, 7);
   EXPECT_EQ(back->previous, 5);
-  ASSERT_EQ(back->runs.size(), 2U);
-  EXPECT_EQ(back->runs[1].session, "b");
-  ASSERT_EQ(back->runs[0].poses.size(), 2U);
-  EXPECT_EQ(back->runs[0].poses[1].stamp, 20);
-  EXPECT_TRUE(isApprox(back->runs[0].poses[1].T_map_base, pose(2.0, 0.2), 1e-15));
+  ASSERT_EQ(back->segments.size(), 2U);
+  EXPECT_EQ(back->segments[1].session, "b");
+  ASSERT_EQ(back->segments[0].poses.size(), 2U);
+  EXPECT_EQ(back->segments[0].poses[1].stamp, 20);
+  EXPECT_TRUE(isApprox(back->segments[0].poses[1].T_map_base, pose(2.0, 0.2), 1e-15));
 }
 
 TEST(GraphUpdateMessage, RefusesRunsThatAreNone) {
   const auto good = toGraphUpdateMessage(update(), 20, "map");
   auto bad = good;
-  bad.runs[0].stamps.pop_back();
+  bad.segments[0].stamps.pop_back();
   EXPECT_FALSE(toGraphUpdate(bad)) << "two poses at one time";
   bad = good;
-  std::swap(bad.runs[0].stamps[0], bad.runs[0].stamps[1]);
+  std::swap(bad.segments[0].stamps[0], bad.segments[0].stamps[1]);
   EXPECT_FALSE(toGraphUpdate(bad)) << "backwards";
   bad = good;
-  bad.runs[1].T_map_base[0].orientation.w = 3.0;
+  bad.segments[1].T_map_base[0].orientation.w = 3.0;
   EXPECT_FALSE(toGraphUpdate(bad));
   bad = good;
-  bad.runs.clear();
+  bad.segments.clear();
   EXPECT_TRUE(toGraphUpdate(bad)) << "nothing moved";
 }
 
-TEST(MapJumpMessage, ComesBackTheSameWithItsSize) {
-  urban_nav_core::MapJump jump;
-  jump.revision = 8;
-  jump.at = {"a", 3'000'000'000};
-  jump.T_map_base_before = pose(1.0, 0.0);
-  jump.T_map_base_after = pose(4.0, 0.5);
-  jump.reason = 2;
-  jump.reason_name = "SecondWitness";
-  jump.sentence = "two closures agree";
-  jump.witnesses = {{{"a", 1}, {"a", 3}, "stereo", "loop_metric"}, {{"a", 2}, {"a", 4}, "icp", "loop_metric"}};
-  const auto message = toMapJumpMessage(jump, "map");
+TEST(PoseCorrectionMessage, ComesBackTheSameWithItsSize) {
+  urban_nav_core::PoseCorrection correction;
+  correction.revision = 8;
+  correction.at = {"a", 3'000'000'000};
+  correction.T_map_base_before = pose(1.0, 0.0);
+  correction.T_map_base_after = pose(4.0, 0.5);
+  correction.reason = 2;
+  correction.reason_name = "ClosuresAccepted";
+  correction.sentence = "two closures agree";
+  correction.causing_edges = {{{"a", 1}, {"a", 3}, "stereo", "loop_metric"},
+                              {{"a", 2}, {"a", 4}, "icp", "loop_metric"}};
+  const auto message = toPoseCorrectionMessage(correction, "map");
   EXPECT_EQ(message.header.stamp, toRosTime(3'000'000'000));
   EXPECT_NEAR(message.distance, 3.0, 1e-12);
   EXPECT_NEAR(message.angle, 0.5, 1e-12);
-  const auto back = toMapJump(message);
+  const auto back = toPoseCorrection(message);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->revision, 8);
-  EXPECT_EQ(back->at, jump.at);
-  EXPECT_TRUE(isApprox(back->T_map_base_before, jump.T_map_base_before, 1e-15));
-  EXPECT_TRUE(isApprox(back->T_map_base_after, jump.T_map_base_after, 1e-15));
+  EXPECT_EQ(back->at, correction.at);
+  EXPECT_TRUE(isApprox(back->T_map_base_before, correction.T_map_base_before, 1e-15));
+  EXPECT_TRUE(isApprox(back->T_map_base_after, correction.T_map_base_after, 1e-15));
   EXPECT_EQ(back->reason, 2);
-  EXPECT_EQ(back->reason_name, "SecondWitness");
+  EXPECT_EQ(back->reason_name, "ClosuresAccepted");
   EXPECT_EQ(back->sentence, "two closures agree");
-  ASSERT_EQ(back->witnesses.size(), 2U);
-  EXPECT_EQ(back->witnesses[1], jump.witnesses[1]);
+  ASSERT_EQ(back->causing_edges.size(), 2U);
+  EXPECT_EQ(back->causing_edges[1], correction.causing_edges[1]);
   auto bad = message;
   bad.T_map_base_after.position.z = std::nan("");
-  EXPECT_FALSE(toMapJump(bad));
+  EXPECT_FALSE(toPoseCorrection(bad));
 }
 
 }  // namespace

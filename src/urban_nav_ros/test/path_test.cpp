@@ -9,18 +9,18 @@ namespace urban_nav_ros {
 namespace {
 
 using urban_nav_core::Pose;
-using urban_nav_core::PoseRun;
 using urban_nav_core::Quaterniond;
+using urban_nav_core::TrajectorySegment;
 
-PoseRun straight(int poses, double step) {
-  PoseRun run;
+TrajectorySegment straight(int poses, double step) {
+  TrajectorySegment run;
   run.session = "s";
   for (int i = 0; i < poses; ++i) run.poses.push_back({i, Pose(Quaterniond::Identity(), {step * i, 0, 0})});
   return run;
 }
 
 TEST(Path, ThinsToTheSpacingAndKeepsTheEnds) {
-  const PoseRun thin = thinned(straight(101, 0.1), 1.0);
+  const TrajectorySegment thin = thinned(straight(101, 0.1), 1.0);
   EXPECT_EQ(thin.session, "s");
   EXPECT_NEAR(static_cast<double>(thin.poses.size()), 11.0, 1.0);
   EXPECT_EQ(thin.poses.front().stamp, 0);
@@ -28,7 +28,7 @@ TEST(Path, ThinsToTheSpacingAndKeepsTheEnds) {
   for (std::size_t i = 1; i + 1 < thin.poses.size(); ++i)
     EXPECT_GE(distanceBetween(thin.poses[i - 1].T_map_base, thin.poses[i].T_map_base), 1.0);
   EXPECT_EQ(thinned(straight(1, 0.1), 1.0).poses.size(), 1U);
-  EXPECT_TRUE(thinned(PoseRun(), 1.0).poses.empty());
+  EXPECT_TRUE(thinned(TrajectorySegment(), 1.0).poses.empty());
 }
 
 TEST(Path, ThePathHasTheStampsOfItsPoses) {

@@ -62,7 +62,7 @@ TEST(HealthMessage, KnowsFourStates) {
   EXPECT_FALSE(toHealth(4));
   const auto message = toStatusMessage(5, "swf_vo", {Health::Lost, 3, "too dark"}, "Dark");
   EXPECT_EQ(message.status, urban_nav_msgs::StageStatus::LOST);
-  EXPECT_EQ(message.text, "too dark");
+  EXPECT_EQ(message.message, "too dark");
 }
 
 }  // namespace

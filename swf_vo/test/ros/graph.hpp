@@ -7,7 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
-#include <urban_nav_msgs/VoFrame.h>
+#include <urban_nav_msgs/VoStatistics.h>
 
 #include <vector>
 
@@ -38,7 +38,7 @@ class Graph : public urban_nav_ros::testing::StereoListener {
   Graph() : urban_nav_ros::testing::StereoListener("swf_vo") {
     keep("vo/odometry", odometry);
     keep("vo/relative_pose", relative);
-    keep("vo/frame", frames);
+    keep("vo/statistics", frames);
     keep("vo/landmarks", landmarks);
     keep("vo/tracks", tracks);
     keep("swf_vo/status", statuses);
@@ -65,7 +65,7 @@ class Graph : public urban_nav_ros::testing::StereoListener {
 
   std::vector<nav_msgs::Odometry> odometry;
   std::vector<urban_nav_msgs::RelativePose> relative;
-  std::vector<urban_nav_msgs::VoFrame> frames;
+  std::vector<urban_nav_msgs::VoStatistics> frames;
   std::vector<sensor_msgs::PointCloud2> landmarks;
   std::vector<sensor_msgs::Image> tracks;
   std::vector<urban_nav_msgs::StageStatus> statuses;

@@ -126,7 +126,7 @@ TEST_F(SwfVoNodelet, APartnerThatDoesNotComeIsNamedWithItsDelay) {
                                                        : graph().diagnostics.back().status.front().message);
   ASSERT_GE(graph().frames.size(), 8U);
   EXPECT_EQ(graph().frames[7].reason_name, "image_missing");
-  EXPECT_NE(graph().frames[7].status, urban_nav_msgs::VoFrame::OK);
+  EXPECT_NE(graph().frames[7].status, urban_nav_msgs::VoStatistics::OK);
 }
 
 TEST_F(SwfVoNodelet, TimeGoingBackBeginsANewSession) {

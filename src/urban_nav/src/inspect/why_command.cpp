@@ -51,7 +51,7 @@ int runWhy(const Arguments& arguments, Console& console) {
   const double cloud_half_length = loadParameters(arguments).get(urban_nav_registration::table()).cloud_half_length;
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump"))
-    throw UserError("--jump", "is not in this version: jumps are published on graph/jump", "T1 T2, --closure ID");
+    throw UserError("--jump", "is not in this version: jumps are published on graph/correction", "T1 T2, --closure ID");
   if (arguments.has("T1") != arguments.has("T2"))
     throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
   if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");

@@ -3,7 +3,7 @@
 
 #include <urban_nav_msgs/EdgeRef.h>
 #include <urban_nav_msgs/GraphUpdate.h>
-#include <urban_nav_msgs/MapJump.h>
+#include <urban_nav_msgs/PoseCorrection.h>
 
 #include <optional>
 #include <string>
@@ -16,15 +16,16 @@ urban_nav_msgs::EdgeRef toEdgeRefMessage(const urban_nav_core::EdgeRef& edge);
 urban_nav_core::EdgeRef toEdgeRef(const urban_nav_msgs::EdgeRef& message);
 
 /// A run with a pose that is none, stamps that do not rise, or more of the one than of the other gives nothing.
-urban_nav_msgs::PoseRun toPoseRunMessage(const urban_nav_core::PoseRun& run);
-std::optional<urban_nav_core::PoseRun> toPoseRun(const urban_nav_msgs::PoseRun& message);
+urban_nav_msgs::TrajectorySegment toTrajectorySegmentMessage(const urban_nav_core::TrajectorySegment& run);
+std::optional<urban_nav_core::TrajectorySegment> toTrajectorySegment(const urban_nav_msgs::TrajectorySegment& message);
 
 /// `newest`: stamp of the newest pose in the graph. An update with a run that is none gives nothing.
 urban_nav_msgs::GraphUpdate toGraphUpdateMessage(const urban_nav_core::GraphUpdate& update,
                                                  urban_nav_core::StampNs newest, const std::string& map_frame);
 std::optional<urban_nav_core::GraphUpdate> toGraphUpdate(const urban_nav_msgs::GraphUpdate& message);
 
-urban_nav_msgs::MapJump toMapJumpMessage(const urban_nav_core::MapJump& jump, const std::string& map_frame);
-std::optional<urban_nav_core::MapJump> toMapJump(const urban_nav_msgs::MapJump& message);
+urban_nav_msgs::PoseCorrection toPoseCorrectionMessage(const urban_nav_core::PoseCorrection& jump,
+                                                       const std::string& map_frame);
+std::optional<urban_nav_core::PoseCorrection> toPoseCorrection(const urban_nav_msgs::PoseCorrection& message);
 
 }  // namespace urban_nav_ros

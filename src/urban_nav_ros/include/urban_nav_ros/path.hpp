@@ -11,9 +11,9 @@
 namespace urban_nav_ros {
 
 /// What of a long run is drawn: its first pose, those at least `spacing` m from the last one drawn, and its last.
-urban_nav_core::PoseRun thinned(const urban_nav_core::PoseRun& run, double spacing);
+urban_nav_core::TrajectorySegment thinned(const urban_nav_core::TrajectorySegment& run, double spacing);
 
-nav_msgs::Path toPathMessage(const urban_nav_core::PoseRun& run, const std::string& map_frame);
+nav_msgs::Path toPathMessage(const urban_nav_core::TrajectorySegment& run, const std::string& map_frame);
 
 /// Appends a pose to a growing path for display. Returns false for a pose closer than `spacing` (m) to the last one,
 /// which is left out. At `max_points` the oldest tenth is removed.

@@ -43,7 +43,7 @@ constexpr const char* kTruthTransforms = "ground_truth/tf";
 // swf_vo.
 constexpr const char* kVoOdometry = "vo/odometry";
 constexpr const char* kVoRelativePose = "vo/relative_pose";
-constexpr const char* kVoFrame = "vo/frame";
+constexpr const char* kVoStatistics = "vo/statistics";
 constexpr const char* kVoLandmarks = "vo/landmarks";
 constexpr const char* kVoTracks = "vo/tracks";
 constexpr const char* kVoPath = "vo/path";
@@ -81,7 +81,7 @@ constexpr const char* kLocalizationMapPath = "localization/map_path";
 
 // pose_graph.
 constexpr const char* kGraphUpdate = "graph/update";
-constexpr const char* kGraphJump = "graph/jump";
+constexpr const char* kGraphCorrection = "graph/correction";
 constexpr const char* kGraphPath = "graph/path";
 constexpr const char* kGraphState = "graph/state";
 constexpr const char* kGraphMarkers = "graph/markers";

@@ -16,18 +16,17 @@ struct StampedMapPose {
 };
 
 /// Consecutive poses of one session, in order of time.
-struct PoseRun {
+struct TrajectorySegment {
   std::string session;
   std::vector<StampedMapPose> poses;
 };
 
-/// What other stages follow: the poses that moved by more than 1 cm or 0.02 deg since the revision before. Who missed
-/// one
-/// (`previous` is not the revision they have) asks for the trajectory.
+/// Poses that moved by more than 1 cm or 0.02 deg since revision `previous`. A subscriber with another revision has
+/// missed an update and requests the trajectory.
 struct GraphUpdate {
   std::int64_t revision = 0;
   std::int64_t previous = 0;
-  std::vector<PoseRun> runs;
+  std::vector<TrajectorySegment> segments;
 };
 
 /// Names an edge of the graph.
@@ -38,14 +37,14 @@ struct EdgeRef {
 };
 bool operator==(const EdgeRef& a, const EdgeRef& b);
 
-/// The robot's own pose in the map moved at once, since closures say so; its pose in `odom` did not.
-struct MapJump {
+/// A discontinuous correction of the robot's pose in the map, caused by closures; its pose in `odom` is continuous.
+struct PoseCorrection {
   std::int64_t revision = 0;  ///< the first with the new pose
   PoseRef at;                 ///< the robot's pose
   Pose T_map_base_before, T_map_base_after;
   int reason = 0;  ///< enumerator of the stage, 0: none
   std::string reason_name, sentence;
-  std::vector<EdgeRef> witnesses;  ///< the closures that made it move
+  std::vector<EdgeRef> causing_edges;  ///< the closures that were accepted, rejected or removed
 };
 
 }  // namespace urban_nav_core

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "pose_graph/pose_graph.hpp"
+
+namespace pose_graph {
+
+/// Fills in a correction's reason, sentence and causing_edges. `accepted_before`: closures accepted before the
+/// relaxation, ascending; `removed`: those of them that were removed by hand since; `closures`: as they are judged now;
+/// `levelled`: the map was turned too.
+void explain(Relaxed::Correction& correction, const std::vector<ClosureId>& accepted_before,
+             const std::vector<Closure>& removed, const std::map<ClosureId, Closure>& closures, bool levelled);
+
+}  // namespace pose_graph
