@@ -17,7 +17,7 @@ constexpr int kSecondLookCandidates = 10;
 
 RecogniserOptions recogniserOptions(const Parameters& parameters) {
   RecogniserOptions options;
-  options.matcher.second_looks = parameters.second_look ? kSecondLookCandidates : 0;
+  options.matcher.second_looks = parameters.descriptor_matching ? kSecondLookCandidates : 0;
   options.sequence = parameters.sequence;
   options.detects_stationary = false;  // process() passes on observations of a moving camera only
   options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));

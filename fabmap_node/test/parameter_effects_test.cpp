@@ -78,7 +78,7 @@ TEST(Parameters, EachChangesWhatIsRecognisedOrProposed) {
         {"closures_per_metre", 0.2},
         {"enough_closures", 100.0},
         {"mask", 5.0},
-        {"second_look", false},
+        {"descriptor_matching", false},
         {"sequence", false},
         {"image_features", std::int64_t{100}}}},
       {"street by a panorama", driveWithTwoCameras, {{"panorama_features", std::int64_t{100}}}},

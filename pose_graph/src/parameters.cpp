@@ -38,12 +38,12 @@ const Table<Parameters>& table() {
           {"iterations", &P::iterations, "", std::int64_t{100}, std::int64_t{1}, std::int64_t{10000}, {},
            "Steps of one minimisation, at most; fewer where nothing is left to gain.",
            "paper 5", {}, Audience::Experts},
-          {"jump_distance", &P::jump_distance, "m", 0.5, 0.0, 1000.0, {},
+          {"confirmation_distance", &P::confirmation_distance, "m", 0.5, 0.0, 1000.0, {},
            "A single closure that would move a pose by more than this waits for a second one that agrees, unless it "
            "is a stereo closure that odometry allows.",
-           "docs/derivations/pose_graph.md"},
-          {"jump_angle", &P::jump_angle, "deg", 2.0, 0.0, 180.0, {},
-           "The same for a turn.", "docs/derivations/pose_graph.md", {}, Audience::Experts},
+           "docs/derivations/pose_graph.md", {"jump_distance"}},
+          {"confirmation_angle", &P::confirmation_angle, "deg", 2.0, 0.0, 180.0, {},
+           "The same for a rotation.", "docs/derivations/pose_graph.md", {"jump_angle"}, Audience::Experts},
       });
   return rows;
 }

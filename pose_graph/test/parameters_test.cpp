@@ -110,8 +110,8 @@ TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
 TEST(Parameters, EachChangesTheMap) {
   const std::vector<Experiment> experiments = {
       {"three laps", threeLaps, {{"solver", "relative_pcg"}, {"solver", "ceres"}, {"robust", false}}},
-      {"a closure that is far off", farClosure, {{"jump_distance", 0.7}}},
-      {"a closure that is turned", turnedClosure, {{"jump_angle", 3.0}}},
+      {"a closure that is far off", farClosure, {{"confirmation_distance", 0.7}}},
+      {"a closure that is turned", turnedClosure, {{"confirmation_angle", 3.0}}},
       {"accelerometer", tiltedDrive, {{"gravity", false}}},
       {"satellites", streets, {{"gps", true}}},
       {"satellites in use", streets, {{"gps_correlation", 20.0}, {"iterations", 1}}, {{"gps", true}}}};

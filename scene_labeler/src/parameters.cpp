@@ -23,9 +23,9 @@ const Table<Parameters>& table() {
            "Edge of the superpixels, whose returns get one class.", "paper 8.1", {}, Audience::Experts},
           {"spacing", &P::spacing, "m", 5.0, 0.5, 100.0, {},
            "Distance along the path between the images of each side camera that are labelled.", "docs/files.md"},
-          {"reach", &P::reach, "m", 10.0, 1.0, 100.0, {},
+          {"projection_distance", &P::projection_distance, "m", 10.0, 1.0, 100.0, {},
            "Length of the path before and after an image whose returns are projected into it.",
-           "field of view of the cameras", {}, Audience::Experts},
+           "field of view of the cameras", {"reach"}, Audience::Experts},
           {"class_topic", &P::class_topic, "", "", false, false, {},
            "Topic of class images by another source: mono8, in the frame and at the stamp of a side camera's image. "
            "Empty: none.",

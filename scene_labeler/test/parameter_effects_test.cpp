@@ -86,12 +86,16 @@ TEST(ParameterEffects, EachParameterChangesTheLabels) {
       table(),
       {{"drive past a wall",
         labelDrive,
-        {{"model", model}, {"superpixel", 40}, {"spacing", 1.0}, {"reach", 4.0}, {"class_topic", "classes"}},
-        {{"reach", 3.0}}},
+        {{"model", model},
+         {"superpixel", 40},
+         {"spacing", 1.0},
+         {"projection_distance", 4.0},
+         {"class_topic", "classes"}},
+        {{"projection_distance", 3.0}}},
        {"drive with class images",
         labelDrive,
         {{"class_file", classes}, {"class_accuracy", 0.99}},
-        {{"class_topic", "classes"}, {"reach", 3.0}}}},
+        {{"class_topic", "classes"}, {"projection_distance", 3.0}}}},
       {{"samples", "Labels.OfABagAreThoseOfItsReturnsWhateverItsTruth", "../src/urban_nav/test"}});
   EXPECT_EQ(faults, "");
 }

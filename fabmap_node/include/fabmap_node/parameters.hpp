@@ -16,7 +16,7 @@ struct Parameters {
   double closures_per_metre;   // at most
   double enough_closures;      // expected between two stretches
   double mask;                 // s
-  bool second_look, sequence;
+  bool descriptor_matching, sequence;
   int panorama_features;  // of one image
   int image_features;     // of a single image
 

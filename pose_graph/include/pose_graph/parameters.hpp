@@ -9,14 +9,14 @@ namespace pose_graph {
 
 /// What a user may want to change; one member per row of table().
 struct Parameters {
-  std::string solver;      // gauss_newton; with references: relative_pcg, ceres
-  bool robust;             // reject false closures
-  bool gravity;            // takes the drift of roll and pitch out of odometry
-  bool gps;                // fixes of satellite navigation are used
-  double gps_correlation;  // s
-  int iterations;          // of one minimisation, at most
-  double jump_distance;    // m
-  double jump_angle;       // deg
+  std::string solver;            // gauss_newton; with references: relative_pcg, ceres
+  bool robust;                   // reject false closures
+  bool gravity;                  // takes the drift of roll and pitch out of odometry
+  bool gps;                      // fixes of satellite navigation are used
+  double gps_correlation;        // s
+  int iterations;                // of one minimisation, at most
+  double confirmation_distance;  // m
+  double confirmation_angle;     // deg
 
   Parameters();
 };

@@ -21,8 +21,8 @@ struct Way {
 using Known = std::function<Pose(const Way&)>;
 
 bool isLarge(const Closure& closure, const Pose& T_a_b, const Parameters& parameters) {
-  return distanceBetween(T_a_b, closure.measured.T_a_b) > parameters.jump_distance ||
-         angleBetween(T_a_b, closure.measured.T_a_b) > parameters.jump_angle * 3.14159265358979323846 / 180.0;
+  return distanceBetween(T_a_b, closure.measured.T_a_b) > parameters.confirmation_distance ||
+         angleBetween(T_a_b, closure.measured.T_a_b) > parameters.confirmation_angle * 3.14159265358979323846 / 180.0;
 }
 
 std::vector<EdgeRole> assignRoles(std::size_t chains, const std::map<ClosureId, Closure>& closures) {

@@ -12,10 +12,10 @@ namespace pose_graph {
 
 /// Accepted closures, and the poses that follow: robust relaxation, and then the rule that a large correction
 /// needs two witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to b so far,
-/// it says something further off than parameters.jump_distance or jump_angle, it is no stereo closure that odometry
-/// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and
-/// reasons; those that wait or are rejected have weight 0 in the solution.
-/// `reference`: relaxes what is accepted in place of solve(), if not null.
+/// it says something further off than parameters.confirmation_distance or confirmation_angle, it is no stereo closure
+/// that odometry allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts,
+/// weights and reasons; those that wait or are rejected have weight 0 in the solution. `reference`: relaxes what is
+/// accepted in place of solve(), if not null.
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 

@@ -172,7 +172,8 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Befor
   const Track& track = tracks_[running_];
   const double distance = distanceBetween(*before.newest, track.map.back()),
                angle = angleBetween(*before.newest, track.map.back());
-  const bool is_small = distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * kDegree;
+  const bool is_small =
+      distance <= parameters_.confirmation_distance && angle <= parameters_.confirmation_angle * kDegree;
   if (is_small && !levelled) return;
   Relaxed::Correction correction;
   correction.at = {track.session, track.stamps.back()};

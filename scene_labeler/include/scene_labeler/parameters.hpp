@@ -10,10 +10,10 @@ namespace scene_labeler {
 /// Parameters of the stage, one member per row of table().
 struct Parameters {
   std::string model;
-  int superpixel;  // px
-  int samples;     // per class
-  double spacing;  // m
-  double reach;    // m
+  int superpixel;              // px
+  int samples;                 // per class
+  double spacing;              // m
+  double projection_distance;  // m
   std::string class_topic, class_file;
   double class_accuracy;
 

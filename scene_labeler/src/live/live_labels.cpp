@@ -112,7 +112,7 @@ void LiveLabels::start(std::size_t number) {
       *model_, parameters_, outputs_.cloud,
       [this, number](const DriveFrame& frame, const cv::Mat& classes) { outputs_.image(number, frame, classes); },
       [this](DriveScene drive) { teaching_.keep(std::move(drive)); });
-  side.window = std::make_unique<DriveWindow>(parameters_.reach, *side.labeler);
+  side.window = std::make_unique<DriveWindow>(parameters_.projection_distance, *side.labeler);
   side.drive = std::make_unique<SideDrive>(SideRig{*side.T_base_laser, side.camera}, trajectory_, *path_,
                                            parameters_.spacing, *side.window);
 }

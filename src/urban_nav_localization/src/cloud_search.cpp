@@ -90,7 +90,7 @@ class CloudSearch::Implementation {
  public:
   Implementation(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store)
       : parameters_(parameters), demanding_(parameters.registration) {
-    demanding_.min_shared = std::max(demanding_.min_shared, kMinOverlapWithoutPrior);
+    demanding_.min_overlap = std::max(demanding_.min_overlap, kMinOverlapWithoutPrior);
     for (const urban_nav_store::StoredTrajectory& session : map.sessions()) {
       const std::vector<LaserAt> lasers = storedLasers(store, session.session.id);
       if (lasers.empty()) continue;

@@ -53,10 +53,10 @@ const Table<Parameters>& table() {
           {"max_reprojection_error", &P::max_reprojection_error, "px", 0.2, 0.01, 10.0, {},
            "Largest mean reprojection error of a transform by stereo.",
            "paper 4.1", {"loop_metric.max_reprojection_error"}, Audience::Experts},
-          {"min_likeness", &P::min_likeness, "", 0.5, 0.0, 1.0, {},
+          {"min_patch_correlation", &P::min_patch_correlation, "", 0.5, 0.0, 1.0, {},
            "Smallest mean correlation of patches with the other image at their predicted places; low where places are "
            "similar only in parts.",
-           "src/urban_nav_registration/bench, pairs", {"loop_metric.min_likeness"}, Audience::Experts},
+           "src/urban_nav_registration/bench, pairs", {"min_likeness", "loop_metric.min_likeness"}, Audience::Experts},
           withOldName(urban_nav_core::disparityOffsetRow<P>(), "loop_metric.disparity_offset"),
           withOldName(urban_nav_core::pixelNoiseFloorRow<P>(), "loop_metric.pixel_noise_floor"),
           {"voxel_size", &P::voxel_size, "m", 0.25, 0.01, 10.0, {},
@@ -85,37 +85,39 @@ const Table<Parameters>& table() {
           {"min_inliers", &P::min_inliers, "", 0.35, 0.0, 1.0, {},
            "Smallest share of inliers among the surfaces of the source.",
            "paper 4.2: inlier ratio; measured", {"loop_metric.min_inliers"}, Audience::Experts},
-          {"min_upright_inliers", &P::min_upright_inliers, "", 0.45, 0.0, 1.0, {},
+          {"min_vertical_inliers", &P::min_vertical_inliers, "", 0.45, 0.0, 1.0, {},
            "Smallest share of inliers among the vertical surfaces of the source, since ground surfaces overlap "
            "everywhere; not tested if there are few.",
-           "paper 4.2; measured", {"loop_metric.min_upright_inliers"}, Audience::Experts},
-          {"max_misfit", &P::max_misfit, "", 1.25, 1.0, 100.0, {},
+           "paper 4.2; measured", {"min_upright_inliers", "loop_metric.min_upright_inliers"}, Audience::Experts},
+          {"max_residual_ratio", &P::max_residual_ratio, "", 1.25, 1.0, 100.0, {},
            "Local clouds: largest residual, as a multiple of what their noise and the drift of odometry explain.",
-           "paper 4.2: final residual norm; 99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds", {
-           "loop_metric.max_misfit"}, Audience::Experts},
-          {"max_unknown_misfit", &P::max_unknown_misfit, "", 2.0, 1.0, 100.0, {},
+           "paper 4.2: final residual norm; 99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds",
+           {"max_misfit", "loop_metric.max_misfit"}, Audience::Experts},
+          {"max_unmodelled_residual_ratio", &P::max_unmodelled_residual_ratio, "", 2.0, 1.0, 100.0, {},
            "Clouds from files, whose deformation is unknown: largest residual of a pose found by the search, as a "
            "multiple of what noise and laser_bias explain.",
-           "paper 4.2: final residual norm; measured", {"loop_metric.max_unknown_misfit"}, Audience::Experts},
-          {"min_shared", &P::min_shared, "", 0.15, 0.0, 1.0, {},
+           "paper 4.2: final residual norm; measured",
+           {"max_unknown_misfit", "loop_metric.max_unknown_misfit"}, Audience::Experts},
+          {"min_overlap", &P::min_overlap, "", 0.15, 0.0, 1.0, {},
            "Local clouds: smallest share of inliers among the vertical surfaces of the source, in place of "
-           "min_inliers and min_upright_inliers.",
-           "src/urban_nav_registration/bench, local_clouds", {"loop_metric.min_shared"}, Audience::Experts},
-          {"max_seen_through", &P::max_seen_through, "", 0.12, 0.0, 1.0, {},
+           "min_inliers and min_vertical_inliers.",
+           "src/urban_nav_registration/bench, local_clouds",
+           {"min_shared", "loop_metric.min_shared"}, Audience::Experts},
+          {"max_free_space_violation", &P::max_free_space_violation, "", 0.12, 0.0, 1.0, {},
            "Local clouds: largest share of vertical surfaces that beams of the other cloud passed through, among "
            "those and the coinciding ones.",
-           "99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds", {
-           "loop_metric.max_seen_through"}, Audience::Experts},
+           "99 of 100 correct ones in src/urban_nav_registration/bench, local_clouds",
+           {"max_seen_through", "loop_metric.max_seen_through"}, Audience::Experts},
           {"min_surfels", &P::min_surfels, "", std::int64_t{25}, std::int64_t{6}, std::int64_t{1000000}, {},
            "Smallest number of surfaces with a counterpart.",
            "paper 4.2", {"loop_metric.min_surfels"}, Audience::Experts},
           {"search_radius", &P::search_radius, "m", 10.0, 0.5, 100.0, {},
            "Radius of the global search around the guess, for the origin of the source.",
            "paper 4: closures within 7.5 m", {"loop_metric.search_radius"}, Audience::Experts},
-          {"max_second", &P::max_second, "", 0.85, 0.0, 1.0, {},
+          {"max_second_best_ratio", &P::max_second_best_ratio, "", 0.85, 0.0, 1.0, {},
            "Largest fit of the second best, different pose of a global search relative to the best one; above it the "
            "place is ambiguous.",
-           "paper 4.2; measured", {"loop_metric.max_second"}, Audience::Experts},
+           "paper 4.2; measured", {"max_second", "loop_metric.max_second"}, Audience::Experts},
       });
   return rows;
 }

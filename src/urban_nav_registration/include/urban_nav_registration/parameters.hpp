@@ -16,26 +16,26 @@ struct Parameters {
   int points;                     // of a keyframe
   int min_matches;                // to accept
   double max_reprojection_error;  // px, mean
-  double min_likeness;            // mean correlation
+  double min_patch_correlation;   // mean correlation
   double disparity_offset;        // px
   double pixel_noise_floor;       // px
   // clouds
-  double voxel_size;                   // m
-  double max_correspondence_distance;  // m
-  int iterations;                      // of one step from coarse to fine
-  double laser_bias;                   // m
-  double free_deviation;               // m
-  double max_residual;                 // m
-  double inlier_distance;              // m
-  double min_inliers;                  // share
-  double min_upright_inliers;          // share
-  double max_misfit;                   // of what noise explains
-  double max_unknown_misfit;           // the same
-  double min_shared;                   // share
-  double max_seen_through;             // share
-  int min_surfels;                     // with a counterpart
-  double search_radius;                // m
-  double max_second;                   // share
+  double voxel_size;                     // m
+  double max_correspondence_distance;    // m
+  int iterations;                        // of one step from coarse to fine
+  double laser_bias;                     // m
+  double free_deviation;                 // m
+  double max_residual;                   // m
+  double inlier_distance;                // m
+  double min_inliers;                    // share
+  double min_vertical_inliers;           // share
+  double max_residual_ratio;             // of what noise explains
+  double max_unmodelled_residual_ratio;  // the same
+  double min_overlap;                    // share
+  double max_free_space_violation;       // share
+  int min_surfels;                       // with a counterpart
+  double search_radius;                  // m
+  double max_second_best_ratio;          // share
 
   Parameters();
 };

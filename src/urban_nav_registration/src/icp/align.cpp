@@ -205,7 +205,7 @@ std::vector<PoseCandidate> findRivals(const Alignment& local, const std::vector<
 /// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far
 /// below the best.
 std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
-  constexpr double kFarBelow = 0.6;  // of the best score; max_second asks for more
+  constexpr double kFarBelow = 0.6;  // of the best score; max_second_best_ratio asks for more
   const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;
   std::vector<Try> coarse;
   for (const PoseCandidate& candidate : candidates) {
@@ -254,9 +254,9 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
                   : first_judged;
   alignment.searched = true;
   if (second != tries.end()) alignment.alternative = Alternative{second->refined.T_target_source, share};
-  alignment.tests.push_back(
-      {"second_pose", share, pair.parameters.max_second, false, share <= pair.parameters.max_second});
-  if (alignment.verdict != ClosureVerdict::Rejected && share > pair.parameters.max_second)
+  alignment.tests.push_back({"second_pose", share, pair.parameters.max_second_best_ratio, false,
+                             share <= pair.parameters.max_second_best_ratio});
+  if (alignment.verdict != ClosureVerdict::Rejected && share > pair.parameters.max_second_best_ratio)
     reject(alignment, AlignmentReason::Ambiguous, "another, different pose fits as well");
   return alignment;
 }

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kFewUpright = 20.0;  // pieces: fewer say nothing
 constexpr double kUprightMisfit =
-    2.5;  // times max_misfit: cubes blur the edges of fronts, otherwise from each viewpoint
+    2.5;  // times max_residual_ratio: cubes blur the edges of fronts, otherwise from each viewpoint
 constexpr double kEnoughAlone =
-    0.67;  // of min_upright_inliers, where nothing else comes near: leaves and crowds fall upon themselves by a third
+    0.67;  // of min_vertical_inliers, where nothing else comes near: leaves and crowds fall upon themselves by a third
 constexpr double kStillMoving = 0.005;  // m in the last step
 constexpr double kChanceShare = 0.1;    // of pieces of wall at a pose that is wrong, before it is aligned: measured
 constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
@@ -82,10 +82,10 @@ void reject(Alignment& alignment, AlignmentReason reason, const std::string& sen
 }
 
 bool isPlausible(const ValidationContext& plausibility, const Parameters& parameters) {
-  if (!plausibility.seen_through) return plausibility.misfit <= parameters.max_unknown_misfit;
-  return plausibility.misfit <= parameters.max_misfit &&
-         plausibility.upright_misfit <= kUprightMisfit * parameters.max_misfit &&
-         *plausibility.seen_through <= parameters.max_seen_through;
+  if (!plausibility.seen_through) return plausibility.misfit <= parameters.max_unmodelled_residual_ratio;
+  return plausibility.misfit <= parameters.max_residual_ratio &&
+         plausibility.upright_misfit <= kUprightMisfit * parameters.max_residual_ratio &&
+         *plausibility.seen_through <= parameters.max_free_space_violation;
 }
 
 void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
@@ -105,23 +105,23 @@ void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
        "the surfaces do not fall upon each other");
   const bool upright = fit.upright >= kFewUpright;
   if (plausibility && plausibility->seen_through) {
-    test("misfit", plausibility->misfit, parameters.max_misfit, false, AlignmentReason::Misfit,
+    test("misfit", plausibility->misfit, parameters.max_residual_ratio, false, AlignmentReason::Misfit,
          "the surfaces lie further apart than noise and odometry explain");
-    test("upright_misfit", plausibility->upright_misfit, kUprightMisfit * parameters.max_misfit, false,
+    test("upright_misfit", plausibility->upright_misfit, kUprightMisfit * parameters.max_residual_ratio, false,
          AlignmentReason::Misfit, "the upright surfaces lie further apart than noise and odometry explain");
-    test("seen_through", *plausibility->seen_through, parameters.max_seen_through, false, AlignmentReason::SeenThrough,
-         "beams of one cloud went through surfaces of the other");
-    test("shared", upright ? fit.upright_inliers : fit.inliers, parameters.min_shared, true,
+    test("seen_through", *plausibility->seen_through, parameters.max_free_space_violation, false,
+         AlignmentReason::SeenThrough, "beams of one cloud went through surfaces of the other");
+    test("shared", upright ? fit.upright_inliers : fit.inliers, parameters.min_overlap, true,
          AlignmentReason::TooFewInliers, "too few of the surfaces fall upon each other");
   } else {
     if (plausibility)
-      test("misfit", plausibility->misfit, parameters.max_unknown_misfit, false, AlignmentReason::Misfit,
+      test("misfit", plausibility->misfit, parameters.max_unmodelled_residual_ratio, false, AlignmentReason::Misfit,
            "the surfaces lie further apart than noise explains");
     const double enough = plausibility && plausibility->is_alone ? kEnoughAlone : 1.0;
     test("inliers", fit.inliers, parameters.min_inliers, true, AlignmentReason::TooFewInliers,
          "too few of the surfaces fall upon each other");
     if (upright)
-      test("upright_inliers", fit.upright_inliers, enough * parameters.min_upright_inliers, true,
+      test("upright_inliers", fit.upright_inliers, enough * parameters.min_vertical_inliers, true,
            AlignmentReason::TooFewInliers, "too few of the upright surfaces fall upon each other");
   }
   if (planar)

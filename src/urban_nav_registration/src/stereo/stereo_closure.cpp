@@ -214,7 +214,7 @@ class StereoMatcher::Implementation {
     const bool enough = test(closure, "matches", closure.matches, parameters_.min_matches, true);
     const bool small =
         test(closure, "reprojection_error_px", closure.reprojection_px, parameters_.max_reprojection_error, false);
-    const bool alike = test(closure, "likeness", closure.likeness, parameters_.min_likeness, true);
+    const bool alike = test(closure, "likeness", closure.likeness, parameters_.min_patch_correlation, true);
     const bool firm = test(closure, "sigma_m", sigma_m, kLargestSigmaM, false);
     const bool turned = test(closure, "sigma_rad", sigma_rad, kLargestSigmaRad, false);
     if (!enough)
@@ -229,7 +229,7 @@ class StereoMatcher::Implementation {
       return refused(
           closure, StereoReason::Unlike,
           stereoReason("where points should be the other view looks otherwise: a mean correlation of %.2f, %.2f wanted",
-                       closure.likeness, parameters_.min_likeness));
+                       closure.likeness, parameters_.min_patch_correlation));
     if (!firm || !turned)
       return refused(closure, StereoReason::NotDetermined,
                      stereoReason("the matches leave it open by %.2f m or %.3f rad", sigma_m, sigma_rad));

@@ -214,7 +214,7 @@ TEST(Align, WhatASearchFindsIsNoBetterThanNoiseLetsIt) {
                    alike = scan(panelledCourt(51), stand(-0.5, 0.3, 95.0), {}, 2);
   Parameters strict;  // the fronts differ by centimetres
   strict.laser_bias = 0.001;
-  strict.max_unknown_misfit = 1.25;
+  strict.max_unmodelled_residual_ratio = 1.25;
   EXPECT_EQ(align(court, again, strict, {}, SearchMode::AtOnce).verdict, ClosureVerdict::Accepted);
   EXPECT_EQ(align(court, alike, {}, {}, SearchMode::AtOnce).verdict, ClosureVerdict::Accepted) << "it tests nothing";
   const Alignment alignment = align(court, alike, strict, {}, SearchMode::AtOnce);

@@ -102,7 +102,8 @@ std::size_t LabelClicks::addTo(const scene_labeler::LabelModel& model, const Dri
     std::array<scene_labeler::TrainingFold, kBothSides.size()> folds;  // in an order that does not depend on messages
     Collector left(clicked.clicks[0], model, parameters.superpixel, folds[0]),
         right(clicked.clicks[1], model, parameters.superpixel, folds[1]);
-    scene_labeler::DriveWindow left_window(parameters.reach, left), right_window(parameters.reach, right);
+    scene_labeler::DriveWindow left_window(parameters.projection_distance, left),
+        right_window(parameters.projection_distance, right);
     DriveOptions drive = options;
     drive.trajectory = clicked.trajectory;
     readDrive(clicked.bag, drive, console, {&left_window, &right_window});

@@ -149,7 +149,7 @@ void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, 
   };
   TimedLabeler left(model, parameters, taker(DriveSide::Left), run);
   TimedLabeler right(model, parameters, taker(DriveSide::Right), run);
-  DriveWindow left_window(parameters.reach, left), right_window(parameters.reach, right);
+  DriveWindow left_window(parameters.projection_distance, left), right_window(parameters.projection_distance, right);
   readDrive(bag, options, console, {&left_window, &right_window});
   if (!parameters.class_topic.empty())
     console.info(bag + ": class images for " + std::to_string(left.classFrames() + right.classFrames()) + " of " +
@@ -175,7 +175,7 @@ void addDriveFold(const std::string& bag, const DriveOptions& options, const sce
   std::vector<scene_labeler::TrainingFold> left_folds, right_folds;  // in an order that does not depend on the messages
   FoldBuilder left(name, left_truth, features, parameters.superpixel, is_alone, left_folds),
       right(name, right_truth, features, parameters.superpixel, is_alone, right_folds);
-  DriveWindow left_window(parameters.reach, left), right_window(parameters.reach, right);
+  DriveWindow left_window(parameters.projection_distance, left), right_window(parameters.projection_distance, right);
   readDrive(bag, options, console, {&left_window, &right_window});
   for (std::vector<scene_labeler::TrainingFold>* made : {&left_folds, &right_folds})
     for (scene_labeler::TrainingFold& fold : *made) scene_labeler::mergeFold(std::move(fold), folds);

@@ -202,7 +202,8 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
     milliseconds.push_back(millisecondsSince(begin));
   };
   callbacks.take_label = [&](std::size_t point, const PointLabel& label) { labels[point] = label; };
-  const MapLabeler::Options options{parameters.superpixel, 1.5 * parameters.reach, parameters.class_accuracy};
+  const MapLabeler::Options options{parameters.superpixel, 1.5 * parameters.projection_distance,
+                                    parameters.class_accuracy};
   MapLabeler labeler(model, options, planned.views, callbacks);
   const double tile_edge = laser_mapper::kTileCells * map.parameters().voxel;
   std::optional<int> row;

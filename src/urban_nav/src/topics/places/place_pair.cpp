@@ -120,7 +120,7 @@ void compareInMap(const std::vector<SessionPlaces>& sessions, const PlaceNumber&
                   const fabmap_node::PlaceModel& model, const fabmap_node::Parameters& parameters, PlacePair& pair) {
   const fabmap_node::LikelihoodTable table(model.tree, model.detector, fabmap_node::Dependence::ChowLiu);
   fabmap_node::MatcherOptions options;
-  if (!parameters.second_look) options.second_looks = 0;
+  if (!parameters.descriptor_matching) options.second_looks = 0;
   fabmap_node::PlaceMatcher matcher(table, model.sampled_places, options);
   const auto mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));
   const auto describe = [&](std::size_t s, const StoredPlace& row) {

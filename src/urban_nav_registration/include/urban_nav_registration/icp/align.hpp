@@ -42,7 +42,7 @@ struct AlignmentTest {
 /// Second best pose of a global search, different from the best one.
 struct Alternative {
   urban_nav_core::Pose T_target_source;
-  double share = 0.0;  ///< its fit relative to the best one; ambiguous above `max_second`
+  double share = 0.0;  ///< its fit relative to the best one; ambiguous above `max_second_best_ratio`
 };
 
 /// Result of an alignment.
