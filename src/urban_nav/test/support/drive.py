@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The simulated drive that tests share: all sensors in the quad, recorded once by the `urban_nav` program and kept while that program stays the same.
 
-    drive.py PROGRAM     prints the path of the bag; the truth is in the folder of the same name, *.truth
+    drive.py PROGRAM     prints the path of the bag; the truth is in the folder of the same name, *.truth, with what each beam met
 """
 import fcntl
 import hashlib
@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 SECONDS = 24
-OPTIONS = ["--seed", "5", "--duration", str(SECONDS)]
+OPTIONS = ["--seed", "5", "--duration", str(SECONDS), "--views", "lasers"]
 TOPICS = {  # of a sensor: how their names begin
     "stereo": ("/stereo/",),
     "ladybug": ("/ladybug/",),
@@ -38,7 +38,7 @@ def fingerprint(program):
 def record(program):
     """The path of the bag. Tests that run at the same time wait for the first of them, which records it."""
     program = Path(program).resolve()
-    top = program.parents[2] / "share" / "urban_nav" / "test_drive"  # in the devel space, beside lib/urban_nav/urban_nav
+    top = program.parents[2] / "share" / "urban_nav" / "test_drive"  # of the devel space
     top.mkdir(parents=True, exist_ok=True)
     with open(top / "lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)

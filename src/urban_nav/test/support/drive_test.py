@@ -43,7 +43,7 @@ class Record(unittest.TestCase):
         self.assertEqual(first.read_text(), "bag\n")
         self.assertEqual(drive.record(self.program), first)
         self.assertEqual(len(self.calls()), 1)
-        self.assertIn(f"simulate --seed 5 --duration {drive.SECONDS} -o ", self.calls()[0])
+        self.assertIn(f"simulate --seed 5 --duration {drive.SECONDS} --views lasers -o ", self.calls()[0])
         self.write(PROGRAM + "# other\n")
         second = drive.record(self.program)
         self.assertNotEqual(second, first)

@@ -9,7 +9,7 @@
 #include "base/command.hpp"
 #include "commands/stages.hpp"
 #include "scene_labeler/class_map.hpp"
-#include "simulate/simulate_command.hpp"
+#include "support/shared_drive.hpp"
 #include "topics/labels/label_score.hpp"
 #include "topics/labels/labels.hpp"
 #include "topics/vo/vo.hpp"
@@ -138,18 +138,14 @@ TEST(LabelScores, CountMissingAnswersAsWrongAndWallsAsOneClass) {
   EXPECT_NEAR(score.calibrationError(), (0.2 + 0.1 + 0.6) / 3.0, 1e-6);
 }
 
-/// Simulates a drive of two lasers, without cameras; returns the path of the bag.
-std::string simulateLasers(const std::string& bag, int seed) {
-  const std::string number = std::to_string(seed);
-  const std::vector<const char*> argv = {"urban_nav",    "simulate",   "--world", "quad",      "--seed",
-                                         number.c_str(), "--duration", "8",       "--sensors", "lasers",
-                                         "--views",      "lasers",     "-o",      bag.c_str()};
-  EXPECT_EQ(runCommandLine({simulateCommand()}, addStageTables, static_cast<int>(argv.size()), argv.data()), 0);
+/// Writes eight seconds of a drive of two lasers, without cameras; returns the path of the bag.
+std::string cutLasers(const std::string& bag, double begin) {
+  testing::cutSharedDrive(bag, {begin, begin + 8.0, {"/laser_"}, ""});
   return bag;
 }
 
 TEST_F(Labels, OfABagAreThoseOfItsReturnsWhateverItsTruth) {
-  const std::string one = simulateLasers(path("one.bag"), 71001), two = simulateLasers(path("two.bag"), 71002);
+  const std::string one = cutLasers(path("one.bag"), 0.0), two = cutLasers(path("two.bag"), 16.0);
   const std::string pose_one = path("one.truth/trajectory.tum"), pose_two = path("two.truth/trajectory.tum");
   ASSERT_EQ(labels({"train", two, one, "--trajectory", pose_two, "--trajectory", pose_one, "-o", path("m"), "--set",
                     "scene_labeler.samples=300"}),

@@ -9,7 +9,7 @@
 #include "base/command.hpp"
 #include "commands/stages.hpp"
 #include "map/map_command.hpp"
-#include "simulate/simulate_command.hpp"
+#include "support/shared_drive.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 
 namespace urban_nav {
@@ -18,8 +18,7 @@ namespace {
 int runCommand(const std::vector<std::string>& words) {
   std::vector<const char*> argv = {"urban_nav"};
   for (const std::string& word : words) argv.push_back(word.c_str());
-  return runCommandLine({simulateCommand(), mapCommand(makeStages)}, addStageTables, static_cast<int>(argv.size()),
-                        argv.data());
+  return runCommandLine({mapCommand(makeStages)}, addStageTables, static_cast<int>(argv.size()), argv.data());
 }
 
 /// What `map` says of its calibration in summary.json.
@@ -28,15 +27,13 @@ nlohmann::json readCalibration(const std::string& folder) {
   return summary.at("laser_mapper").at("calibration").at(0);
 }
 
-/// Six seconds of a drive, simulated once: the head of the panoramic cameras is turned to the left by 2 deg from where
-/// it is stated to be, so /tf_static is wrong by -2 deg about z.
+/// Ten seconds of a drive: the head of the panoramic cameras is turned to the left by 2 deg from where it is stated to
+/// be, so /tf_static is wrong by -2 deg about z.
 TEST(MapCalibrate, FindsATurnedHeadSaysSoAndColoursTheMapWithIt) {
   const urban_nav_input::testing::TemporaryFolder folder;
   const std::string bag = folder.file("drive.bag"), plain = folder.file("plain"),
                     calibrated = folder.file("calibrated");
-  ASSERT_EQ(runCommand({"simulate", "--world", "quad", "--route", "return", "--seed", "40", "--duration", "6",
-                        "--sensors", "stereo,ladybug,lasers", "--misplace", "ladybug:0,0,-2", "-o", bag}),
-            0);
+  testing::cutSharedDrive(bag, {0.0, 10.0, {"/stereo/", "/ladybug/", "/laser_"}, "ladybug:0,0,-2"});
   ASSERT_EQ(runCommand({"map", bag, "--out", plain, "--stages", "vo,lasers"}), 0);
   ASSERT_EQ(runCommand({"map", bag, "--out", calibrated, "--stages", "vo,lasers", "--calibrate"}), 0);
   const nlohmann::json calibration = readCalibration(calibrated);
@@ -50,7 +47,7 @@ TEST(MapCalibrate, FindsATurnedHeadSaysSoAndColoursTheMapWithIt) {
     EXPECT_EQ(head.at(term).at("adopted"), head.at(term).at("found")) << term;
   }
   EXPECT_EQ(calibration.at("devices").at("laser_left").at("delay_ms").at("adopted"), 0.0);
-  EXPECT_FALSE(calibration.at("not_observable").empty()) << "six seconds do not tell everything";
+  EXPECT_FALSE(calibration.at("not_observable").empty()) << "ten seconds do not tell everything";
   EXPECT_NE(urban_nav_input::testing::readFile(calibrated + "/report.html").find("Calibration of lasers and panoramas"),
             std::string::npos);
   EXPECT_NE(urban_nav_input::testing::readFile(plain + "/map.ply"),
