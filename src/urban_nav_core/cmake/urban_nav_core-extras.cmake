@@ -13,7 +13,7 @@ option(URBAN_NAV_BENCH "Configure the programs in bench/ (target urban_nav_bench
 option(URBAN_NAV_PRECOMPILE "Headers that most files include are compiled once for each target" OFF)
 option(URBAN_NAV_UNITY "Sources are compiled in batches, which parses what they include once for each batch" OFF)
 option(URBAN_NAV_UNITY_TESTS "As URBAN_NAV_UNITY, for tests and what only they and benches use" OFF)
-set(URBAN_NAV_UNITY_BATCH 8 CACHE STRING "Sources in a batch")
+set(URBAN_NAV_UNITY_BATCH 16 CACHE STRING "Sources in a batch")
 option(URBAN_NAV_SANITIZED_READERS "Test what reads foreign bytes under the sanitizers, beside the tests without them" OFF)
 set(URBAN_NAV_TEST_SHARDS 1 CACHE STRING "Processes that share the cases of one gtest binary")
 set(URBAN_NAV_TEST_ROOMS "" CACHE STRING "Folders of test/ to compile into the tests; empty: all")
