@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_ros {
@@ -13,7 +15,7 @@ using urban_nav_core::SpecificForce;
 
 sensor_msgs::Imu imu(int i, const std::string& frame = "imu_link") {
   sensor_msgs::Imu message;
-  message.header.stamp = toRosTime(i * 10'000'000);
+  message.header.stamp = toRosTime(std::int64_t{10'000'000} * i);
   message.header.frame_id = frame;
   message.linear_acceleration.x = 9.8;
   message.linear_acceleration.y = i;
