@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "commands/stages.hpp"
 #include "loop_metric/parameters.hpp"
 #include "map/map_command.hpp"
-#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
 #include "urban_nav_localization/parameters.hpp"
 #include "urban_nav_registration/parameters.hpp"
@@ -56,11 +56,12 @@ TEST(Parameters, MotionInputIsUnderstoodUnderTheNameOfTheStageThatHadIt) {
 /// Parameters that a text lists: "swf_vo.window" of "  swf_vo.window = 10  (default)".
 std::vector<std::string> listedParameters(const std::string& help) {
   std::vector<std::string> names;
-  for (const std::string_view line : urban_nav_core::splitAt(help, '\n')) {
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
     const std::size_t equals = line.find(" = "), origin = line.find("  (", 2);
     const bool is_parameter = line.size() > 2 && line.substr(0, 2) == "  " && line[2] != ' ' && equals < origin &&
-                              origin != std::string_view::npos;
-    if (is_parameter) names.emplace_back(line.substr(2, equals - 2));
+                              origin != std::string::npos;
+    if (is_parameter) names.push_back(line.substr(2, equals - 2));
   }
   return names;
 }
