@@ -23,6 +23,7 @@ using urban_nav_core::testing::quantile;
 struct Variant {
   const char* name;
   std::vector<std::string> sets;
+  swf_vo::Ablation ablation = {};
 };
 
 struct Options {
@@ -98,17 +99,19 @@ void addPeers(BenchTable& table, const Sequence& sequence, const std::vector<std
 
 int main(int argc, char** argv) try {
   const Options options = parse(argc, argv);
+  swf_vo::Ablation prior_dropped;
+  prior_dropped.delete_departed = true;
   const std::vector<Variant> variants = {{"defaults (window 10)", {}},
                                          {"window 1", {"swf_vo.window=1"}},
                                          {"window 25", {"swf_vo.window=25"}},
                                          {"one iteration", {"swf_vo.iterations=1"}},
-                                         {"prior dropped (marginalization: none)", {"swf_vo.marginalization=none"}}};
+                                         {"prior dropped", {}, prior_dropped}};
   BenchTable table({"images", "variant", "ms a frame, median", "99 %", "frames/s", "features", "10-frame spans"}, argc,
                    argv);
   for (const Sequence& drawn : sequences(options)) {
     const Sequence sequence = inMemory(drawn);
     for (const Variant& variant : variants) {
-      const Run result = run(sequence, parametersFrom(variant.sets));
+      const Run result = run(sequence, parametersFrom(variant.sets), variant.ablation);
       const std::ptrdiff_t settled = std::min<std::ptrdiff_t>(50, static_cast<std::ptrdiff_t>(result.ms.size()) / 2);
       const std::vector<double> steady(result.ms.begin() + settled, result.ms.end());
       const SpanErrors error = spanErrors(sequence.truth, result.settled, 10);

@@ -23,21 +23,10 @@ const Table<Parameters>& table() {
            "Poses kept and estimated together. More is more accurate and slower; 1 is an extended Kalman filter, all "
            "frames are the batch solution.",
            "paper 2.2"},
-          {"marginalization", &P::marginalization, "", std::string("schur"), false, false, {"schur", "none"},
-           "Poses and landmarks that leave the window are marginalised into the prior by the Schur complement, or "
-           "deleted (classic visual odometry, for comparison).",
-           "paper 2.2.1", {"forget: delete = none"}, Audience::Experts},
-          {"first_estimate_jacobians", &P::first_estimate_jacobians, "", true, false, false, {},
-           "Linearises blocks touched by the prior at their first estimates (consistent); without, at the latest ones "
-           "(textbook Kalman filter).",
-           "Huang, Mourikis, Roumeliotis, IJRR 2010", {"linearise: first = true, latest = false"}, Audience::Experts},
           {"features", &P::features, "at 512x384 px", std::int64_t{100}, std::int64_t{20}, std::int64_t{2000}, {},
            "Features followed at a time; in images of another size they follow the area to the power of 2/3.",
            "paper 2.4 (v)"},
           urban_nav_core::pixelNoiseFloorRow<P>(),
-          {"subpixel", &P::subpixel, "", true, false, false, {},
-           "Places corners to a hundredth of a pixel; without, to the next whole one (for comparison).",
-           "paper 2.4", {}, Audience::Experts},
           urban_nav_core::disparityOffsetRow<P>(),
           {"rig_scale", &P::rig_scale, "%", 0.05, 0.0, 10.0, {},
            "Standard deviation of focal length times baseline, relative, left by calibration: of all lengths; no "

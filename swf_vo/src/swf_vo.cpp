@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ablation.hpp"
 #include "front_end/front_end.hpp"
 #include "health/corruption.hpp"
 #include "health/health.hpp"
@@ -38,11 +39,11 @@ constexpr int kLandmarksPerFeature = 4;
 constexpr const char* kStateName = "swf_vo";
 constexpr std::uint32_t kStateVersion = 5;  // one more whenever what is archived becomes other bytes
 
-WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
+WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;
   options.size = parameters.window;
-  options.forget_by_deletion = parameters.marginalization == "none";
-  options.linearise_first = parameters.first_estimate_jacobians;
+  options.forget_by_deletion = ablation.delete_departed;
+  options.linearise_first = !ablation.latest_jacobians;
   options.huber = parameters.huber;
   options.iterations = parameters.iterations;
   options.disparity_offset = parameters.disparity_offset;
@@ -85,21 +86,28 @@ ProcessInput turned(const ProcessInput& u, const Pose& last, const FrontEndResul
   return result;
 }
 
-/// Returns "name = value" as stored states have it: two parameters had other names when these began.
-std::string storedSetting(const Parameters& parameters, const std::string& name) {
-  if (name == "marginalization") return parameters.marginalization == "none" ? "forget = delete" : "forget = schur";
-  if (name == "first_estimate_jacobians")
-    return parameters.first_estimate_jacobians ? "linearise = first" : "linearise = latest";
-  return name + " = " + urban_nav_core::printValue(table().get(parameters, name));
+/// Returns "name = value" of each setting, as stored states have them: parts of an ablation were parameters when these
+/// began.
+std::vector<std::string> storedSettings(const Parameters& parameters, const Ablation& ablation) {
+  std::vector<std::string> settings;
+  for (const urban_nav_core::RowInfo& row : table().rows()) {
+    settings.push_back(row.name + " = " + urban_nav_core::printValue(table().get(parameters, row.name)));
+    if (row.name == "window") {
+      settings.emplace_back(ablation.delete_departed ? "forget = delete" : "forget = schur");
+      settings.emplace_back(ablation.latest_jacobians ? "linearise = latest" : "linearise = first");
+    } else if (row.name == "pixel_noise_floor") {
+      settings.emplace_back(ablation.whole_pixels ? "subpixel = false" : "subpixel = true");
+    }
+  }
+  return settings;
 }
 
 }  // namespace
 
 /// A state is of use with the parameters and the calibration that it was made with, and no others.
-void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const StereoCamera& camera,
-           const Pose& T_base_camera) {
-  for (const urban_nav_core::RowInfo& row : table().rows()) {
-    const std::string now = storedSetting(parameters, row.name);
+void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const Ablation& ablation,
+           const StereoCamera& camera, const Pose& T_base_camera) {
+  for (const std::string& now : storedSettings(parameters, ablation)) {
     std::string then = now;
     archive(then);
     if (then != now)
@@ -119,14 +127,16 @@ void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const
 /// The story of one frame; no algorithm.
 class SwfVo::Implementation {
  public:
-  Implementation(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera)
-      : parameters_(parameters),
+  Implementation(const Ablation& ablation, const Parameters& parameters, const StereoCamera& camera,
+                 const Pose& T_base_camera)
+      : ablation_(ablation),
+        parameters_(parameters),
         camera_(camera),
         T_odom_first_camera_(T_base_camera),
         row_repair_(camera.left.width, camera.left.height),
         prediction_(parameters, T_base_camera),
-        front_end_(parameters, camera),
-        window_(windowOptions(parameters, camera), camera),
+        front_end_(parameters, camera, !ablation.whole_pixels),
+        window_(windowOptions(parameters, camera, ablation), camera),
         health_(parameters),
         output_(T_base_camera) {}
 
@@ -189,9 +199,16 @@ class SwfVo::Implementation {
 
   std::string state() {
     urban_nav_core::Archive archive;
-    agree(archive, parameters_, camera_, T_odom_first_camera_);
+    agree(archive, parameters_, ablation_, camera_, T_odom_first_camera_);
     this->archive(archive);
     return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
+  }
+
+  void restore(std::string_view state) {
+    urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), "state of swf_vo");
+    agree(archive, parameters_, ablation_, camera_, T_odom_first_camera_);
+    this->archive(archive);
+    archive.finish();
   }
 
   void archive(urban_nav_core::Archive& archive) {
@@ -266,6 +283,7 @@ class SwfVo::Implementation {
     for (const Observation& observation : seen.fresh) window_.observe(observation);
   }
 
+  Ablation ablation_;
   Parameters parameters_;
   StereoCamera camera_;
   Pose T_odom_first_camera_;
@@ -287,17 +305,20 @@ class SwfVo::Implementation {
   double period_ = 0.0;
 };
 
-SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera) {
-  check(camera);
-  implementation_ = std::make_unique<Implementation>(parameters, camera, T_base_camera);
-}
+SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera)
+    : SwfVo(Ablation(), parameters, camera, T_base_camera) {}
 SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera,
              std::string_view state)
-    : SwfVo(parameters, camera, T_base_camera) {
-  urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), "state of swf_vo");
-  agree(archive, parameters, camera, T_base_camera);
-  implementation_->archive(archive);
-  archive.finish();
+    : SwfVo(Ablation(), parameters, camera, T_base_camera, state) {}
+SwfVo::SwfVo(const Ablation& ablation, const Parameters& parameters, const StereoCamera& camera,
+             const Pose& T_base_camera) {
+  check(camera);
+  implementation_ = std::make_unique<Implementation>(ablation, parameters, camera, T_base_camera);
+}
+SwfVo::SwfVo(const Ablation& ablation, const Parameters& parameters, const StereoCamera& camera,
+             const Pose& T_base_camera, std::string_view state)
+    : SwfVo(ablation, parameters, camera, T_base_camera) {
+  implementation_->restore(state);
 }
 SwfVo::~SwfVo() = default;
 SwfVo::SwfVo(SwfVo&&) noexcept = default;

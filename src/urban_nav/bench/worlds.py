@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Visual odometry in the simulated worlds: how hard they are, and how good it is there.
 
-Drives each world, maps what the stereo camera saw with the shipped parameters and as a plain method would (the last frame alone, nothing kept, whole
-pixels), and compares both with the truth. The stereo streams stay in the folder, so that other systems can run on the very same frames; give their
-poses with --peer.
+Drives each world, maps what the stereo camera saw with the shipped parameters, runs plain odometry on it (swf_vo-bench-plain: a window of one frame,
+without a prior, with corners at whole pixels), and compares both with the truth. The stereo streams stay in the folder, so that other systems can run
+on the very same frames; give their poses with --peer. Needs the programs of bench/ (target urban_nav_benches).
 """
 import argparse
 import json
+import subprocess
+import sys
 from pathlib import Path
 
-from support import WORLDS, commit, mapped, show, simulated, urban_nav
+from support import TOP, WORLDS, commit, mapped, show, simulated, urban_nav
 
-PLAIN = ("swf_vo.window=1", "swf_vo.marginalization=none", "swf_vo.subpixel=false")
+PLAIN = TOP / "build" / "ws" / "devel" / "lib" / "swf_vo" / "swf_vo-bench-plain"
 COLUMNS = ("world", "system", "10 frames", "10 m", "position, rms, mm", "NEES", "frames not OK", "ms a frame, median")
 
 
@@ -25,17 +27,28 @@ def row(world, system, found):
     return [*cells, f"{found['nees_mean']:.1f}", str(not_ok), f"{vo['ms_median']:.1f}"]
 
 
+def evaluated(folder, poses, found):
+    """Poses of a folder's left camera, compared with the truth that lies there; `found`: file for the figures."""
+    urban_nav("evaluate", "--truth", folder / "poses.txt", "--estimate", poses, "--spans", "10m", "--json", found)
+    return json.loads(found.read_text())
+
+
+def plain(folder, out):
+    """Runs plain odometry on a folder; returns its figures, as support.mapped() does."""
+    result = subprocess.run([PLAIN, folder, out], capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(f"{PLAIN.name} {folder} {out}:\n{result.stderr[-2000:]}")
+    return {**evaluated(folder, out / "poses.txt", out / "evaluation.json"), "swf_vo": json.loads((out / "summary.json").read_text())}
+
+
 def rows_of(world, arguments):
     folder = simulated(arguments.folder / f"{world}{arguments.seed}", world, arguments.seed, arguments.duration)
     rows = []
-    for system, settings in (("swf_vo", ()), ("plain", PLAIN)):
-        out = arguments.folder / f"{folder.name}_{system}"
-        rows.append(row(world, system, mapped(folder, out, *settings)))
+    for system, run in (("swf_vo", mapped), ("plain", plain)):
+        rows.append(row(world, system, run(folder, arguments.folder / f"{folder.name}_{system}")))
     for name, of, poses in (peer.split("=", 2) for peer in arguments.peer):
         if of == world:
-            found = arguments.folder / f"{folder.name}_{name}.json"
-            urban_nav("evaluate", "--truth", folder / "poses.txt", "--estimate", poses, "--spans", "10m", "--json", found)
-            rows.append(row(world, name, json.loads(found.read_text())))
+            rows.append(row(world, name, evaluated(folder, poses, arguments.folder / f"{folder.name}_{name}.json")))
     return rows
 
 
@@ -51,7 +64,9 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     before = commit()
     rows = [r for world in arguments.world or WORLDS for r in rows_of(world, arguments)]
-    show(COLUMNS, rows, [f"{arguments.duration} s each, seed {arguments.seed}. Plain: {', '.join(PLAIN)}. NEES: 6 is right."], before, arguments.output)
+    note = (f"{arguments.duration} s each, seed {arguments.seed}. Plain: a window of one frame, without a prior, with corners at whole pixels. "
+            "NEES: 6 is right.")
+    show(COLUMNS, rows, [note], before, arguments.output)
 
 
 if __name__ == "__main__":

@@ -111,11 +111,13 @@ void take(const std::vector<Settled>& settled, Run& run) {
 
 }  // namespace
 
-std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters) {
+std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters,
+                             const Ablation& ablation) {
   std::vector<Run> results(sequences.size());
   std::vector<SwfVo> filters;
   filters.reserve(sequences.size());
-  for (const Sequence& sequence : sequences) filters.emplace_back(parameters, sequence.camera, Pose());
+  for (const Sequence& sequence : sequences)
+    filters.push_back(makeAblated(ablation, parameters, sequence.camera, Pose()));
   cv::Mat left, right;
   for (std::size_t i = 0; i < sequences.front().stamps.size(); ++i)
     for (std::size_t s = 0; s < sequences.size(); ++s) {
@@ -134,8 +136,8 @@ std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Param
   return results;
 }
 
-Run run(const Sequence& sequence, const Parameters& parameters) {
-  return std::move(runTogether({sequence}, parameters).front());
+Run run(const Sequence& sequence, const Parameters& parameters, const Ablation& ablation) {
+  return std::move(runTogether({sequence}, parameters, ablation).front());
 }
 
 SpanErrors spanErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, std::size_t span) {

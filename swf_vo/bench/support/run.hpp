@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "swf_vo/swf_vo.hpp"
+#include "ablation/ablated.hpp"
 #include "urban_nav_core/testing/rendered_sequence.hpp"
 
 namespace swf_vo::bench {
@@ -53,9 +53,10 @@ struct Run {
   std::vector<double>
       ms;  ///< of process(), images already decoded: time of the processor, so that what else runs does not count
 };
-Run run(const Sequence& sequence, const Parameters& parameters);
+Run run(const Sequence& sequence, const Parameters& parameters, const Ablation& ablation = {});
 /// A filter each, frame by frame in turn. All sequences have as many frames.
-std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters);
+std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters,
+                             const Ablation& ablation = {});
 
 /// Errors over all spans of so many frames: mean in per cent and deg/m, and the median ratio of the lengths of
 /// one-frame steps.

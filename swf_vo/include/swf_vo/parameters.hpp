@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-
 #include "urban_nav_core/parameters/table.hpp"
 
 namespace swf_vo {
@@ -10,16 +8,13 @@ namespace swf_vo {
 /// What a user may want to change; one member per row of table(), which says what each means, its unit, range and
 /// default. The camera and the extrinsics are not here: they come with the data.
 struct Parameters {
-  int window;                   // frames
-  std::string marginalization;  // schur, none
-  bool first_estimate_jacobians;
+  int window;                // frames
   int features;              // in an image of 512x384
   double pixel_noise_floor;  // px
-  bool subpixel;
-  double disparity_offset;  // px, standard deviation of a state; 0: none
-  double rig_scale;         // %, standard deviation
-  double right_roll;        // deg, standard deviation of the prior
-  double shutter_delay;     // ms, standard deviation of the prior
+  double disparity_offset;   // px, standard deviation of a state; 0: none
+  double rig_scale;          // %, standard deviation
+  double right_roll;         // deg, standard deviation of the prior
+  double shutter_delay;      // ms, standard deviation of the prior
   bool robust_covariance;
   double huber;                 // standard deviations
   int iterations;               // Gauss-Newton steps a frame, at most

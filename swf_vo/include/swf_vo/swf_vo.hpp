@@ -14,6 +14,8 @@
 
 namespace swf_vo {
 
+struct Ablation;
+
 /// Stereo visual odometry by a Sliding Window Filter (Newman et al. 2009, section 2).
 ///
 /// Feed it pairs in order of time. Every pair, whatever its state, gives a Frame with a finite pose and a proper
@@ -50,6 +52,12 @@ class SwfVo {
 
  private:
   class Implementation;
+  friend class AblatedSwfVo;  // for comparison: in library swf_vo_ablation
+  SwfVo(const Ablation& ablation, const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+        const urban_nav_core::Pose& T_base_camera);
+  SwfVo(const Ablation& ablation, const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+        const urban_nav_core::Pose& T_base_camera, std::string_view state);
+
   std::unique_ptr<Implementation> implementation_;
 };
 

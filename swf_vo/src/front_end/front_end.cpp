@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "edge_width.hpp"
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
 #include "front_end/match.hpp"
@@ -71,8 +70,9 @@ int featuresIn(const StereoCamera& camera, int features) {
 
 class FrontEnd::Implementation {
  public:
-  Implementation(const Parameters& parameters, const StereoCamera& camera)
+  Implementation(const Parameters& parameters, const StereoCamera& camera, bool subpixel)
       : parameters_(parameters),
+        subpixel_(subpixel),
         camera_(camera),
         corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold,
                  featuresIn(camera, parameters.features)),
@@ -84,8 +84,7 @@ class FrontEnd::Implementation {
         noise_(capacity_),
         rows_(4 * capacity_),
         rig_({parameters.right_roll * M_PI / 180.0, 1e-3 * parameters.shutter_delay}, camera_),
-        replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor,
-                     parameters.subpixel) {
+        replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor, subpixel) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
     residual_test_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
     matches_.reserve(capacity);
@@ -369,7 +368,7 @@ class FrontEnd::Implementation {
   }
 
   void measure(Match& match) {
-    if (!parameters_.subpixel) roundToPixels(match);
+    if (!subpixel_) roundToPixels(match);
     combine(parameters_.pixel_noise_floor, match, rows_.px());
   }
 
@@ -459,6 +458,7 @@ class FrontEnd::Implementation {
   }
 
   Parameters parameters_;
+  bool subpixel_;
   StereoCamera camera_;
   Corners corners_;
   RotationTracker rotation_;
@@ -484,8 +484,8 @@ class FrontEnd::Implementation {
   Pose T_window_odom_;     // of the frame before, as the window has it now
 };
 
-FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
-    : implementation_(std::make_unique<Implementation>(parameters, camera)) {}
+FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera, bool subpixel)
+    : implementation_(std::make_unique<Implementation>(parameters, camera, subpixel)) {}
 FrontEnd::~FrontEnd() = default;
 
 const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,

@@ -47,7 +47,8 @@ int featuresIn(const urban_nav_core::StereoCamera& camera, int features);
 /// Images in, observations out: knows pixels and a predicted pose, no covariance of poses, no window.
 class FrontEnd {
  public:
-  FrontEnd(const Parameters& parameters, const urban_nav_core::StereoCamera& camera);
+  /// `subpixel`: false places corners to whole pixels, for comparison.
+  FrontEnd(const Parameters& parameters, const urban_nav_core::StereoCamera& camera, bool subpixel = true);
   ~FrontEnd();
 
   /// `predicted`: T_odom_camera of this frame by the process model; `last` that of the frame processed last, as the
