@@ -7,7 +7,9 @@
 #include "commands/stages.hpp"
 #include "map/map_pipeline.hpp"
 #include "topics/stereo/stereo_pass.hpp"
+#include "urban_nav_core/testing/parameter_effects.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/session/open.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_store/store.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -88,6 +90,41 @@ TEST(StereoKeyframes, AreSelectedByDistanceAngleAndTime) {
   resumed.keep(3 * kSecond, at(1.2, 0.2));
   EXPECT_FALSE(resumed.select(4 * kSecond, at(1.3, 0.2)));
   EXPECT_TRUE(resumed.select(4 * kSecond, at(1.5, 0.2)));
+}
+
+/// Keyframes of a drive of 4 s at 0.5 m/s and 0.2 rad/s, in tenths of a second.
+std::string selectKeyframes(const dense_stereo::Parameters& parameters) {
+  constexpr urban_nav_core::StampNs kTenth = 100'000'000;
+  StereoKeyframeSelector selector(parameters);
+  std::string selected;
+  for (int i = 0; i <= 40; ++i) {
+    const Quaterniond q(Eigen::AngleAxisd(0.02 * i, Vector3d::UnitZ()));
+    if (selector.select(kTenth * i, Pose(q, Vector3d(0.05 * i, 0.0, 0.0)))) selected += std::to_string(i) + " ";
+  }
+  return selected;
+}
+
+TEST(StereoKeyframes, AreSelectedOtherwiseWithOtherParameters) {
+  const std::string faults = urban_nav_core::testing::findChangesWithoutEffect(
+      dense_stereo::table(),
+      {{"drive", selectKeyframes, {{"keyframe_distance", 0.5}, {"keyframe_angle", 0.05}, {"keyframe_interval", 1.0}}}});
+  EXPECT_EQ(faults, "");
+}
+
+TEST(StereoMatcher, KeepsOtherPointsWithAnotherSpacing) {
+  const TemporaryFolder folder;
+  urban_nav_input::testing::makeKittiFolder(folder.file("in"));
+  const auto source = urban_nav_input::openSource({folder.file("in")}, {});
+  const auto frame = source->next();
+  ASSERT_TRUE(frame);
+  const auto pointsWith = [&](const dense_stereo::Parameters& parameters) {
+    StereoMatcher matcher(parameters, source->info(), "session", true);
+    matcher.add(frame->assembled, 0, false);
+    return matcher.next()->points.packed;
+  };
+  const std::string faults = urban_nav_core::testing::findChangesWithoutEffect(
+      dense_stereo::table(), {{"a pair", pointsWith, {{"point_spacing", 0.3}}}});
+  EXPECT_EQ(faults, "");
 }
 
 TEST(StereoRuns, ComeBackFromTheirBytes) {
