@@ -102,8 +102,14 @@ void LiveLocaliser::takeKeyframes() {
 }
 
 void LiveLocaliser::restart() {
-  localiser_ = Localiser(parameters_);
+  forget();
+  state_.estimate.stamp = reached_.value_or(0);
   reached_.reset();
+  listener_(state_.estimate, T_map_odom_);
+}
+
+void LiveLocaliser::forget() {
+  localiser_ = Localiser(parameters_);
   waiting_.clear();
   initial_pose_.reset();
   T_map_odom_.reset();
@@ -113,32 +119,48 @@ void LiveLocaliser::restart() {
 
 void LiveLocaliser::addStep(const RelativePose& step) {
   // Without the steps in between the motion from one to the other is unknown.
-  if (reached_ && (step.from > *reached_ || urban_nav_core::jumpsBack(step.to, *reached_))) restart();
+  if (reached_ && (step.from > *reached_ || urban_nav_core::jumpsBack(step.to, *reached_))) {
+    forget();
+    reached_.reset();
+  }
   if (!localiser_.addOdometry(step)) {
     ++state_.refused_steps;
     return;
   }
   reached_ = step.to;
   applyInitialPose();
-  LocalizationEstimate& estimate = state_.estimate = localiser_.at(step.to);
   while (!odometry_.empty() && odometry_.front().stamp < step.to) odometry_.pop_front();
-  if (estimate.state == LocalizationState::Localized && !odometry_.empty() && odometry_.front().stamp == step.to)
+  publishEstimate();
+}
+
+void LiveLocaliser::publishEstimate() {
+  const LocalizationEstimate& estimate = state_.estimate = localiser_.at(*reached_);
+  if (estimate.state == LocalizationState::Localized && !odometry_.empty() && odometry_.front().stamp == *reached_)
     T_map_odom_ = estimate.T_map_base->pose * odometry_.front().pose.inverse();
   listener_(estimate, T_map_odom_);
+}
+
+void LiveLocaliser::publishIfChanged() {
+  if (!reached_) return;
+  const LocalizationEstimate now = localiser_.at(*reached_);
+  const LocalizationEstimate& last = state_.estimate;
+  if (now.state != last.state || now.reason != last.reason || now.supporting_matches != last.supporting_matches)
+    publishEstimate();
 }
 
 void LiveLocaliser::addInitialPose(const InitialPose& initial_pose) {
   ++state_.initial_poses;
   initial_pose_ = initial_pose;
-  applyInitialPose();
+  if (applyInitialPose()) publishEstimate();
 }
 
-void LiveLocaliser::applyInitialPose() {
-  if (!initial_pose_ || !reached_) return;
+bool LiveLocaliser::applyInitialPose() {
+  if (!initial_pose_ || !reached_) return false;
   const StampNs stamp = initial_pose_->stamp, newest = odometry_.empty() ? *reached_ : odometry_.back().stamp;
-  if (stamp > *reached_ && stamp <= newest) return;  // smoothed odometry is about to reach it
+  if (stamp > *reached_ && stamp <= newest) return false;  // smoothed odometry is about to reach it
   localiser_.addInitialPose(stamp > newest || stamp == 0 ? *reached_ : stamp, initial_pose_->T_map_base);
   initial_pose_.reset();
+  return true;
 }
 
 bool LiveLocaliser::work() {
@@ -170,6 +192,7 @@ bool LiveLocaliser::queryKeyframe() {
   ++state_.queries;
   if (search_->query(keyframe, localiser_)) ++state_.matches;
   state_.query_ms = millisecondsSince(begin);
+  publishIfChanged();
   return true;
 }
 
@@ -184,6 +207,7 @@ bool LiveLocaliser::queryCloud() {
   ++state_.cloud_queries;
   if (clouds_->query(*stretch, cloud, sigma, localiser_)) ++state_.cloud_matches;
   state_.cloud_query_ms = millisecondsSince(begin);
+  publishIfChanged();
   return true;
 }
 

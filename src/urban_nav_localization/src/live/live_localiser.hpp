@@ -28,8 +28,8 @@ class LiveLocaliser {
     urban_nav_core::StampNs stamp = 0;
     urban_nav_core::PoseWithCovariance T_map_base;
   };
-  /// Called after each step of odometry. `T_map_odom`: of the last time that the state was Localized; nullopt: it never
-  /// was.
+  /// Called after each step of odometry, and when a query, a pose from the user or a restart changes the estimate
+  /// between two steps. `T_map_odom`: of the last time that the state was Localized; nullopt: it never was.
   using Listener =
       std::function<void(const LocalizationEstimate&, const std::optional<urban_nav_core::Pose>& T_map_odom)>;
 
@@ -74,8 +74,13 @@ class LiveLocaliser {
   State state() const;
 
  private:
+  void forget();
   void takeKeyframes();
-  void applyInitialPose();
+  /// Calls the listener with the estimate at the end of the last step.
+  void publishEstimate();
+  void publishIfChanged();
+  /// Returns false while odometry has not reached the pose of the user.
+  bool applyInitialPose();
   bool queryKeyframe();
   bool queryCloud();
 

@@ -19,9 +19,10 @@ class Listener {
   /// `node`: the nodelet's name, under which its services are.
   explicit Listener(std::string node) : node_(std::move(node)) { keep("/diagnostics", diagnostics); }
 
-  /// Spins until it is so; false after ten seconds.
+  /// Spins until it is so; false after a minute, which is ample on a machine that has other work.
   static bool until(const std::function<bool()>& so) {
-    for (int i = 0; i < 1000 && ros::ok(); ++i) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
+    while (ros::ok() && ros::WallTime::now() < end) {
       ros::spinOnce();
       if (so()) return true;
       ros::WallDuration(0.01).sleep();
