@@ -63,13 +63,18 @@ class DenseStereoNodelet : public ::testing::Test {
     ASSERT_TRUE(graph.call("reset"));
   }
   StereoCamera camera() { return makeCamera(sequence.options().camera); }
+  /// One frame after the other, each when all of the one before has come out: no queue overflows.
   bool play(int first, int count) {
-    const std::size_t wanted = graph.grounds.size() + static_cast<std::size_t>(count);
-    for (int i = first; i < first + count; ++i) graph.show(sequence.frame(i), camera(), sequence.stamp(i));
-    return DenseStereoGraph::until([&] {
-      return graph.grounds.size() >= wanted && graph.disparities.size() >= wanted && graph.points.size() >= wanted &&
-             graph.obstacles.size() >= wanted;
-    });
+    for (int i = first; i < first + count; ++i) {
+      const std::size_t wanted = graph.grounds.size() + 1;
+      graph.show(sequence.frame(i), camera(), sequence.stamp(i));
+      const bool came = DenseStereoGraph::until([&] {
+        return graph.grounds.size() >= wanted && graph.disparities.size() >= wanted && graph.points.size() >= wanted &&
+               graph.obstacles.size() >= wanted;
+      });
+      if (!came) return false;
+    }
+    return true;
   }
 
   DenseStereoGraph graph;

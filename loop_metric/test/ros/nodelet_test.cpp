@@ -190,7 +190,7 @@ TEST_F(LoopMetricNodelet, AfterAGapInOdometryViewsAloneDecide) {
 
 TEST_F(LoopMetricNodelet, AResetJudgesWhatWaits) {
   robot().drive(0, 4);
-  robot().recognise(0, 3);
+  ASSERT_TRUE(robot().receipts().await({{"places/closure", 1}}, [&] { robot().recognise(0, 3); }));
   ASSERT_TRUE(robot().call("reset"));
   ASSERT_TRUE(robot().judged(1));
   EXPECT_EQ(robot().closures[0].b.stamp, urban_nav_ros::toRosTime(robot().toStamp(3)));
@@ -210,6 +210,8 @@ TEST_F(LoopMetricNodelet, APauseDropsCandidatesAndCountsThem) {
 TEST_F(LoopMetricNodelet, LasersThatDoNotComeAreNamed) {
   robot().drive(0, 4);
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "NoLasers"; }));
+  ASSERT_TRUE(
+      Robot::until([&] { return !robot().statuses.empty() && robot().statuses.back().reason_name == "NoLasers"; }));
   const auto& status = robot().statuses.back();
   EXPECT_EQ(status.stage, "loop_metric");
   EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
@@ -225,6 +227,8 @@ TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
     ASSERT_TRUE(robot().judged(1));
     EXPECT_EQ(robot().closures[0].verdict, MetricClosure::REJECTED);
     EXPECT_NE(robot().closures[0].message.find("the disk is full"), std::string::npos) << robot().closures[0].message;
+    ASSERT_TRUE(
+        Robot::until([&] { return !robot().statuses.empty() && robot().statuses.back().reason_name == "NotStored"; }));
     const auto& status = robot().statuses.back();
     EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
     EXPECT_NE(status.message.find("the disk is full"), std::string::npos) << status.message;

@@ -42,10 +42,14 @@ class SwfVoNodelet : public ::testing::Test {
   RenderedSequence& sequence() { return *sequence_; }
   StereoCamera camera() { return makeCamera(sequence().options().camera); }
 
+  /// One frame after the other, each when the one before has come out: no queue overflows.
   bool play(int first, int count) {
-    const std::size_t wanted = graph().frames.size() + static_cast<std::size_t>(count);
-    for (int i = first; i < first + count; ++i) graph().publish(sequence().frame(i), camera());
-    return Graph::until([&] { return graph().frames.size() >= wanted; });
+    for (int i = first; i < first + count; ++i) {
+      const std::size_t before = graph().frames.size();
+      graph().publish(sequence().frame(i), camera());
+      if (!Graph::until([&] { return graph().frames.size() > before; })) return false;
+    }
+    return true;
   }
 
   /// Shows frame after frame, since images may overtake the first camera_info of their calibration.
@@ -136,7 +140,8 @@ TEST_F(SwfVoNodelet, TimeGoingBackBeginsANewSession) {
   EXPECT_EQ(graph().frames.back().frame, 4U) << "counts from 0 again";
   // Topics come one by one: the frame may overtake what belongs to it.
   const ros::Time last = urban_nav_ros::toRosTime(sequence().stamp(4));
-  EXPECT_TRUE(Graph::until([&] { return graph().odometry.back().header.stamp == last; }));
+  EXPECT_TRUE(
+      Graph::until([&] { return !graph().odometry.empty() && graph().odometry.back().header.stamp == last; }));
   EXPECT_TRUE(Graph::until([&] { return graph().relative.size() == 4U; })) << "the session before was flushed";
 }
 
@@ -153,8 +158,7 @@ TEST_F(SwfVoNodelet, PauseDropsInputsAndResumeGoesOn) {
   ASSERT_TRUE(play(0, 6));
   ASSERT_TRUE(graph().call("pause"));
   for (int i = 6; i < 9; ++i) graph().publish(sequence().frame(i), camera());
-  ros::WallDuration(0.3).sleep();
-  ros::spinOnce();
+  ASSERT_TRUE(Graph::until([&] { return graph().diagnosed("dropped: paused", "12"); })) << "images and camera_info";
   EXPECT_EQ(graph().frames.size(), 6U);
   ASSERT_TRUE(graph().call("resume"));
   ASSERT_TRUE(play(9, 3));
@@ -173,7 +177,7 @@ TEST_F(SwfVoNodelet, ShowsLandmarksAndTracks) {
 
 TEST_F(SwfVoNodelet, TheStatusWaitsForLateSubscribers) {
   ASSERT_TRUE(play(0, 3));
-  const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("swf_vo/status", ros::Duration(5.0));
+  const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("swf_vo/status", ros::Duration(60.0));
   ASSERT_TRUE(status);
   EXPECT_EQ(status->stage, "swf_vo");
 }

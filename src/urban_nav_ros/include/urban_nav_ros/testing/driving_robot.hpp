@@ -70,12 +70,17 @@ class DrivingRobot : public StereoListener {
   urban_nav_core::StereoCamera camera() const { return makeCamera(sequence_.options().camera); }
   const urban_nav_core::testing::StereoFrame& frame(int i) { return sequence_.frame(i); }
 
-  /// Frames from ... to - 1 and the odometry between them; without the step that leads to frame `lost`.
+  /// Frames from ... to - 1 and the odometry between them; without the step that leads to frame `lost`. Returns once
+  /// the nodelet has received all.
   void drive(int from, int to, bool images = true, int lost = -1) {
     for (int i = from; i < to; ++i) {
+      const bool steps = i > 0 && i != lost;
       if (images) show(i);
-      beAt(toStamp(i), T_world_base(0).inverse() * T_world_base(i));
-      if (i > 0 && i != lost) step(toStamp(i - 1), toStamp(i), T_world_base(i - 1).inverse() * T_world_base(i), 1e-3);
+      EXPECT_TRUE(receipts().await({{"vo/odometry", 1}, {"vo/relative_pose", steps ? 1 : 0}}, [&] {
+        beAt(toStamp(i), T_world_base(0).inverse() * T_world_base(i));
+        if (steps) step(toStamp(i - 1), toStamp(i), T_world_base(i - 1).inverse() * T_world_base(i), 1e-3);
+      })) << "odometry of frame "
+          << i;
     }
   }
   void beAt(StampNs stamp, const Pose& T_odom_base) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <string>
+#include <utility>
 
 #include "urban_nav_core/testing/rendered_sequence.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -14,29 +16,41 @@
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/testing/listener.hpp"
+#include "urban_nav_ros/testing/receipts.hpp"
 
 namespace urban_nav_ros::testing {
 
-/// A listener that is the robot's stereo camera too: its four topics, and its place on /tf_static.
+/// A listener that is the robot's stereo camera too: its four topics, and its place on /tf_static. It goes on once the
+/// node has received what was published: images of one side do not overtake those of the other.
 class StereoListener : public Listener {
  public:
-  using Listener::Listener;
+  /// `node`: the nodelet's name, under which its services are.
+  explicit StereoListener(const std::string& node) : Listener(node), receipts_(node) {}
 
-  /// The place of the left optical frame in kBaseLink.
+  /// Publishes the place of the left optical frame in kBaseLink.
   void place(const urban_nav_core::Pose& T_base_left) {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(
         toStaticTransform(urban_nav_core::frames::kBaseLink, urban_nav_core::frames::kStereoLeft, T_base_left));
-    tf_static_.publish(message);
+    EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); })) << "/tf_static";
   }
 
-  /// The pair, or one side of it, with its camera_info. `stamp`: instead of the frame's own.
+  /// Publishes the pair, or one side of it, with its camera_info. `stamp`: instead of the frame's own.
   void show(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera,
             urban_nav_core::StampNs stamp, bool left = true, bool right = true) {
-    if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, urban_nav_core::frames::kStereoLeft);
-    if (right)
-      publish(right_, right_info_, frame.right, rightInfo(camera), stamp, urban_nav_core::frames::kStereoRight);
+    Receipts::Messages messages;
+    for (const char* topic : {"stereo/left/image_raw", "stereo/left/camera_info"}) messages[topic] = left ? 1 : 0;
+    for (const char* topic : {"stereo/right/image_raw", "stereo/right/camera_info"}) messages[topic] = right ? 1 : 0;
+    EXPECT_TRUE(receipts_.await(messages, [&] {
+      if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, urban_nav_core::frames::kStereoLeft);
+      if (right)
+        publish(right_, right_info_, frame.right, rightInfo(camera), stamp, urban_nav_core::frames::kStereoRight);
+    })) << "images at "
+        << stamp;
   }
+
+  /// Counts the messages that the nodelet has received.
+  const Receipts& receipts() const { return receipts_; }
 
  private:
   static void publish(ros::Publisher& images, ros::Publisher& infos, const urban_nav_core::testing::GreyImage& image,
@@ -50,6 +64,7 @@ class StereoListener : public Listener {
     images.publish(message);
   }
 
+  const Receipts receipts_;
   ros::Publisher left_ = advertise<sensor_msgs::Image>("stereo/left/image_raw");
   ros::Publisher right_ = advertise<sensor_msgs::Image>("stereo/right/image_raw");
   ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>("stereo/left/camera_info");
