@@ -183,10 +183,12 @@ void PoseGraphStage::publishIdle(const LiveGraph& graph) {
       !last_picture_ || now - *last_picture_ >= std::chrono::duration<double>(nodelet_.visualization_period);
   const bool changed = graph.revision() != drawn_revision_ || graph.newest() != drawn_newest_;
   if (!due || !changed || !publisher_->isWatched()) return;
+  const LiveGraph::Picture picture = graph.picture();
+  if (!last_picture_ && picture.segments.empty()) return;  // the first pose does not wait for a period
   last_picture_ = now;
   drawn_revision_ = graph.revision();
   drawn_newest_ = graph.newest();
-  publisher_->publish(graph.picture(), graph.newest());
+  publisher_->publish(picture, graph.newest());
 }
 
 class PoseGraphNodelet : public urban_nav_ros::StageNodelet<PoseGraphStage> {};
