@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "urban_nav_ros/testing/listener.hpp"
+#include "urban_nav_ros/testing/receipts.hpp"
 
 namespace pose_graph::test {
 
@@ -36,6 +37,15 @@ class Listener : public urban_nav_ros::testing::Listener {
   }
   bool connected() const { return connected_; }
 
+  /// Forgets what the nodelet has published so far, once nothing more comes.
+  void forgetAll() {
+    do {
+      forget();
+      ros::WallDuration(0.2).sleep();
+      ros::spinOnce();
+    } while (!updates.empty() || !states.empty() || !corrections.empty() || !paths.empty());
+    forget();
+  }
   void forget() {
     ros::spinOnce();
     updates.clear();
@@ -47,6 +57,7 @@ class Listener : public urban_nav_ros::testing::Listener {
     diagnostics.clear();
   }
 
+  const urban_nav_ros::testing::Receipts receipts{"pose_graph"};
   ros::Publisher relative = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
   ros::Publisher odometry = advertise<nav_msgs::Odometry>("vo/odometry");
   ros::Publisher closures = advertise<urban_nav_msgs::MetricClosure>("loops/metric");

@@ -65,7 +65,7 @@ class PoseGraphNodelet : public ::testing::Test {
   void SetUp() override {
     ASSERT_TRUE(listener().connected());
     ASSERT_TRUE(listener().call("reset"));
-    listener().forget();
+    listener().forgetAll();  // what the test before has caused comes first
   }
   Listener& listener() { return *listener_; }
 
@@ -81,8 +81,11 @@ class PoseGraphNodelet : public ::testing::Test {
       listener().relative.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
     }
   }
+  /// Returns once the nodelet has received it.
   void close(const urban_nav_core::MetricClosure& closure) {
-    listener().closures.publish(urban_nav_ros::toMetricClosureMessage(closure, "base_link", 1.0));
+    EXPECT_TRUE(listener().receipts.await({{"loops/metric", 1}}, [&] {
+      listener().closures.publish(urban_nav_ros::toMetricClosureMessage(closure, "base_link", 1.0));
+    }));
   }
   /// The poses that the graph has, by its service.
   urban_nav_msgs::GetTrajectory::Response trajectory(std::uint64_t since = 0, int from = -1, int to = -1) {
@@ -142,10 +145,11 @@ TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
     plane.support = 1.0;
     listener().ground.publish(plane);
   };
-  publish(0);
-  ros::WallDuration(1.2).sleep();
-  for (int i = 1; i <= kPoses; ++i) publish(i);
-  ros::WallDuration(0.2).sleep();  // topics have no order among each other
+  ASSERT_TRUE(listener().receipts.await({{"stereo/ground_plane", 1}}, [&] { publish(0); }));
+  ros::WallDuration(2.0).sleep();  // twice as long as the nodelet waits for the place of the camera
+  ASSERT_TRUE(listener().receipts.await({{"stereo/ground_plane", kPoses}}, [&] {
+    for (int i = 1; i <= kPoses; ++i) publish(i);
+  })) << "before the poses: topics have no order among each other";
   drive(0, kPoses);
   const auto isLevelled = [](const auto& correction) { return correction.reason_name == "Levelled"; };
   EXPECT_TRUE(Listener::until(
@@ -164,16 +168,16 @@ TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
 
   close(toClosure(0, kLap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty() && !listener().states.empty(); }));
-  const auto update = urban_nav_ros::toGraphUpdate(listener().updates.back());
+  const auto update = urban_nav_ros::toGraphUpdate(listener().updates.front());
+  const auto state = listener().states.front();
   ASSERT_TRUE(update);
-  EXPECT_EQ(update->revision, static_cast<std::int64_t>(listener().states.back().revision));
+  EXPECT_EQ(update->revision, static_cast<std::int64_t>(state.revision));
   EXPECT_EQ(listener().updates.back().header.frame_id, "map");
   ASSERT_FALSE(update->segments.empty());
   EXPECT_EQ(update->segments.back().poses.back().stamp, toStamp(kLap));
   EXPECT_LT(update->segments.back().poses.back().T_map_base.t().norm(), 0.1);
   ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(kLap) * odomPose(kLap)).t().norm() < 0.1; }));
 
-  const auto& state = listener().states.back();
   EXPECT_EQ(state.poses, static_cast<std::uint64_t>(kLap + 1));
   EXPECT_EQ(state.closures, 1U);
   EXPECT_EQ(state.closures_rejected, 0U);
@@ -235,6 +239,7 @@ TEST_F(PoseGraphNodelet, ARejectedClosureIsNone) {
   rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
   close(rejected);
   ASSERT_TRUE(driven(kLap + 1));
+  ASSERT_EQ(poses(), static_cast<std::size_t>(kLap + 1)) << "asked after the closure has been received";
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
   EXPECT_TRUE(listener().updates.empty());
@@ -353,7 +358,7 @@ TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTh
   const Pose newest = *urban_nav_ros::toPose(trajectory().segments.back().T_map_base.back());
   EXPECT_LT(distanceBetween(newest, odomPose(15)), 20.0);
   EXPECT_GT(distanceBetween(newest, odomPose(15)), 1.0) << "the map is that of the session";
-  EXPECT_TRUE(isApprox(mapFromOdom(21) * odomPose(15), newest, 1e-9));
+  EXPECT_TRUE(Listener::until([&] { return isApprox(mapFromOdom(21) * odomPose(15), newest, 1e-9); }));
 }
 
 TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedInTheMiddle) {
@@ -365,19 +370,24 @@ TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
   ASSERT_TRUE(Listener::until(
       [&] { return listener().isConnected() && ros::service::exists("pose_graph/get_trajectory", false); }));
   listener().forget();
-  const auto session = [&] { return trajectory().segments.back(); };
-  for (int i = 30; i <= 35; ++i) receive(i, odomPose(i));
+  const auto reaches = [&](int pose) {
+    const auto runs = trajectory().segments;  // none until the store has been read
+    return !runs.empty() && runs.back().stamps.back() == urban_nav_ros::toRosTime(toStamp(pose));
+  };
+  ASSERT_TRUE(listener().receipts.await({{"vo/odometry", 6}}, [&] {
+    for (int i = 30; i <= 35; ++i) receive(i, odomPose(i));
+  }));
   drive(25, 29);  // what came between is lost, and so is what odometry said of these
-  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(29)); }));
+  ASSERT_TRUE(Listener::until([&] { return reaches(29); }));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
   EXPECT_TRUE(listener().transforms.empty()) << "nothing is published that is not known";
   drive(29, 33);
-  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(33)); }));
-  const Pose newest = *urban_nav_ros::toPose(session().T_map_base.back());
+  ASSERT_TRUE(Listener::until([&] { return reaches(33); }));
+  const Pose newest = *urban_nav_ros::toPose(trajectory().segments.back().T_map_base.back());
   ASSERT_TRUE(Listener::until([&] { return !listener().transforms.empty(); }));
   EXPECT_GE(listener().transforms.back().transforms.size(), 6U) << "of the odometry that waited, too";
-  EXPECT_TRUE(isApprox(mapFromOdom(36) * odomPose(33), newest, 1e-9));
+  EXPECT_TRUE(Listener::until([&] { return isApprox(mapFromOdom(36) * odomPose(33), newest, 1e-9); }));
 }
 
 TEST_F(PoseGraphNodelet, PauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
@@ -385,13 +395,12 @@ TEST_F(PoseGraphNodelet, PauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
   ASSERT_TRUE(driven(6));
   ASSERT_TRUE(listener().call("pause"));
   drive(5, 8);
-  ros::WallDuration(0.3).sleep();
+  EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("dropped: paused", "3"); }));
   EXPECT_EQ(poses(), 6U);
   ASSERT_TRUE(listener().call("resume"));
   auto damaged = urban_nav_ros::toMetricClosureMessage(toClosure(0, 3, Pose()), "base_link", 1.0);
   damaged.T_a_b.position.x = std::numeric_limits<double>::quiet_NaN();
   listener().closures.publish(damaged);
-  EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("dropped: paused", "3"); }));
   EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("messages damaged", "1"); }));
 }
 
@@ -414,6 +423,13 @@ class Store : public PoseGraphNodelet {
     EXPECT_TRUE(ros::service::call("pose_graph/" + service, call));
     return call.response;
   }
+  /// Number of times that the nodelet has published its diagnostics: one a second, fewer on a machine that is slow.
+  std::size_t countDiagnostics() {
+    std::size_t count = 0;
+    for (const auto& array : listener().diagnostics)
+      for (const auto& status : array.status) count += status.name.find("pose_graph: map") <= 1 ? 1 : 0;
+    return count;
+  }
   /// Of the session that began last, as another process reads it while the nodelet writes.
   static std::int64_t storedNodes() {
     urban_nav_store::Store store(path(), urban_nav_store::Access::Read);
@@ -427,9 +443,9 @@ class Store : public PoseGraphNodelet {
 TEST_F(Store, HasWhatWasTakenInASecondAgo) {
   drive(0, kLap);
   ASSERT_TRUE(driven(kLap + 1));
-  ros::WallTime begin = ros::WallTime::now();
+  listener().forget();
   ASSERT_TRUE(Listener::until([&] { return storedNodes() == kLap + 1; }));
-  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 4.0) << "a second, on a machine with nothing else to do";
+  EXPECT_LE(countDiagnostics(), 4U) << "a second, on a machine with nothing else to do";
   EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("store", path()); }));
 }
 
@@ -463,7 +479,7 @@ TEST_F(PoseGraphNodelet, OptimizesFromTheEdgesAndTheStatusWaitsForLateSubscriber
   EXPECT_NE(optimize.response.message.find(std::to_string(kLap + 1) + " poses, 1 closures"), std::string::npos)
       << "it has ended: " << optimize.response.message;
   ASSERT_TRUE(Listener::until([&] { return listener().states.back().revision > before; }));
-  const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("pose_graph/status", ros::Duration(5.0));
+  const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("pose_graph/status", ros::Duration(60.0));
   ASSERT_TRUE(status);
   EXPECT_EQ(status->stage, "pose_graph");
 }

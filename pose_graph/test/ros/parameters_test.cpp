@@ -23,7 +23,7 @@ Pose curveStep() { return Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 0.15)), Eigen::V
 /// Inputs and outputs of a nodelet in a namespace.
 class NamedNodelet : public urban_nav_ros::testing::Listener {
  public:
-  explicit NamedNodelet(const std::string& name) : Listener(name + "/pose_graph") {
+  explicit NamedNodelet(const std::string& name) : Listener(name + "/pose_graph"), receipts_(name + "/pose_graph") {
     keep(name + "/graph/path", paths);
     keep("/tf", transforms);
     steps_ = advertise<urban_nav_msgs::RelativePose>(name + "/vo/relative_pose");
@@ -55,10 +55,13 @@ class NamedNodelet : public urban_nav_ros::testing::Listener {
     return "";
   }
 
+  const urban_nav_ros::testing::Receipts& receipts() const { return receipts_; }
+
   std::vector<nav_msgs::Path> paths;
   std::vector<tf2_msgs::TFMessage> transforms;
 
  private:
+  const urban_nav_ros::testing::Receipts receipts_;
   ros::Publisher steps_, odometry_;
 };
 
@@ -70,11 +73,11 @@ class RenamedNodelet : public NamedNodelet {
     static_transforms_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
   }
 
-  /// The camera looks down by 0.3 rad in the frame `body`.
-  void describeCamera() {
+  /// The camera looks down by 0.3 rad in the frame `body`. Returns whether the nodelet has received it.
+  bool describeCamera() {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(urban_nav_ros::toStaticTransform("body", "body_camera", camera_));
-    static_transforms_.publish(message);
+    return receipts().await({{"/tf_static", 1}}, [&] { static_transforms_.publish(message); });
   }
   /// Level ground, while the first pose of the drive has `up`.
   void seeGround(int poses, const Eigen::Vector3d& up) {
@@ -115,10 +118,10 @@ TEST(NodeletParameters, NameFramesAndSpaceThePath) {
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
   RenamedNodelet nodelet;
   ASSERT_TRUE(nodelet.until([&] { return nodelet.isConnected(); }));
-  nodelet.describeCamera();
-  ros::WallDuration(0.2).sleep();  // topics have no order among each other
-  nodelet.seeGround(kPoses, up);
-  ros::WallDuration(0.2).sleep();
+  // Topics have no order among each other.
+  ASSERT_TRUE(nodelet.describeCamera());
+  ASSERT_TRUE(nodelet.receipts().await({{"renamed/stereo/ground_plane", kPoses + 1}},
+                                       [&] { nodelet.seeGround(kPoses, up); }));
   nodelet.drive(0, kPoses);
   const auto isLevel = [&] {
     if (nodelet.paths.empty() || nodelet.paths.back().poses.empty()) return false;
@@ -162,10 +165,9 @@ TEST(NodeletParameters, LimitTheInputsThatWait) {
   ASSERT_TRUE(all.call("reset"));
   ASSERT_TRUE(few.call("reset"));
   all.drive(0, kSteps);
-  few.drive(0, kSteps);
+  EXPECT_TRUE(few.receipts().await({{"quiet/vo/relative_pose", kSteps}}, [&] { few.drive(0, kSteps); }));
   EXPECT_TRUE(all.until([&] { return pathMetres("renamed") > kSteps - 0.5; }));
   EXPECT_TRUE(few.until([&] { return pathMetres("quiet") > 0.5; }));
-  ros::WallDuration(0.5).sleep();
   EXPECT_LT(pathMetres("quiet"), kSteps - 0.5) << "the oldest of more than two that wait are dropped";
 }
 
