@@ -97,7 +97,7 @@ class LaserMapperStage {
   ros::Publisher cloud_, tiles_, quality_, constraints_;
   std::uint32_t tile_subscribers_ = 0;
   std::string unplaced_, store_fault_;
-  bool changed_ = false, has_new_poses_ = false;
+  bool changed_ = false, are_constraints_due_ = false;
   Clock::time_point due_, constraints_due_, tiles_sent_ = Clock::now();
   double seconds_ = 0.0;  ///< of the last cloud
 };
@@ -137,11 +137,8 @@ void LaserMapperStage::handle(Input& input) {
     else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) map_->addOdometry(*odometry);
     else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
     else if (const auto* closure = std::get_if<urban_nav_core::MetricClosure>(&input)) map_->addClosure(*closure);
-    else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) {
-      map_->addStep(*step);
-      has_new_poses_ = true;
-    }
-    changed_ = true;
+    else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) map_->addStep(*step);
+    changed_ = are_constraints_due_ = true;  // scans may arrive after the poses of their time, which may be the last
   } catch (const urban_nav_core::Error& error) {
     store_fault_ = error.what();
   }
@@ -186,7 +183,7 @@ LaserMapperStage::Clock::time_point LaserMapperStage::nextTime(Clock::time_point
 }
 
 void LaserMapperStage::publishConstraints() {
-  if (!nodelet_.live_constraints || !has_new_poses_ || Clock::now() < constraints_due_ ||
+  if (!nodelet_.live_constraints || !are_constraints_due_ || Clock::now() < constraints_due_ ||
       constraints_.getNumSubscribers() == 0)
     return;
   const Clock::time_point begin = Clock::now();
@@ -197,7 +194,7 @@ void LaserMapperStage::publishConstraints() {
     store_fault_ = error.what();
     node_.logError(store_fault_);
   }
-  has_new_poses_ = false;
+  are_constraints_due_ = false;
   constraints_due_ = nextTime(begin, kConstraintPeriods * nodelet_.period);
 }
 

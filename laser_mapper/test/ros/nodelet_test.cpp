@@ -26,6 +26,7 @@
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/testing/listener.hpp"
+#include "urban_nav_ros/testing/receipts.hpp"
 
 namespace laser_mapper {
 namespace {
@@ -50,13 +51,14 @@ class WallRobot : public urban_nav_ros::testing::Listener {
   static StampNs toStamp(int frame) { return kDriveStart + frame * 50'000'000LL; }
   static Pose T_odom_base(int frame) { return Pose(Eigen::Matrix3d::Identity(), Vector3d(0.05 * frame, 0.0, 0.0)); }
 
+  /// Returns once the nodelet has received it: scans come on another connection.
   void placeLaser() {
     Eigen::Matrix3d R;
     R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
     tf2_msgs::TFMessage message;
     message.transforms.push_back(
         urban_nav_ros::toStaticTransform("base_link", "laser_left", Pose(R, Vector3d(0.0, 0.0, 1.0))));
-    tf_static_.publish(message);
+    EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); }));
   }
   void drive() {
     for (int i = 0; i < kFrames; ++i) {
@@ -72,8 +74,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     tf2_msgs::TFMessage place;
     place.transforms.push_back(
         urban_nav_ros::toStaticTransform("base_link", "laser_right", testing_room::outwardLaser()));
-    tf_static_.publish(place);
-    ros::WallDuration(0.3).sleep();  // transforms come on another connection than scans
+    EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(place); }));
     std::mt19937 random(3);
     for (std::size_t i = 0; i < truth.size(); i += 2) {
       nav_msgs::Odometry pose;
@@ -165,6 +166,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     return message;
   }
 
+  const urban_nav_ros::testing::Receipts receipts_{"laser_mapper"};
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
   ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
   ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
@@ -177,7 +179,6 @@ TEST(LaserMapperNodelet, TheMapGrowsFollowsTheGraphAndIsForgotten) {
   WallRobot robot;
   ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
   robot.placeLaser();
-  ros::WallDuration(0.3).sleep();  // transforms come on another connection than scans
   robot.drive();
   // The wall is whole before the last pose: the cloud of that one may be the next.
   ASSERT_TRUE(WallRobot::until([&] { return robot.showsWall(1500, 0.0) && robot.hasLastPose(); }))
@@ -188,6 +189,7 @@ TEST(LaserMapperNodelet, TheMapGrowsFollowsTheGraphAndIsForgotten) {
   ASSERT_TRUE(WallRobot::until([&] { return robot.showsWall(1500, 0.5); })) << "the graph has moved";
 
   ASSERT_TRUE(robot.call("reset"));
+  robot.diagnostics.clear();  // those of the beginning had no scans either
   ASSERT_TRUE(WallRobot::until([&] { return robot.diagnosed("scans", "0"); }));
   const std::size_t before = robot.clouds.size();
   robot.drive();
@@ -201,7 +203,6 @@ TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
   ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
   ASSERT_TRUE(robot.call("clear"));
   robot.placeLaser();
-  ros::WallDuration(0.3).sleep();
   robot.drive();
   ASSERT_TRUE(WallRobot::until([&] {
     return robot.showsWall(1500, 0.0) && robot.pointsOfTiles() == robot.clouds.back().width && !robot.qualities.empty();
