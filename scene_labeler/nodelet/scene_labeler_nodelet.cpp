@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <thread>
 #include <tuple>
@@ -36,6 +37,8 @@ namespace {
 constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic head, left and right
 constexpr double kCameraTimeout = 5.0;                       // s
 constexpr std::chrono::milliseconds kTrainingPoll{20};
+// Scans and images that arrive after the poses of their time are labelled with the next pose, or after this time.
+constexpr std::chrono::milliseconds kPosePatience{500};
 
 struct CameraImage {
   std::size_t side = 0;
@@ -105,7 +108,8 @@ class SceneLabelerStage {
   urban_nav_ros::StaticTransforms transforms_;
   std::array<std::string, 2> camera_frames_;
   ros::Publisher image_, cloud_;
-  std::string fault_;  // of a camera or laser without a place
+  std::map<std::string, std::string> faults_;  // keyed by the frame of a camera or laser
+  std::chrono::steady_clock::time_point last_pose_;
   geometry_msgs::PointStampedConstPtr click_;
   std::string taught_fault_;
   ClassMap class_map_;  // of class images
@@ -209,7 +213,10 @@ LiveLabels::Outputs SceneLabelerStage::outputs() {
 void SceneLabelerStage::handle(Input& input) {
   if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) return transforms_.add(**transforms);
   if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) return addScan(**scan);
-  if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) return labels_->addPose(*pose);
+  if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) {
+    last_pose_ = std::chrono::steady_clock::now();
+    return labels_->addPose(*pose);
+  }
   if (const auto* calibration = std::get_if<CameraCalibration>(&input)) return calibrate(*calibration);
   if (const auto* classes = std::get_if<ClassImage>(&input)) return addClasses(*classes->image);
   if (const auto* click = std::get_if<geometry_msgs::PointStampedConstPtr>(&input)) {
@@ -225,11 +232,13 @@ void SceneLabelerStage::handle(Input& input) {
 void SceneLabelerStage::addScan(const sensor_msgs::LaserScan& message) {
   const auto planar = urban_nav_ros::toPlanarScan(message);
   if (!planar) return node_.gate().countInvalid();
-  const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, message.header.frame_id);
+  const std::string& frame = message.header.frame_id;
+  const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
   if (!T_base_laser) {
-    fault_ = "no static tf from " + nodelet_.base_frame + " to " + message.header.frame_id;
+    faults_[frame] = "no static tf from " + nodelet_.base_frame + " to " + frame;
     return;
   }
+  faults_.erase(frame);
   const std::size_t side = T_base_laser->t().y() >= 0.0 ? 0 : 1;  // REP-103: y to the left
   if (!labels_->hasLaser(side)) labels_->setLaser(side, *T_base_laser);
   labels_->addScan(side, *planar);
@@ -249,20 +258,22 @@ void SceneLabelerStage::calibrate(const CameraCalibration& calibration) {
   const std::string& frame = calibration.info->header.frame_id;
   const auto T_base_camera = transforms_.lookup(nodelet_.base_frame, frame);
   if (!T_base_camera) {
-    fault_ = "no static tf from " + nodelet_.base_frame + " to " + frame;
+    faults_[frame] = "no static tf from " + nodelet_.base_frame + " to " + frame;
     return;
   }
   try {
     const auto raw = urban_nav_core::rawCamera(urban_nav_ros::toCameraInfo(*calibration.info), frame);
     labels_->setCamera(calibration.side, {raw, *T_base_camera});
     camera_frames_[calibration.side] = frame;
+    faults_.erase(frame);
   } catch (const urban_nav_core::UserError& error) {
-    fault_ = error.what();
+    faults_[frame] = error.what();
   }
 }
 
 bool SceneLabelerStage::idle() {
   adoptTaughtModel();
+  if (std::chrono::steady_clock::now() - last_pose_ >= kPosePatience) labels_->catchUp();
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, labels_->newest());
   if (!labels_->teaching().isTraining()) return false;
@@ -272,7 +283,7 @@ bool SceneLabelerStage::idle() {
 
 std::string SceneLabelerStage::reset() {
   labels_->reset();
-  fault_.clear();
+  faults_.clear();
   return "a new drive begins";
 }
 
@@ -287,7 +298,7 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   };
   set(1, "NoOdometry", odometry);
   set(2, "NoLasers", lasers);
-  set(3, "NoPlace", fault_);
+  if (!faults_.empty()) set(3, "NoPlace", faults_.begin()->second);
   set(4, "NotTaught", taught_fault_);
   const LiveLabels::Counts counts = labels_->counts();
   set(5, "UpsideDown", counts.upside_down_frames == 0 ? "" : "a side camera seems to be mounted upside down");

@@ -66,6 +66,11 @@ void LiveLabels::addPose(const urban_nav_core::StampedPose& T_odom_base) {
   for (std::size_t side = 0; side < sides_.size(); ++side) work(side);
 }
 
+void LiveLabels::catchUp() {
+  if (trajectory_.empty()) return;
+  for (std::size_t side = 0; side < sides_.size(); ++side) work(side);
+}
+
 void LiveLabels::addScan(std::size_t side, urban_nav_core::PlanarScan scan) {
   ++counts_.scans;
   sides_[side].scans.push_back(std::move(scan));

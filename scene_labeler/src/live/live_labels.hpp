@@ -49,6 +49,8 @@ class LiveLabels {
   /// Adds a class image by another source (CV_8U, SceneClass), of the image with this stamp. Images wait for theirs at
   /// most 2 s, if there is a class topic.
   void addClasses(std::size_t side, urban_nav_core::StampNs stamp, const cv::Mat& classes);
+  /// Labels what arrived after the poses of its time, without the next pose.
+  void catchUp();
   /// Begins a new drive. Laser and camera places stay, and so do corrections.
   void reset();
 
