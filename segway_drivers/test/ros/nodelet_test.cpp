@@ -76,7 +76,7 @@ TEST(DriverNodelets, ALaserIsPublishedAndItsUnplugIsReported) {
       for (; due <= t; due += kMirrorPeriod) terminal.write(makeTelegram(number++));
       return scans.size() > 200 && anyDiagnostics("laser", "streaming");
     };
-    ASSERT_TRUE(runFor(30.0, stream)) << scans.size();
+    ASSERT_TRUE(runFor(60.0, stream)) << scans.size();
   }
   ros::Time last;
   for (const auto& scan : scans) {
@@ -87,14 +87,14 @@ TEST(DriverNodelets, ALaserIsPublishedAndItsUnplugIsReported) {
     last = scan.header.stamp;
     EXPECT_EQ(scan.header.frame_id, "laser_left");
   }
-  EXPECT_TRUE(runFor(5.0, [](double) { return anyDiagnostics("laser", "lost"); }));
+  EXPECT_TRUE(runFor(60.0, [](double) { return anyDiagnostics("laser", "lost"); }));
 }
 
 TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
   ros::NodeHandle nh;
   Terminal terminal("/tmp/segway_drivers_rostest/base");
   ros::Publisher command = nh.advertise<geometry_msgs::Twist>("cmd_vel", 1);
-  int odometry = 0, cycle = 0;
+  int odometry = 0, cycle = 0, moving = 0;
   const ros::Subscriber subscriber =
       nh.subscribe<nav_msgs::Odometry>("wheel_odom", 100, [&](const nav_msgs::OdometryConstPtr&) { ++odometry; });
   Bytes pending;
@@ -118,6 +118,7 @@ TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
     while (pending.size() >= kRmpPacketSize) {
       if (pending[0] == 0xF0 && pending[1] == 0x55) {
         velocity = static_cast<std::int16_t>(bigWord(pending.data() + 9)) / 332.0;
+        moving += velocity != 0.0 ? 1 : 0;
         pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(kRmpPacketSize));
       } else {
         pending.erase(pending.begin());
@@ -131,15 +132,14 @@ TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
     command.publish(twist);
     return velocity > 0.39 && odometry > 50;
   };
-  ASSERT_TRUE(runFor(20.0, drive)) << velocity << " " << odometry;
+  ASSERT_TRUE(runFor(60.0, drive)) << velocity << " " << odometry;
   due = 0.0;
-  double stopped_at = 0.0;
-  EXPECT_TRUE(runFor(3.0, [&](double t) {
+  moving = 0;
+  EXPECT_TRUE(runFor(60.0, [&](double t) {
     step(t);
-    stopped_at = t;
     return velocity == 0.0;
   }));
-  EXPECT_LT(stopped_at, 0.7);
+  EXPECT_LT(moving, 35) << "of 50 commands a second: 0.7 s, however late this machine reads them";
 }
 
 }  // namespace
