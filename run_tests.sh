@@ -176,7 +176,7 @@ run_ros_tests() {
   rm -rf "$build/ros_home"
   for target in $(list_tests "$ws" rostest); do
     printf '%d\0%s\0' $((number++)) "$(ninja -C "$ws/build" -t commands "$target" | tail -n 1)"
-  done | timeout -k 10 1200 xargs -0 -n 2 -P 2 bash -c 'run_ros_test "$@"' run_ros_test || status=$?
+  done | timeout -k 10 3600 xargs -0 -n 2 -P 2 bash -c 'run_ros_test "$@"' run_ros_test || status=$?
   cat "$build"/ros_home/*/test.log >"$ws/rostest.log"
   say_troubles "$ws/rostest.log"
   [ $status -lt 124 ]

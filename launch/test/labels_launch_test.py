@@ -54,9 +54,12 @@ class LabelsLaunch(LaunchCase):
         click.point.x, click.point.y, click.point.z = sure[-1][:3]
         self.expect(lambda: clicks.get_num_connections() > 0, "the stage hears clicks")
         clicks.publish(click)
-        rospy.sleep(0.5)
-        answer = correct("dirt_path")
-        self.assertTrue(answer.success, answer.message)
+        answers = []
+
+        def is_corrected():
+            answers.append(correct("dirt_path"))
+            return answers[-1].success
+        self.expect(is_corrected, lambda: answers[-1].message)  # clicks come on another connection than services
         self.expect(lambda: self.has_said("corrections", "1"), "the correction in the diagnostics")
         for subscriber in subscribers:
             subscriber.unregister()
