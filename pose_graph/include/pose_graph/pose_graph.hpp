@@ -15,6 +15,7 @@
 #include "pose_graph/node_index.hpp"
 #include "pose_graph/parameters.hpp"
 #include "pose_graph/reference_solver.hpp"
+#include "pose_graph/robust.hpp"
 #include "pose_graph/solution.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/status.hpp"
@@ -37,6 +38,9 @@ enum class Trouble : int {
   Separate,     ///< sessions, or parts of one, that no accepted closure joins
   Waiting,      ///< a closure waits for a second one that agrees
   NotStored,    ///< live: what is taken in does not reach the store
+  Undecided,    ///< no set of closures is likelier than chance: the map is that of odometry
+  Guess,        ///< another set of closures is nearly as likely, or the graph is too large to weigh any
+  Slipped,      ///< closures contradict a step of odometry
 };
 const char* toString(Trouble trouble);
 
@@ -103,7 +107,16 @@ struct Relaxed {
   };
   std::optional<Correction> correction;
   bool needs_batch = false;  ///< update() met a closure that disagrees
+  SelectionReport selection;  ///< of the last batch
+  /// A step of odometry that all closures contradict: it counts next to nothing, and lies as the closures say.
+  struct Slip {
+    NodeRef from, to;
+  };
+  std::vector<Slip> slips;  ///< of the last batch
 };
+
+/// "odometry slipped between kitchen at 12.3 s and ...".
+std::string toSentence(const Relaxed::Slip& slip);
 
 /// A batch relaxation of a graph as it stood: PoseGraph::batch() makes it, run() does the work, which may be in another
 /// thread while the graph grows, and PoseGraph::take() lays the graph as it says.
@@ -116,6 +129,8 @@ struct Batch {
   std::vector<std::vector<PositionFix>> fixes;     ///< of each track, likewise
   std::map<ClosureId, Closure> closures;           ///< judged when it has run
   Solution<3> solution;
+  SelectionReport selection;
+  std::vector<int> slipped;  ///< edges of the problem
   double odometry_variance = 1.0;
   double odometry_lean = 0.0;
   FixUse fix_use;
@@ -200,8 +215,10 @@ class PoseGraph {
   /// Number of a pose in problem().
   std::optional<int> poseNumber(const NodeRef& ref) const;
   /// By what the covariances of odometry were multiplied in the last relax(), in problem() too: 1, or more where the
-  /// closures show that it promises more than it keeps.
+  /// closures show that it promises more than it keeps: at most 9, unless the selection found more the likelier.
   double odometryVariance() const { return odometry_variance_; }
+  /// How the last batch selected among the closures.
+  const SelectionReport& selection() const { return selection_; }
   /// How far a pose of odometry leant at most against its first one, rad, as the accelerometer says: taken out in the
   /// last relax().
   double odometryLean() const { return odometry_lean_; }
@@ -224,7 +241,8 @@ class PoseGraph {
   /// Which part each run is in, by accepted closures: numbered by their first poses.
   std::vector<int> partNumbers() const;
   urban_nav_core::Matrix6d ownNoise(const NodeIndex& place) const;
-  Edge<3> toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b) const;
+  /// Its information divided by `variance`, unless it is asserted.
+  Edge<3> toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b, double variance) const;
   std::vector<ClosureId> accepted() const;
   /// How things stand before a relaxation.
   struct Before {
@@ -243,8 +261,9 @@ class PoseGraph {
   /// Where each batch pose goes, and what has come since after them.
   Laid laidBy(const Batch& batch) const;
   void takeVerdicts(const Batch& batch);
-  /// Steps as they were levelled.
+  /// Steps as they were levelled; those that slipped as the closures say.
   void takeSteps(const Batch& batch);
+  void takeClosureVariance(double variance);
   /// Turns the maps of which it is known which way is up, but those that are level already if they are to `stay`. The
   /// maps, by their first tracks, that were not level before.
   std::vector<std::size_t> level(Laid& laid, bool stay);
@@ -262,7 +281,7 @@ class PoseGraph {
   std::vector<std::vector<urban_nav_core::RelativePose>> measured_;
   std::vector<std::vector<Run>> runs_;  ///< of each track, in order
   std::map<ClosureId, Closure> closures_;
-  std::map<ClosureId, ClosureEdge> closure_edges_;  ///< of each closure
+  std::map<ClosureId, ClosureEdge> closure_edges_;  ///< of each closure, with closure_variance_
   using Name = std::tuple<SessionId, StampNs, SessionId, StampNs, EdgeKind, std::string>;
   static Name makeName(const NodeRef& a, const NodeRef& b, EdgeKind kind, const std::string& source) {
     return {a.session, a.stamp, b.session, b.stamp, kind, source};
@@ -278,7 +297,9 @@ class PoseGraph {
   std::size_t running_ = 0;  ///< number of the track that is being recorded
   std::int64_t revision_ = 0;
   int parts_ = 0;
-  double odometry_variance_ = 1.0;
+  double odometry_variance_ = 1.0, closure_variance_ = 1.0;
+  SelectionReport selection_;
+  std::vector<Relaxed::Slip> slips_;
   double odometry_lean_ = 0.0;
   bool broken_ = false;
   std::any live_;  ///< IncrementalSolver: what update() goes on from; empty where that is not known

@@ -54,6 +54,9 @@ struct SelectionReport {
   std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, where the graph is of a file
   /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
   double odometry_factor = 1.0, closure_factor = 1.0;
+
+  /// Whether the poses are those of the information put right: the factors differ from each other by more than 9.
+  bool isRescaled() const;
 };
 
 template <int D>

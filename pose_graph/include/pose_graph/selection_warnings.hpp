@@ -10,7 +10,12 @@
 
 namespace pose_graph {
 
-/// What a user should know of a selection, a sentence each: nothing could be decided, more than half of a kind of edge
+/// What a user should know of a selection among closures, `rejected` of `closures`, a sentence each: nothing could be
+/// decided, another set is nearly as likely, or the graph was too large to weigh any.
+std::vector<std::string> selectionWarnings(const SelectionReport& selection, std::size_t rejected,
+                                           std::size_t closures);
+
+/// What a user should know of a selection in a file, a sentence each: nothing could be decided, more than half of a kind of edge
 /// is rejected, parts that odometry does not join stay apart, odometry slipped, or the information is off by more than
 /// a factor of 3 in its deviations.
 template <int D>

@@ -92,24 +92,30 @@ void addScale(const std::string& what, const std::optional<double>& scale, std::
 
 }  // namespace
 
+std::vector<std::string> selectionWarnings(const SelectionReport& selection, std::size_t rejected,
+                                           std::size_t closures) {
+  std::vector<std::string> warnings;
+  if (selection.undecided)
+    warnings.push_back("nothing could be decided: no set of the " + std::to_string(closures) +
+                       " closures agrees with odometry and itself better than chance explains; the answer is odometry");
+  if (selection.unweighed)
+    warnings.push_back("the graph is too large for sets of closures to be weighed against odometry alone: " +
+                       std::to_string(rejected) + " of " + std::to_string(closures) +
+                       " are rejected, and the others may agree by chance");
+  if (selection.has_rival)
+    warnings.push_back("another set of closures is nearly as likely as the accepted one: what differs is a guess");
+  return warnings;
+}
+
 template <int D>
 std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,
                                            const DeviationScales& scales) {
-  std::vector<std::string> warnings;
   const Rejections closures = count(file.edges, file, robust);
-  if (robust.selection.undecided)
-    warnings.push_back("nothing could be decided: no set of the " + std::to_string(closures.all) +
-                       " closures agrees with odometry and itself better than chance explains; the answer is odometry");
-  else if (2 * closures.rejected > closures.all)
+  std::vector<std::string> warnings = selectionWarnings(robust.selection, closures.rejected, closures.all);
+  if (!robust.selection.undecided && 2 * closures.rejected > closures.all)
     warnings.push_back(std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +
                        " closures are rejected: more than half");
   if (!robust.selection.undecided) addUnjoined(file, robust, warnings);
-  if (robust.selection.unweighed)
-    warnings.push_back("the graph is too large for sets of closures to be weighed against odometry alone: " +
-                       std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +
-                       " are rejected, and the others may agree by chance");
-  if (robust.selection.has_rival)
-    warnings.push_back("another set of closures is nearly as likely as the accepted one: what differs is a guess");
   for (const auto& [edges, name] :
        {std::make_pair(&file.priors, "priors"), std::make_pair(&file.point_edges, "measurements of landmarks")}) {
     const Rejections some = count(*edges, file, robust);

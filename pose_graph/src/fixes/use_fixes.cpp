@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "graph/odometry_variance.hpp"
 #include "urban_nav_core/geometry/level_motion.hpp"
@@ -69,7 +70,8 @@ class FixGraph {
   double enlargeVariance(std::size_t chains, const SolveOptions& options) {
     Solution<3> solution;
     solution.poses = graph_.poses;
-    const double factor = takeOdometryVariance(graph_, chains, weights_, options, solution);
+    const double factor = takeOdometryVariance(graph_, chains, weights_, options, solution,
+                                               std::numeric_limits<double>::infinity());
     take(std::move(solution));
     return factor;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <limits>
 
+#include "condense/chain_sum.hpp"
 #include "fixes/use_fixes.hpp"
 #include "graph/jump_gate.hpp"
 #include "graph/odometry_variance.hpp"
@@ -11,6 +13,9 @@
 namespace pose_graph {
 
 namespace {
+
+// Of odometry's variance: a factor of 3 of its deviations.
+constexpr double kLargestVariance = 9.0;
 
 /// The same two poses measured to the same, bit by bit.
 bool isSame(const Closure& a, const Closure& b) {
@@ -60,7 +65,13 @@ Batch PoseGraph::batch() const {
   auto edge = made.problem.edges.begin();
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t i = 0; i < steps_[t].size(); ++i)
-      if (steps_[t][i].joins) (edge++)->Z = toRigid<3>(measured_[t][i].T_from_to);
+      if (steps_[t][i].joins) {
+        edge->Z = toRigid<3>(measured_[t][i].T_from_to);
+        if (steps_[t][i].slipped) edge->information = chainInformation(measured_[t][i]);
+        ++edge;
+      }
+  for (const auto& [id, closure_edge] : closure_edges_)
+    (edge++)->information = toEdge(closures_.at(id), closure_edge.a, closure_edge.b, 1.0).information;
   for (const Track& track : tracks_) made.stamps.push_back(track.stamps);
   made.forces = forces_;
   made.fixes = fixes_;
@@ -75,13 +86,21 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
   wanted.iterations = batch.parameters.iterations;
   const std::size_t chains = batch.problem.edges.size() - batch.closures.size();
   if (batch.parameters.gravity) batch.odometry_lean = levelOdometry(batch.problem, chains, batch.stamps, batch.forces);
-  batch.solution = judge(batch.problem, batch.parameters, wanted, reference, batch.closures);
+  Judged judged = judge(batch.problem, batch.parameters, wanted, reference, batch.closures);
+  batch.solution = std::move(judged.solution);
+  batch.selection = judged.selection;
+  batch.slipped = std::move(judged.slipped);
   std::vector<double> weights(chains, 1.0);
   for (auto& [id, closure] : batch.closures) {
     closure.judged = true;
     weights.push_back(closure.weight);
   }
-  batch.odometry_variance = takeOdometryVariance(batch.problem, chains, weights, wanted, batch.solution);
+  // More than odometry is trusted to be wrong by makes false closures fit too: that is for the selection to weigh.
+  const double begin = batch.selection.isRescaled() ? batch.selection.odometry_factor : 1.0;
+  const double largest = batch.parameters.robust ? std::max(kLargestVariance, batch.selection.odometry_factor)
+                                                 : std::numeric_limits<double>::infinity();
+  batch.odometry_variance =
+      takeOdometryVariance(batch.problem, chains, weights, wanted, batch.solution, largest, begin);
   if (batch.parameters.gps) takeFixes(batch, chains, weights, wanted);
 }
 
@@ -90,6 +109,8 @@ Relaxed PoseGraph::take(const Batch& batch) {
   const Before before = this->before();
   takeVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
+  selection_ = batch.selection;
+  takeClosureVariance(batch.selection.isRescaled() ? batch.selection.closure_factor : 1.0);
   odometry_lean_ = batch.odometry_lean;
   fix_use_ = batch.fix_use;
   takeSteps(batch);
@@ -126,10 +147,33 @@ void PoseGraph::takeVerdicts(const Batch& batch) {
 }
 
 void PoseGraph::takeSteps(const Batch& batch) {
-  auto edge = batch.problem.edges.begin();
+  slips_.clear();
+  auto slipped = batch.slipped.begin();
+  int edge = 0;
   for (std::size_t t = 0; t < batch.stamps.size(); ++t)
-    for (std::size_t i = 0; i + 1 < batch.stamps[t].size(); ++i)
-      if (steps_[t][i].joins) steps_[t][i].edge.Z = (edge++)->Z;
+    for (std::size_t i = 0; i + 1 < batch.stamps[t].size(); ++i) {
+      ChainStep& step = steps_[t][i];
+      if (!step.joins) continue;
+      step.edge.Z = batch.problem.edges[static_cast<std::size_t>(edge)].Z;
+      const bool slips = slipped != batch.slipped.end() && *slipped == edge;
+      ++edge;
+      if (slips) {
+        ++slipped;
+        const SessionId& session = tracks_[t].session;
+        slips_.push_back({{session, batch.stamps[t][i]}, {session, batch.stamps[t][i + 1]}});
+      }
+      if (slips == step.slipped) continue;
+      step.slipped = slips;
+      step.edge.information = (slips ? kSlippedShare : 1.0) * chainInformation(measured_[t][i]);
+      step.invertible = invert<3>(step.edge.information, step.covariance);
+    }
+}
+
+void PoseGraph::takeClosureVariance(double variance) {
+  if (variance == closure_variance_) return;
+  closure_variance_ = variance;
+  for (auto& [id, closure_edge] : closure_edges_)
+    closure_edge.edge = toEdge(closures_.at(id), closure_edge.a, closure_edge.b, variance);
 }
 
 PoseGraph::Laid PoseGraph::laidBy(const Batch& batch) const {

@@ -59,6 +59,27 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   }
 }
 
+// A step that slipped takes over the motion that the closures give.
+std::vector<int> takeSlips(const RobustSolution<3>& judged, std::size_t chains, Problem<3>& problem) {
+  std::vector<int> made;
+  for (std::size_t e = 0; e < chains; ++e) {
+    if (judged.edges[e].weight > 0.0) continue;
+    Edge<3>& step = problem.edges[e];
+    step.Z = judged.solution.poses[static_cast<std::size_t>(step.from)].inverse() *
+             judged.solution.poses[static_cast<std::size_t>(step.to)];
+    step.information *= kSlippedShare;
+    made.push_back(static_cast<int>(e));
+  }
+  return made;
+}
+
+void rescale(const SelectionReport& selection, const std::vector<EdgeRole>& roles, Problem<3>& problem) {
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    if (roles[e] == EdgeRole::Trusted) problem.edges[e].information /= selection.odometry_factor;
+    if (roles[e] == EdgeRole::Candidate) problem.edges[e].information /= selection.closure_factor;
+  }
+}
+
 // Chi-square of six degrees of freedom at 99.9 %; of fewer where the information leaves directions free, which errs
 // towards keeping.
 constexpr double kInnovationLimit = 22.458;
@@ -127,21 +148,29 @@ std::vector<ClosureId> makeWait(const GraphView& view, const std::map<ClosureId,
 
 }  // namespace
 
-Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                  const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures) {
+Judged judge(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+             const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures) {
   const std::size_t chains = problem.edges.size() - closures.size();
-  RobustSolution<3> judged;
+  const std::vector<EdgeRole> roles = assignRoles(chains, closures);
+  Judged made;
   if (parameters.robust) {
-    judged = relaxRobust(problem, assignRoles(chains, closures), options);
+    RobustSolution<3> judged = relaxSelected(problem, roles, options);
     take(judged, chains, closures);
+    made.selection = judged.selection;
+    made.slipped = takeSlips(judged, chains, problem);
+    made.solution = std::move(judged.solution);
   } else {
     admitAll(closures);
   }
   const bool waiting = makeWait(problem, chains, parameters, closures);
-  if (parameters.robust && !waiting && reference == nullptr) return std::move(judged.solution);
+  const bool is_rescaled = made.selection.isRescaled();
+  if (is_rescaled) rescale(made.selection, roles, problem);
+  if (parameters.robust && !waiting && !is_rescaled && reference == nullptr) return made;
   std::vector<double> weights(chains, 1.0);
   for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
-  return reference != nullptr ? reference->solve(problem, options, weights) : solve(problem, options, weights);
+  if (reference == nullptr && is_rescaled) problem.poses = made.solution.poses;
+  made.solution = reference != nullptr ? reference->solve(problem, options, weights) : solve(problem, options, weights);
+  return made;
 }
 
 namespace {

@@ -7,17 +7,30 @@
 #include "incremental/incremental_solver.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "pose_graph/reference_solver.hpp"
+#include "pose_graph/robust.hpp"
 
 namespace pose_graph {
 
-/// Accepted closures, and the poses that follow: robust relaxation, and then the rule that a large correction
-/// needs two witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to b so far,
+/// Of the information of a step that slipped: what holds a chain together where its closures are removed.
+constexpr double kSlippedShare = 1e-6;
+
+/// What judge() makes of a graph.
+struct Judged {
+  Solution<3> solution;
+  SelectionReport selection;
+  std::vector<int> slipped;  ///< edges of the problem, ascending: steps of odometry that closures refute
+};
+
+/// Accepted closures, and the poses that follow: the selection of `relax` (relaxSelected()), and then the rule that a
+/// large correction needs two witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to b so far,
 /// it says something further off than parameters.confirmation_distance or confirmation_angle, it is no stereo closure
 /// that odometry allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts,
 /// weights and reasons; those that wait or are rejected have weight 0 in the solution. `reference`: relaxes what is
-/// accepted in place of solve(), if not null.
-Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                  const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
+/// accepted in place of solve(), if not null. A step that slipped measures in `problem` from then on what the solution
+/// says in its place, with next to no information; the information of chains and closures is divided by the factors of
+/// the selection where SelectionReport::isRescaled().
+Judged judge(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+             const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 
 /// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it;
 /// those that are let in stay in `core`.

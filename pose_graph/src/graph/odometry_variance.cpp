@@ -54,19 +54,19 @@ double costOfChains(Problem<3> problem, std::size_t chains, const std::vector<Ri
 }  // namespace
 
 double takeOdometryVariance(Problem<3>& problem, std::size_t chains, const std::vector<double>& weights,
-                            const SolveOptions& options, Solution<3>& solution) {
+                            const SolveOptions& options, Solution<3>& solution, double largest, double begin) {
   if (std::none_of(weights.begin() + static_cast<std::ptrdiff_t>(chains), weights.end(),
                    [](double weight) { return weight > 0.0; }))
-    return 1.0;
+    return begin;
   SolveOptions from_here = options;
   from_here.start = Start::Vertices;
-  double factor = 1.0;
+  double factor = begin;
   for (int round = 0; round < kVarianceRounds; ++round) {
     const auto redundancy = redundancyOfChains(problem, chains, weights, solution.poses);
     if (!redundancy) return factor;
     const double measured = factor * costOfChains(problem, chains, solution.poses);
-    const double next = std::max(1.0, (measured + kVariancePrior) / (*redundancy + kVariancePrior)),
-                 ratio = next / factor;
+    const double likeliest = (measured + kVariancePrior) / (*redundancy + kVariancePrior);
+    const double next = std::clamp(likeliest, 1.0, largest), ratio = next / factor;
     if (!std::isfinite(next) || std::abs(ratio - 1.0) <= kVarianceSettled) return factor;
     factor = next;
     for (std::size_t e = 0; e < chains; ++e) problem.edges[e].information /= ratio;

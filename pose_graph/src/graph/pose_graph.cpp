@@ -6,6 +6,7 @@
 
 #include "condense/chain_sum.hpp"
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph/selection_warnings.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -45,8 +46,16 @@ const char* toString(Trouble trouble) {
     case Trouble::Separate: return "Separate";
     case Trouble::Waiting: return "Waiting";
     case Trouble::NotStored: return "NotStored";
+    case Trouble::Undecided: return "Undecided";
+    case Trouble::Guess: return "Guess";
+    case Trouble::Slipped: return "Slipped";
   }
   return "";
+}
+
+std::string toSentence(const Relaxed::Slip& slip) {
+  return "odometry slipped between " + toText(slip.from) + " and " + toText(slip.to) +
+         ": closures contradict this step, and the map follows them";
 }
 
 PoseGraph::PoseGraph(const Parameters& parameters, std::int64_t revision)
@@ -175,13 +184,16 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   const auto earlier = closures_.find(taken.id);
   if (earlier != closures_.end() && earlier->second.weight > 0.0) live_.reset();
   closures_[taken.id] = taken;
-  closure_edges_[taken.id] = {a, b, toEdge(taken, a, b)};
+  closure_edges_[taken.id] = {a, b, toEdge(taken, a, b, closure_variance_)};
   by_name_[makeName(taken.a, taken.b, taken.kind, taken.source)] = taken.id;
   return taken.id;
 }
 
-Edge<3> PoseGraph::toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b) const {
-  return {0, 0, toRigid<3>(closure.measured.T_a_b), closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
+Edge<3> PoseGraph::toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b, double variance) const {
+  Edge<3> made{0, 0, toRigid<3>(closure.measured.T_a_b),
+               closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
+  if (closure.kind != EdgeKind::Asserted) made.information /= variance;
+  return made;
 }
 
 Matrix6d PoseGraph::ownNoise(const NodeIndex& place) const {
@@ -250,8 +262,17 @@ urban_nav_core::Status PoseGraph::status() const {
   if (broken_)
     return {Health::Degraded, static_cast<int>(Trouble::BrokenChain),
             "the odometry has gaps; what no closure joins is a map of its own"};
-  std::size_t waiting = 0;
-  for (const auto& [id, closure] : closures_) waiting += closure.verdict == ClosureVerdict::Waiting;
+  std::size_t waiting = 0, rejected = 0;
+  for (const auto& [id, closure] : closures_) {
+    waiting += closure.verdict == ClosureVerdict::Waiting;
+    rejected += closure.verdict == ClosureVerdict::Rejected;
+  }
+  const std::vector<std::string> warnings = selectionWarnings(selection_, rejected, closures_.size());
+  if (!warnings.empty())
+    return {Health::Degraded, static_cast<int>(selection_.undecided ? Trouble::Undecided : Trouble::Guess),
+            warnings.front()};
+  if (!slips_.empty())
+    return {Health::Degraded, static_cast<int>(Trouble::Slipped), toSentence(slips_.front())};
   if (parts_ > 1)
     return {Health::Degraded, static_cast<int>(Trouble::Separate),
             std::to_string(parts_) + " maps that no accepted closure joins"};

@@ -153,6 +153,8 @@ std::vector<Relaxed::Run> PoseGraph::numberParts() {
 void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled) {
   made.revision = ++revision_;
   made.closures = closures_.size();
+  made.selection = selection_;
+  made.slips = slips_;
   for (const auto& [id, closure] : closures_) {
     made.accepted += closure.verdict == ClosureVerdict::Accepted;
     made.rejected += closure.verdict == ClosureVerdict::Rejected;

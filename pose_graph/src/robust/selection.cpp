@@ -87,6 +87,11 @@ class Selection {
   bool wasJudged() const { return judge_ != nullptr; }
   /// Whether other sets than the first one were looked at.
   bool wasContested() const { return contested_; }
+  /// Whether the best set is no likelier than chance, or fits because variances were changed until it did.
+  bool isUndecided() const {
+    return contested_ || best_.hypothesis.factors.areBeyond(kContestedFactor) ? isInflated(best_.hypothesis)
+                                                                              : !(evidence() >= 0.0);
+  }
   /// Whether they should have been, and the graph is too large.
   bool isUnweighed() const { return unweighed_; }
   // Whether another set that takes other closures is nearly as likely.
@@ -443,6 +448,8 @@ class Selection {
 
 }  // namespace
 
+bool SelectionReport::isRescaled() const { return beyond(odometry_factor / closure_factor, kContestedFactor); }
+
 template <int D>
 RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const SolveOptions& options) {
@@ -455,7 +462,7 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
   if (selection.wasJudged()) {
     report.contested = selection.wasContested();
     report.log_evidence = selection.evidence();
-    report.undecided = !(selection.evidence() >= (report.contested ? kDecisive : 0.0));
+    report.undecided = selection.isUndecided();
     report.has_rival = report.contested && !report.undecided && selection.hasRival();
     if (selection.tellsVariances()) factors = selection.hypothesis().factors;
     report.odometry_factor = factors.odometry;
@@ -464,6 +471,7 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
   Judgement<D> judged = selection.take();
   if (report.undecided) {
     factors = {};
+    report.odometry_factor = report.closure_factor = 1.0;
     judged.poses = selection.odometryAlone().poses;
     for (std::size_t e = 0; e < unique.roles.size(); ++e) {
       EdgeAssessment& edge = judged.edges[e];
@@ -478,9 +486,9 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
   all.poses = std::move(judged.poses);
   all.variance = judged.variance;
   for (const int e : unique.of_edge) all.edges.push_back(judged.edges[sz(e)]);
-  const bool rescaled = beyond(factors.odometry / factors.closures, kContestedFactor);
-  RobustSolution<D> made = rescaled ? solutionFrom(withFactors(problem, roles, factors), roles, options, std::move(all))
-                                    : solutionFrom(problem, roles, options, std::move(all));
+  RobustSolution<D> made = report.isRescaled()
+                               ? solutionFrom(withFactors(problem, roles, factors), roles, options, std::move(all))
+                               : solutionFrom(problem, roles, options, std::move(all));
   made.selection = report;
   return made;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "pose_graph/robust.hpp"
 #include "support/drawn.hpp"
@@ -30,7 +31,9 @@ struct Boasting {
     weights.assign(problem.edges.size(), 1.0);
     solution = solve(problem, {}, weights);
   }
-  double factor() { return takeOdometryVariance(problem, chains, weights, {}, solution); }
+  double factor(double largest = std::numeric_limits<double>::infinity()) {
+    return takeOdometryVariance(problem, chains, weights, {}, solution, largest);
+  }
 };
 
 TEST(OdometryVariance, FindsHowMuchOdometryBoasts) {
@@ -51,6 +54,15 @@ TEST(OdometryVariance, LeavesTrueCovariancesAlone) {
   Boasting graph(1.0);
   EXPECT_LT(graph.factor(), 1.15);
   EXPECT_GE(Boasting(0.5).factor(), 1.0) << "and careful ones";
+}
+
+TEST(OdometryVariance, IsNoLargerThanAllowed) {
+  Boasting graph(5.0);
+  EXPECT_EQ(graph.factor(9.0), 9.0);
+  SolveOptions from_here;
+  from_here.start = Start::Vertices;
+  graph.problem.poses = graph.solution.poses;
+  EXPECT_NEAR(solve(graph.problem, from_here, graph.weights).cost, graph.solution.cost, 1e-6 * graph.solution.cost);
 }
 
 TEST(OdometryVariance, IsNotDecidedByOneClosure) {

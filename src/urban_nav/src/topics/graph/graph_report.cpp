@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/plot.hpp"
+#include "pose_graph/selection_warnings.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
 namespace urban_nav {
@@ -241,6 +242,11 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
                     of + "; the cost fell from " + urban_nav_core::formatNumber(relaxed.cost_before, 4) + " to " +
                         urban_nav_core::formatNumber(relaxed.cost_after, 4) + "."});
   }
+  for (const std::string& warning :
+       pose_graph::selectionWarnings(relaxed.selection, relaxed.rejected, relaxed.closures))
+    made.push_back({Grade::Fair, "Which closures are true is not certain:", warning + "."});
+  for (const pose_graph::Relaxed::Slip& slip : relaxed.slips)
+    made.push_back({Grade::Fair, "A step of odometry is left out:", toSentence(slip) + "."});
   if (planes.all() > 0)
     made.push_back({Grade::Good, "Planes that several passes measured hold the map together.",
                     std::to_string(planes.accepted) + " of " + count(planes.all(), "constraint") +
@@ -284,6 +290,13 @@ Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evalua
   json["odometry_lean_deg"] = kGraphDegrees * graph.graph.odometryLean();
   json["iterations"] = relaxed.iterations.size();
   json["ending"] = toString(relaxed.ending);
+  Json& selection = json["selection"] = Json::object();
+  selection["undecided"] = relaxed.selection.undecided;
+  selection["rival"] = relaxed.selection.has_rival;
+  selection["unweighed"] = relaxed.selection.unweighed;
+  selection["odometry_factor"] = relaxed.selection.odometry_factor;
+  selection["closure_factor"] = relaxed.selection.closure_factor;
+  selection["steps_slipped"] = relaxed.slips.size();
   json["ms_batch"] = graph.ms;
   json["ms_covariances"] = graph.ms_covariances;
   json["sessions"] = graph.sessions.size();

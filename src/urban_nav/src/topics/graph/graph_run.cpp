@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "base/plot.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/map_levels.hpp"
+#include "pose_graph/selection_warnings.hpp"
 #include "pose_graph_ceres/solve_by_ceres.hpp"
 #include "pose_graph_relative/relative_pcg.hpp"
 #include "topics/graph/closure_import.hpp"
@@ -35,6 +37,7 @@ constexpr double kSettled = 0.005;  // m: less does not change which planes are 
 
 constexpr double kManyRejected = 3.0;  // one fix of so many: said to the user
 constexpr double kOptimistic = 2.0;    // times the stated deviation: likewise
+constexpr double kImplausible = 3.0;   // times odometry's stated deviations
 
 using Clock = std::chrono::steady_clock;
 
@@ -208,6 +211,19 @@ void addFixWarnings(const pose_graph::Parameters& parameters, GraphRun& run) {
                            urban_nav_core::formatNumber(use.sigma_factor, 2));
 }
 
+/// What a user should know of the selection among closures.
+void addSelectionWarnings(GraphRun& run) {
+  const pose_graph::Relaxed& relaxed = run.relaxed;
+  for (const std::string& warning :
+       pose_graph::selectionWarnings(relaxed.selection, relaxed.rejected, relaxed.closures))
+    run.warnings.push_back(warning);
+  for (const pose_graph::Relaxed::Slip& slip : relaxed.slips) run.warnings.push_back(toSentence(slip));
+  const double errs = std::sqrt(run.graph.odometryVariance());
+  if (errs >= kImplausible)
+    run.warnings.push_back("the accepted closures contradict what odometry states: its errors are at least " +
+                           urban_nav_core::formatNumber(errs, 2) + " times the deviations that it states");
+}
+
 /// As the graph has it: the first pose of a map is the identity there.
 Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   Trajectory made;
@@ -297,6 +313,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   if (find_planes) relaxWithPlanes(made, runs, find_planes);
   assessClosures(made, previous.offered.size());
   addFixWarnings(parameters, made);
+  addSelectionWarnings(made);
   const auto relaxed = Clock::now();
   made.covariances = computeCovariances(made.graph, sessions);
   addScale(made, runs);
