@@ -106,7 +106,7 @@ struct Relaxed {
     std::vector<Closure> causing_edges;  ///< as the reason has it
   };
   std::optional<Correction> correction;
-  bool needs_batch = false;  ///< update() met a closure that disagrees
+  bool needs_batch = false;  ///< update() judged closures one by one: only relax() weighs sets of them
   SelectionReport selection;  ///< of the last batch
   /// A step of odometry that all closures contradict: it counts next to nothing, and lies as the closures say.
   struct Slip {
@@ -197,8 +197,9 @@ class PoseGraph {
   Batch batch() const;
   Relaxed take(const Batch& batch);
   /// The same from where the graph stands, for some closures more: each is accepted if it raises the cost by no more
-  /// than chance and noise explain (its innovation, chi-square at 99.9 %), verdicts given earlier stay. Faster by far;
-  /// where it finds disagreement, `needs_batch` asks for relax(), which may find the others wrong.
+  /// than chance and noise explain (its innovation, chi-square at 99.9 %), verdicts given earlier stay. Faster by far,
+  /// and provisional: where a closure was accepted or disagrees, `needs_batch` asks for relax(), which weighs sets of
+  /// closures against each other and may find any of them wrong.
   Relaxed update();
 
   const std::vector<Track>& tracks() const { return tracks_; }

@@ -246,6 +246,7 @@ Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Par
       if (waiting != id) made.others_wait = true;
     if (closure.weight > 0.0) {
       made.cost_before = cost_before;
+      made.provisional = made.provisional || parameters.robust;
       core.keep();
     } else {
       core.readmitByTruncatedSquares();

@@ -37,6 +37,7 @@ Judged judge(Problem<3>& problem, const Parameters& parameters, const SolveOptio
 struct Addition {
   double cost_before = 0.0;   ///< where the poses stood, with what was let in last
   bool disagreement = false;  ///< one of them was left out, or more wait than were tried beside it
+  bool provisional = false;   ///< one of them was let in: no other set of closures was weighed
   bool others_wait = false;   ///< one that was accepted before waits now: `core` is no longer that of the accepted ones
 };
 Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,

@@ -121,7 +121,7 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   made.cost_after = live.cost();
   made.iterations = live.iterations();
   made.ending = live.ending();
-  made.needs_batch = added.disagreement;
+  made.needs_batch = added.disagreement || added.provisional;
   return std::move(paper.moves.runs);
 }
 

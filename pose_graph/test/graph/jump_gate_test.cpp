@@ -54,7 +54,7 @@ TEST(JumpGate, ASecondOneThatAgreesEndsTheWaitAtOnce) {
   EXPECT_TRUE(isApprox(live.tracks()[0].map.back(), before, 1e-9));
   const ClosureId second = live.addClosure(large(50));
   const Relaxed both = live.update();
-  EXPECT_FALSE(both.needs_batch);
+  EXPECT_TRUE(both.needs_batch) << "no set of closures was weighed";
   EXPECT_TRUE(isAccepted(live, first));
   EXPECT_TRUE(isAccepted(live, second));
   ASSERT_TRUE(both.correction);

@@ -148,6 +148,24 @@ TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
     EXPECT_EQ(graph.tracks()[0].map[i].t(), again.tracks()[0].map[i].t()) << i;
 }
 
+// One closure at a time, as the live graph does it: a batch follows where it is asked for.
+TEST(SelectedGraph, OneAtATimeEndsWithTheVerdictsOfTheBatch) {
+  SimulatedGraph simulated = drawSphere(4);
+  addFalseClosures(simulated, FalseClosures::Random, 30, 9);
+  keepFalseAlone(simulated);
+  PoseGraph batch = graphOf(simulated), live = batch;
+  for (const auto& [id, closure] : batch.closures()) live.removeClosure(id);
+  for (const auto& [id, closure] : batch.closures()) {
+    live.addClosure(closure);
+    if (live.update().needs_batch) live.relax();
+  }
+  batch.relax();
+  auto other = live.closures().begin();
+  for (const auto& [id, closure] : batch.closures()) EXPECT_EQ((other++)->second.verdict, closure.verdict) << id;
+  for (std::size_t i = 0; i < batch.tracks()[0].map.size(); ++i)
+    EXPECT_LT(distanceBetween(batch.tracks()[0].map[i], live.tracks()[0].map[i]), 1e-6) << i;
+}
+
 // A drive that sees no place twice, and two stretches of it taken for one: odometry that is loosened fits them.
 TEST(SelectedGraph, ARowThatIsAMetreOffIsNotJoinedSilently) {
   for (const std::uint64_t seed : {1, 2, 3})
