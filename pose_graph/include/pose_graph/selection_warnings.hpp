@@ -16,8 +16,8 @@ std::vector<std::string> selectionWarnings(const SelectionReport& selection, std
                                            std::size_t closures);
 
 /// What a user should know of a selection in a file, a sentence each: nothing could be decided, more than half of a kind of edge
-/// is rejected, parts that odometry does not join stay apart, odometry slipped, or the information is off by more than
-/// a factor of 3 in its deviations.
+/// is rejected, parts that odometry does not join stay apart, odometry slipped, errors are more than 3 times the
+/// deviations that the information states, or odometry's and the closures' differ by more than that.
 template <int D>
 std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,
                                            const DeviationScales& scales);

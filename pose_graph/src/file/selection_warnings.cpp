@@ -84,10 +84,24 @@ std::string twoDigits(double value) {
   return text;
 }
 
-void addScale(const std::string& what, const std::optional<double>& scale, std::vector<std::string>& warnings) {
-  if (scale && (*scale > kImplausible || *scale < 1.0 / kImplausible))
-    warnings.push_back("the errors of " + what + " are " + twoDigits(*scale) +
-                       " times the deviations that its information states");
+// Errors that are smaller than stated are said only where that weighs odometry and closures wrongly against each other.
+void addScales(const std::string& kind, const std::optional<double>& odometry, const std::optional<double>& closures,
+               std::vector<std::string>& warnings) {
+  const bool larger_odometry = odometry && *odometry > kImplausible;
+  const bool larger_closures = closures && *closures > kImplausible;
+  const std::string stated = " times the deviations that the information states";
+  if (larger_odometry)
+    warnings.push_back("the errors of odometry's " + kind + " are " + twoDigits(*odometry) + stated +
+                       ": divide its information by " + twoDigits(*odometry * *odometry));
+  if (larger_closures)
+    warnings.push_back("the errors of the closures' " + kind + " are " + twoDigits(*closures) + stated +
+                       ": divide their information by " + twoDigits(*closures * *closures));
+  if (larger_odometry || larger_closures || !odometry || !closures) return;
+  const double ratio = *odometry / *closures;
+  if (ratio > kImplausible || ratio < 1.0 / kImplausible)
+    warnings.push_back("odometry and closures are weighed wrongly against each other: the errors of odometry's " +
+                       kind + " are " + twoDigits(*odometry) + stated + ", those of the closures' " +
+                       twoDigits(*closures) + " times");
 }
 
 }  // namespace
@@ -130,10 +144,8 @@ std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const Rob
   for (std::size_t e = 0; e < file.roles.size(); ++e)
     if (file.roles[e] == EdgeRole::Trusted && robust.edges[e].verdict == ClosureVerdict::Rejected)
       warnings.push_back(describeSlip(file, robust, e));
-  addScale("odometry's translation", scales.odometry_translation, warnings);
-  addScale("odometry's rotation", scales.odometry_rotation, warnings);
-  addScale("the closures' translation", scales.closure_translation, warnings);
-  addScale("the closures' rotation", scales.closure_rotation, warnings);
+  addScales("translation", scales.odometry_translation, scales.closure_translation, warnings);
+  addScales("rotation", scales.odometry_rotation, scales.closure_rotation, warnings);
   return warnings;
 }
 

@@ -58,5 +58,30 @@ TEST(SelectionWarnings, SayNothingMoreWhereNothingCouldBeDecided) {
   EXPECT_FALSE(graph.warns("apart"));
 }
 
+TEST(SelectionWarnings, SpeakOfScaleOnlyWhereItDoesHarm) {
+  TwoChains graph;
+  const auto warnings = [&](double odometry, double closures) {
+    DeviationScales scales;
+    scales.odometry_translation = odometry;
+    scales.closure_translation = closures;
+    return selectionWarnings(graph.file, graph.robust, scales);
+  };
+  EXPECT_TRUE(warnings(0.2, 0.3).empty()) << "careful";
+  EXPECT_TRUE(warnings(1.5, 0.6).empty());
+  ASSERT_EQ(warnings(4.0, 1.0).size(), 1u);
+  EXPECT_NE(warnings(4.0, 1.0)[0].find("divide its information by 16"), std::string::npos);
+  ASSERT_EQ(warnings(0.2, 0.9).size(), 1u);
+  EXPECT_NE(warnings(0.2, 0.9)[0].find("weighed wrongly"), std::string::npos);
+  EXPECT_EQ(warnings(5.0, 5.0).size(), 2u);
+}
+
+TEST(SelectionWarnings, NameAGuess) {
+  SelectionReport selection;
+  EXPECT_TRUE(selectionWarnings(selection, 3, 10).empty());
+  selection.has_rival = true;
+  ASSERT_EQ(selectionWarnings(selection, 3, 10).size(), 1u);
+  EXPECT_NE(selectionWarnings(selection, 3, 10)[0].find("nearly as likely"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pose_graph
