@@ -30,6 +30,7 @@ constexpr double kHypothesisShare = 1e-4;
 constexpr double kOdometryMargin = 100.0;
 constexpr int kNeighbours = 10;           // poses, as in ClosureLoops
 constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
+constexpr int kLongestRow = 30;    // closures that a row of false ones has at most
 constexpr double kLooseRow = 25.0;  // as in InformationScale: false closures found in a row err alike, more or less
 
 double logFactorial(double n) { return std::lgamma(n + 1.0); }
@@ -146,6 +147,7 @@ HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector
   ChanceDensity<D> by_chance(reckoning_, candidates_.size());
   for (const int e : candidates_) log_false_[sz(e)] = by_chance.logAt(problem.edges[sz(e)]);
   neighbour_.assign(roles.size(), -1);
+  row_position_.assign(roles.size(), 0);
   log_alike_.assign(roles.size(), 0.0);
   const ClosureLoops<D> loops(problem, candidates_, reckoning_);
   const double scale = assertions_ ? 1.0 : informationScale(loops).factor;
@@ -158,6 +160,7 @@ HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector
       for (const double factor : {1.0, scale, kLooseRow, kLooseRow * std::max(1.0, scale)})
         best = std::max(best, loop.log_true - 0.5 * kN * std::log(factor) - 0.5 * loop.chi2 / factor);
       neighbour_[sz(loops.edge(b))] = loops.edge(a);
+      row_position_[sz(loops.edge(b))] = row_position_[sz(loops.edge(a))] + 1;
       log_alike_[sz(loops.edge(b))] = best;
     });
 }
@@ -285,6 +288,25 @@ double HypothesisJudge<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
     const int near = neighbour_[sz(e)];
     rows += hypothesis.in[sz(e)] && (near < 0 || !hypothesis.in[sz(near)]);
   }
+  return rows;
+}
+
+template <int D>
+Hypothesis<D> HypothesisJudge<D>::judgeRows(const Hypothesis<D>& hypothesis) const {
+  Hypothesis<D> rows = hypothesis;
+  double followers = 0.0;  // what those before them in their row say of them
+  for (const int e : candidates_) {
+    const int near = neighbour_[sz(e)];
+    if (!hypothesis.in[sz(e)] || near < 0 || !hypothesis.in[sz(near)] || log_alike_[sz(e)] < log_false_[sz(e)]) continue;
+    if (row_position_[sz(e)] % kLongestRow == 0) {  // were it false, it would not err like those before it
+      followers += log_alike_[sz(e)] - log_false_[sz(e)];
+      continue;
+    }
+    rows.in[sz(e)] = 0;
+    followers += log_alike_[sz(e)];
+  }
+  judge(rows);
+  rows.log_evidence += followers + chance(hypothesis) - chance(rows);
   return rows;
 }
 

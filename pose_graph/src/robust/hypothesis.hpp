@@ -20,6 +20,10 @@ struct VarianceFactors {
 
   /// Whether one of them is off by more than that.
   bool areBeyond(double limit) const { return beyond(odometry, limit) || beyond(closures, limit); }
+  /// Whether they differ from others by less than that.
+  bool areWithin(double limit, const VarianceFactors& other) const {
+    return !beyond(odometry / other.odometry, limit) && !beyond(closures / other.closures, limit);
+  }
 };
 
 /// Divides the information of each edge by its factor.
@@ -78,6 +82,11 @@ class HypothesisJudge {
   /// How many rows of neighbouring closures are inside: closures of one row are no independent witnesses.
   double rowsInside(const Hypothesis<D>& hypothesis) const;
 
+  /// A judged hypothesis with one closure of each row (of thirty) alone, and the factors that follow from these: over a long way
+  /// odometry may err by more than it states where it errs by less from one closure of a row to the next, and the many of
+  /// a row hide it.
+  Hypothesis<D> judgeRows(const Hypothesis<D>& hypothesis) const;
+
   /// Only trusted and asserted edges, judged. To be asked for before any other is judged.
   Hypothesis<D> judgeOdometry();
 
@@ -99,6 +108,7 @@ class HypothesisJudge {
   double log_place_ = 0.0;         ///< of one pose anywhere, density
   std::vector<double> log_false_;  ///< by edge, density of its measurement were it anywhere
   std::vector<int> neighbour_;     ///< by edge: a closure near it, before it; -1 without one
+  std::vector<int> row_position_;  ///< by edge, how many closures are before it in its row
   std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour
 };
 

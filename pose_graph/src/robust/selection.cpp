@@ -40,11 +40,6 @@ constexpr double kHealedShare = 0.01;  // of a step's information that what take
 // for, weighed where the chains of a graph leave a core that is no larger.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
 
-// Whether no verdict depends on which of them it is.
-bool areAlike(const VarianceFactors& a, const VarianceFactors& b) {
-  return !beyond(a.odometry / b.odometry, kRegrowFactor) && !beyond(a.closures / b.closures, kRegrowFactor);
-}
-
 /// Proposes sets of edges, and keeps the best.
 template <int D>
 class Selection {
@@ -63,9 +58,8 @@ class Selection {
       return;
     }
     parts_ = sessionParts(problem_, roles_);
-    std::size_t between = 0;
-    for (std::size_t e = 0; e < roles_.size(); ++e) between += isBetween(e);
-    contested_ = isContested(best_.judgement) || between > 0;
+    for (std::size_t e = 0; e < roles_.size(); ++e) between_ += isBetween(e);
+    contested_ = isContested(best_.judgement) || between_ > 0;
     judge_ = std::make_unique<HypothesisJudge<D>>(problem_, roles_);
     odometry_ = judge_->judgeOdometry();
     weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
@@ -78,7 +72,7 @@ class Selection {
       if (rejected(best_.judgement) > 1) heal({});
       return;
     }
-    if (between > 0) link();
+    if (between_ > 0) link();
     heal({});
     if (!judge_->areAssertions()) rescale();
   }
@@ -87,10 +81,15 @@ class Selection {
   bool wasJudged() const { return judge_ != nullptr; }
   /// Whether other sets than the first one were looked at.
   bool wasContested() const { return contested_; }
-  /// Whether the best set is no likelier than chance, or fits because variances were changed until it did.
+  /// Whether the best set is no likelier than chance, or fits because variances were enlarged until it did. What nothing
+  /// contests stands unless chance is decidedly the likelier.
   bool isUndecided() const {
-    return contested_ || best_.hypothesis.factors.areBeyond(kContestedFactor) ? isInflated(best_.hypothesis)
-                                                                              : !(evidence() >= 0.0);
+    if (contested_ || core_) return !(evidence() >= kDecisive);
+    const Hypothesis<D> rows = judge_->judgeRows(best_.hypothesis);
+    const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
+    const double needed =
+        is_loosened ? kDecisive + kEachDecisive * judge_->rowsInside(best_.hypothesis) : -kDecisive;
+    return !(overOdometry(rows) >= needed);
   }
   /// Whether they should have been, and the graph is too large.
   bool isUnweighed() const { return unweighed_; }
@@ -235,7 +234,7 @@ class Selection {
     const bool likelier = made.hypothesis.log_evidence >
                               best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
                           (!is_new_slip || holdsWithout(made.judgement, slips)) &&
-                          (!is_doubtful_link || countLinking(made.hypothesis) >= kLeastLink);
+                          (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastDoubtfulLink, between_));
     if (likelier || forced) contract(made.hypothesis);
     if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
     best_ = std::move(made);
@@ -395,7 +394,7 @@ class Selection {
     }
     regrow();
     // Where variances were stated too large, a slip stands out only now.
-    if (slips_.empty() && evidence() >= kDecisive && !areAlike(best_.grown_with, {})) heal(best_.grown_with);
+    if (slips_.empty() && evidence() >= kDecisive && !best_.grown_with.areWithin(kRegrowFactor, {})) heal(best_.grown_with);
   }
 
   // Whether the best set explains far more than chance, with variances near those stated.
@@ -418,7 +417,7 @@ class Selection {
   // Whether the best set was found with the variances that follow from it, or none better was.
   bool isSettled() const {
     const VarianceFactors& now = best_.hypothesis.factors;
-    return areAlike(now, best_.grown_with) || areAlike(now, regrown_with_);
+    return now.areWithin(kRegrowFactor, best_.grown_with) || now.areWithin(kRegrowFactor, regrown_with_);
   }
 
   void regrow() {
@@ -433,7 +432,7 @@ class Selection {
   const std::vector<EdgeRole>& roles_;
   Problem<D> proposed_;  // with what takes the place of slips and of steps between sessions
   std::vector<EdgeRole> proposed_roles_;
-  std::size_t candidates_ = 0;
+  std::size_t candidates_ = 0, between_ = 0;
   std::vector<int> parts_;    // by pose, what odometry holds together
   std::vector<char> barred_;  // by edge: joins parts that too few closures agree on
   bool contested_ = false, unweighed_ = false;

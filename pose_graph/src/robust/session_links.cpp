@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <numeric>
 
@@ -23,6 +24,7 @@ namespace {
 
 constexpr double kLinkChance = 0.01, kPairQuantile = 0.999;
 constexpr std::uint64_t kDrawnLoops = 20000;
+constexpr int kRowReach = 10;  // poses, as in ClosureLoops
 constexpr std::size_t kMostPerPair = 400;
 constexpr std::size_t kDoubtful = 3;  // links proposed between two parts where too few closures agree pair by pair
 // Pairs whose loop is off by more than this share of the map's extent, or turned by more, are not looked at any closer.
@@ -188,6 +190,11 @@ std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& agr
   return best;
 }
 
+// Two of one row agree whatever they are.
+bool areOneRow(const BetweenClosure& a, const BetweenClosure& b) {
+  return std::abs(a.from - b.from) <= kRowReach && std::abs(a.to - b.to) <= kRowReach;
+}
+
 }  // namespace
 
 template <int D>
@@ -245,7 +252,7 @@ SessionLinks linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>
     const double n = static_cast<double>(size), k = static_cast<double>(set.size());
     const double log_chance = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
                               (k - 1.0) * std::log(consistency.pairChance());
-    if (set.size() < kLeastLink) continue;
+    if (set.size() < kLeastLink || (set.size() == kLeastLink && areOneRow(closures[set[0]], closures[set[1]]))) continue;
     if (log_chance > std::log(kLinkChance)) {
       for (const std::size_t i : bestSupported(found.support)) made.doubtful.push_back(closures[i].edge);
       continue;
