@@ -7,6 +7,7 @@
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/robust.hpp"
+#include "robust/session_links.hpp"
 
 namespace pose_graph {
 
@@ -57,6 +58,22 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
       if (static_cast<std::size_t>(other) >= chains)
         closure.contradicted_by.push_back(ids[static_cast<std::size_t>(other) - chains]);
   }
+}
+
+bool acceptsAll(const RobustSolution<3>& judged) {
+  return std::all_of(judged.edges.begin(), judged.edges.end(),
+                     [](const EdgeAssessment& edge) { return edge.weight > 0.0; });
+}
+
+// The selection of `relax`. Sessions that few closures join, too few to be weighed against chance, are joined where all
+// closures agree.
+RobustSolution<3> select(const Problem<3>& problem, const std::vector<EdgeRole>& roles, const SolveOptions& options) {
+  RobustSolution<3> judged = relaxSelected(problem, roles, options);
+  const std::vector<int> parts = sessionParts(problem, roles);
+  if (acceptsAll(judged) || std::all_of(parts.begin(), parts.end(), [&](int part) { return part == parts.front(); }))
+    return judged;
+  RobustSolution<3> plain = relaxRobust(problem, roles, options);
+  return acceptsAll(plain) ? plain : judged;
 }
 
 // A step that slipped takes over the motion that the closures give.
@@ -154,7 +171,7 @@ Judged judge(Problem<3>& problem, const Parameters& parameters, const SolveOptio
   const std::vector<EdgeRole> roles = assignRoles(chains, closures);
   Judged made;
   if (parameters.robust) {
-    RobustSolution<3> judged = relaxSelected(problem, roles, options);
+    RobustSolution<3> judged = select(problem, roles, options);
     take(judged, chains, closures);
     made.selection = judged.selection;
     made.slipped = takeSlips(judged, chains, problem);
