@@ -106,9 +106,9 @@ struct Relaxed {
     std::vector<Closure> causing_edges;  ///< as the reason has it
   };
   std::optional<Correction> correction;
-  bool needs_batch = false;  ///< update() judged closures one by one: only relax() weighs sets of them
+  bool needs_batch = false;  ///< update() verified closures one by one: only relax() weighs sets of them
   SelectionReport selection;  ///< of the last batch
-  /// A step of odometry that all closures contradict: it counts next to nothing, and lies as the closures say.
+  /// A step of odometry that all closures contradict: it counts next to nothing, and follows the closures.
   struct Slip {
     NodeRef from, to;
   };
@@ -218,7 +218,7 @@ class PoseGraph {
   /// By what the covariances of odometry were multiplied in the last relax(), in problem() too: 1, or more where the
   /// closures show that it promises more than it keeps: at most 9, unless the selection found more the likelier.
   double odometryVariance() const { return odometry_variance_; }
-  /// How the last batch selected among the closures.
+  /// The last batch's selection among the closures.
   const SelectionReport& selection() const { return selection_; }
   /// How far a pose of odometry leant at most against its first one, rad, as the accelerometer says: taken out in the
   /// last relax().
@@ -262,7 +262,7 @@ class PoseGraph {
   /// Where each batch pose goes, and what has come since after them.
   Laid laidBy(const Batch& batch) const;
   void takeVerdicts(const Batch& batch);
-  /// Steps as they were levelled; those that slipped as the closures say.
+  /// Steps as they were levelled; those that slipped follow the closures.
   void takeSteps(const Batch& batch);
   void takeClosureVariance(double variance);
   /// Turns the maps of which it is known which way is up, but those that are level already if they are to `stay`. The

@@ -10,13 +10,13 @@
 
 namespace pose_graph {
 
-/// What a user should know of a selection among closures, `rejected` of `closures`, a sentence each: nothing could be
-/// decided, another set is nearly as likely, or the graph was too large to weigh any.
+/// Warnings about a selection among closures, `rejected` of `closures`, a sentence each: nothing could be decided,
+/// another set is nearly as likely, or the graph was too large to weigh any.
 std::vector<std::string> selectionWarnings(const SelectionReport& selection, std::size_t rejected,
                                            std::size_t closures);
 
-/// What a user should know of a selection in a file, a sentence each: nothing could be decided, more than half of a kind of edge
-/// is rejected, parts that odometry does not join stay apart, odometry slipped, errors are more than 3 times the
+/// Warnings about a selection in a file, a sentence each: nothing could be decided, more than half of a kind of edge is
+/// rejected, parts that odometry does not join stay apart, odometry slipped, errors are more than 3 times the
 /// deviations that the information states, or odometry's and the closures' differ by more than that.
 template <int D>
 std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,

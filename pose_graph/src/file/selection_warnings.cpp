@@ -84,7 +84,7 @@ std::string twoDigits(double value) {
   return text;
 }
 
-// Errors that are smaller than stated are said only where that weighs odometry and closures wrongly against each other.
+// Errors that are smaller than stated are reported only where odometry and closures are weighed wrongly for it.
 void addScales(const std::string& kind, const std::optional<double>& odometry, const std::optional<double>& closures,
                std::vector<std::string>& warnings) {
   const bool larger_odometry = odometry && *odometry > kImplausible;

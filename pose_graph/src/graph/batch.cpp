@@ -14,7 +14,7 @@ namespace pose_graph {
 
 namespace {
 
-// Of odometry's variance: a factor of 3 of its deviations.
+// Largest factor of odometry's variance: 3 of its deviations.
 constexpr double kLargestVariance = 9.0;
 
 /// The same two poses measured to the same, bit by bit.
@@ -86,10 +86,10 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
   wanted.iterations = batch.parameters.iterations;
   const std::size_t chains = batch.problem.edges.size() - batch.closures.size();
   if (batch.parameters.gravity) batch.odometry_lean = levelOdometry(batch.problem, chains, batch.stamps, batch.forces);
-  Judged judged = judge(batch.problem, batch.parameters, wanted, reference, batch.closures);
-  batch.solution = std::move(judged.solution);
-  batch.selection = judged.selection;
-  batch.slipped = std::move(judged.slipped);
+  Assessment assessment = assess(batch.problem, batch.parameters, wanted, reference, batch.closures);
+  batch.solution = std::move(assessment.solution);
+  batch.selection = assessment.selection;
+  batch.slipped = std::move(assessment.slipped);
   std::vector<double> weights(chains, 1.0);
   for (auto& [id, closure] : batch.closures) {
     closure.judged = true;

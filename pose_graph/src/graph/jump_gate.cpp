@@ -60,34 +60,34 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   }
 }
 
-bool acceptsAll(const RobustSolution<3>& judged) {
-  return std::all_of(judged.edges.begin(), judged.edges.end(),
+bool acceptsAll(const RobustSolution<3>& selected) {
+  return std::all_of(selected.edges.begin(), selected.edges.end(),
                      [](const EdgeAssessment& edge) { return edge.weight > 0.0; });
 }
 
 // The selection of `relax`. Sessions that few closures join, too few to be weighed against chance, are joined where all
 // closures agree.
 RobustSolution<3> select(const Problem<3>& problem, const std::vector<EdgeRole>& roles, const SolveOptions& options) {
-  RobustSolution<3> judged = relaxSelected(problem, roles, options);
+  RobustSolution<3> selected = relaxSelected(problem, roles, options);
   const std::vector<int> parts = sessionParts(problem, roles);
-  if (acceptsAll(judged) || std::all_of(parts.begin(), parts.end(), [&](int part) { return part == parts.front(); }))
-    return judged;
+  if (acceptsAll(selected) || std::all_of(parts.begin(), parts.end(), [&](int part) { return part == parts.front(); }))
+    return selected;
   RobustSolution<3> plain = relaxRobust(problem, roles, options);
-  return acceptsAll(plain) ? plain : judged;
+  return acceptsAll(plain) ? plain : selected;
 }
 
 // A step that slipped takes over the motion that the closures give.
-std::vector<int> takeSlips(const RobustSolution<3>& judged, std::size_t chains, Problem<3>& problem) {
-  std::vector<int> made;
+std::vector<int> takeSlips(const RobustSolution<3>& selected, std::size_t chains, Problem<3>& problem) {
+  std::vector<int> slipped;
   for (std::size_t e = 0; e < chains; ++e) {
-    if (judged.edges[e].weight > 0.0) continue;
+    if (selected.edges[e].weight > 0.0) continue;
     Edge<3>& step = problem.edges[e];
-    step.Z = judged.solution.poses[static_cast<std::size_t>(step.from)].inverse() *
-             judged.solution.poses[static_cast<std::size_t>(step.to)];
+    step.Z = selected.solution.poses[static_cast<std::size_t>(step.from)].inverse() *
+             selected.solution.poses[static_cast<std::size_t>(step.to)];
     step.information *= kSlippedShare;
-    made.push_back(static_cast<int>(e));
+    slipped.push_back(static_cast<int>(e));
   }
-  return made;
+  return slipped;
 }
 
 void rescale(const SelectionReport& selection, const std::vector<EdgeRole>& roles, Problem<3>& problem) {
@@ -165,29 +165,30 @@ std::vector<ClosureId> makeWait(const GraphView& view, const std::map<ClosureId,
 
 }  // namespace
 
-Judged judge(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-             const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures) {
+Assessment assess(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+                  const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures) {
   const std::size_t chains = problem.edges.size() - closures.size();
   const std::vector<EdgeRole> roles = assignRoles(chains, closures);
-  Judged made;
+  Assessment result;
   if (parameters.robust) {
-    RobustSolution<3> judged = select(problem, roles, options);
-    take(judged, chains, closures);
-    made.selection = judged.selection;
-    made.slipped = takeSlips(judged, chains, problem);
-    made.solution = std::move(judged.solution);
+    RobustSolution<3> selected = select(problem, roles, options);
+    take(selected, chains, closures);
+    result.selection = selected.selection;
+    result.slipped = takeSlips(selected, chains, problem);
+    result.solution = std::move(selected.solution);
   } else {
     admitAll(closures);
   }
   const bool waiting = makeWait(problem, chains, parameters, closures);
-  const bool is_rescaled = made.selection.isRescaled();
-  if (is_rescaled) rescale(made.selection, roles, problem);
-  if (parameters.robust && !waiting && !is_rescaled && reference == nullptr) return made;
+  const bool is_rescaled = result.selection.isRescaled();
+  if (is_rescaled) rescale(result.selection, roles, problem);
+  if (parameters.robust && !waiting && !is_rescaled && reference == nullptr) return result;
   std::vector<double> weights(chains, 1.0);
   for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
-  if (reference == nullptr && is_rescaled) problem.poses = made.solution.poses;
-  made.solution = reference != nullptr ? reference->solve(problem, options, weights) : solve(problem, options, weights);
-  return made;
+  if (reference == nullptr && is_rescaled) problem.poses = result.solution.poses;
+  result.solution =
+      reference != nullptr ? reference->solve(problem, options, weights) : solve(problem, options, weights);
+  return result;
 }
 
 namespace {

@@ -11,26 +11,27 @@
 
 namespace pose_graph {
 
-/// Of the information of a step that slipped: what holds a chain together where its closures are removed.
+/// Share of its information that a step that slipped keeps: it holds a chain together where its closures are removed.
 constexpr double kSlippedShare = 1e-6;
 
-/// What judge() makes of a graph.
-struct Judged {
+/// A graph relaxed with the closures that are accepted.
+struct Assessment {
   Solution<3> solution;
   SelectionReport selection;
-  std::vector<int> slipped;  ///< edges of the problem, ascending: steps of odometry that closures refute
+  std::vector<int> slipped;  ///< edges of the problem, ascending: steps of odometry that closures contradict
 };
 
-/// Accepted closures, and the poses that follow: the selection of `relax` (relaxSelected()), and then the rule that a
-/// large correction needs two witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to b so far,
+/// Accepted closures, and the poses that follow: the selection of `relax` (relaxSelected()), then the rule that a large
+/// correction needs two witnesses (docs/derivations/pose_graph.md).
+/// A closure waits where odometry alone led from a to b so far,
 /// it says something further off than parameters.confirmation_distance or confirmation_angle, it is no stereo closure
 /// that odometry allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts,
 /// weights and reasons; those that wait or are rejected have weight 0 in the solution. `reference`: relaxes what is
 /// accepted in place of solve(), if not null. A step that slipped measures in `problem` from then on what the solution
-/// says in its place, with next to no information; the information of chains and closures is divided by the factors of
+/// has in its place, with next to no information; the information of chains and closures is divided by the factors of
 /// the selection where SelectionReport::isRescaled().
-Judged judge(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-             const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
+Assessment assess(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+                  const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 
 /// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it;
 /// those that are let in stay in `core`.

@@ -190,10 +190,10 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
 }
 
 Edge<3> PoseGraph::toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b, double variance) const {
-  Edge<3> made{0, 0, toRigid<3>(closure.measured.T_a_b),
+  Edge<3> edge{0, 0, toRigid<3>(closure.measured.T_a_b),
                closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
-  if (closure.kind != EdgeKind::Asserted) made.information /= variance;
-  return made;
+  if (closure.kind != EdgeKind::Asserted) edge.information /= variance;
+  return edge;
 }
 
 Matrix6d PoseGraph::ownNoise(const NodeIndex& place) const {

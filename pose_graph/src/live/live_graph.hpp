@@ -46,7 +46,7 @@ class LiveGraph {
     Figures figures;
     urban_nav_core::Status status;
     std::string reason_name;
-    bool needs_batch = false;  ///< closures were judged one by one: only a batch can decide which ones are wrong
+    bool needs_batch = false;  ///< closures were verified one by one: only a batch can decide which ones are wrong
   };
   struct EdgeReply {
     std::string message;

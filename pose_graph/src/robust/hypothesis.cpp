@@ -292,12 +292,13 @@ double HypothesisJudge<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-Hypothesis<D> HypothesisJudge<D>::judgeRows(const Hypothesis<D>& hypothesis) const {
+Hypothesis<D> HypothesisJudge<D>::assessRows(const Hypothesis<D>& hypothesis) const {
   Hypothesis<D> rows = hypothesis;
-  double followers = 0.0;  // what those before them in their row say of them
+  double followers = 0.0;  // their densities given those before them in their row
   for (const int e : candidates_) {
     const int near = neighbour_[sz(e)];
-    if (!hypothesis.in[sz(e)] || near < 0 || !hypothesis.in[sz(near)] || log_alike_[sz(e)] < log_false_[sz(e)]) continue;
+    if (!hypothesis.in[sz(e)] || near < 0 || !hypothesis.in[sz(near)]) continue;
+    if (log_alike_[sz(e)] < log_false_[sz(e)]) continue;
     if (row_position_[sz(e)] % kLongestRow == 0) {  // were it false, it would not err like those before it
       followers += log_alike_[sz(e)] - log_false_[sz(e)];
       continue;

@@ -82,10 +82,10 @@ class HypothesisJudge {
   /// How many rows of neighbouring closures are inside: closures of one row are no independent witnesses.
   double rowsInside(const Hypothesis<D>& hypothesis) const;
 
-  /// A judged hypothesis with one closure of each row (of thirty) alone, and the factors that follow from these: over a long way
-  /// odometry may err by more than it states where it errs by less from one closure of a row to the next, and the many of
-  /// a row hide it.
-  Hypothesis<D> judgeRows(const Hypothesis<D>& hypothesis) const;
+  /// An assessed hypothesis with one closure of each row (of thirty) alone, and the factors that follow from these:
+  /// over a long distance odometry may err by more than it states where it errs by less from one closure of a row to
+  /// the next, and the many of a row hide it.
+  Hypothesis<D> assessRows(const Hypothesis<D>& hypothesis) const;
 
   /// Only trusted and asserted edges, judged. To be asked for before any other is judged.
   Hypothesis<D> judgeOdometry();

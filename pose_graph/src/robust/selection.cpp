@@ -81,11 +81,11 @@ class Selection {
   bool wasJudged() const { return judge_ != nullptr; }
   /// Whether other sets than the first one were looked at.
   bool wasContested() const { return contested_; }
-  /// Whether the best set is no likelier than chance, or fits because variances were enlarged until it did. What nothing
-  /// contests stands unless chance is decidedly the likelier.
+  /// Whether the best set is no likelier than chance, or fits because variances were enlarged until it did. A set that
+  /// nothing contests remains unless chance is decidedly the likelier.
   bool isUndecided() const {
     if (contested_ || core_) return !(evidence() >= kDecisive);
-    const Hypothesis<D> rows = judge_->judgeRows(best_.hypothesis);
+    const Hypothesis<D> rows = judge_->assessRows(best_.hypothesis);
     const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
     const double needed =
         is_loosened ? kDecisive + kEachDecisive * judge_->rowsInside(best_.hypothesis) : -kDecisive;
@@ -234,7 +234,7 @@ class Selection {
     const bool likelier = made.hypothesis.log_evidence >
                               best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
                           (!is_new_slip || holdsWithout(made.judgement, slips)) &&
-                          (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastDoubtfulLink, between_));
+                          (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
     if (likelier || forced) contract(made.hypothesis);
     if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
     best_ = std::move(made);
@@ -394,7 +394,8 @@ class Selection {
     }
     regrow();
     // Where variances were stated too large, a slip stands out only now.
-    if (slips_.empty() && evidence() >= kDecisive && !best_.grown_with.areWithin(kRegrowFactor, {})) heal(best_.grown_with);
+    if (slips_.empty() && evidence() >= kDecisive && !best_.grown_with.areWithin(kRegrowFactor, {}))
+      heal(best_.grown_with);
   }
 
   // Whether the best set explains far more than chance, with variances near those stated.

@@ -252,7 +252,8 @@ SessionLinks linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>
     const double n = static_cast<double>(size), k = static_cast<double>(set.size());
     const double log_chance = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
                               (k - 1.0) * std::log(consistency.pairChance());
-    if (set.size() < kLeastLink || (set.size() == kLeastLink && areOneRow(closures[set[0]], closures[set[1]]))) continue;
+    if (set.size() < kLeastLink) continue;
+    if (set.size() == kLeastLink && areOneRow(closures[set[0]], closures[set[1]])) continue;
     if (log_chance > std::log(kLinkChance)) {
       for (const std::size_t i : bestSupported(found.support)) made.doubtful.push_back(closures[i].edge);
       continue;

@@ -9,8 +9,8 @@ namespace pose_graph {
 
 /// So many closures that agree join two parts, and no fewer.
 constexpr std::size_t kLeastLink = 2;
-/// Where they are no evidence pair by pair, as a whole.
-constexpr std::size_t kLeastDoubtfulLink = 3;
+/// The same where they are no evidence pair by pair, as a whole.
+constexpr std::size_t kLeastWeakLink = 3;
 
 /// Closures that put one part of a graph in the frame of another.
 struct SessionLinks {
@@ -25,7 +25,7 @@ std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeR
 /// Joins parts of a graph that no accepted edge joins, by sets of closures between two parts that are pairwise
 /// consistent (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent measurement set maximization, ICRA 2018).
 /// k of N closures join where C(N, k) p^(k-1) < 0.01, p the probability that two random ones agree on this very map;
-/// one alone never does, nor two of one row. Where odometry is so uncertain that hardly any pair contradicts each other, the closures that
+/// one never does, nor two of one row. Where odometry is so uncertain that hardly any pair disagrees, the closures that
 /// others support best are doubtful links: the evidence of all that agree once one of them holds has to decide. Of very
 /// many, some are looked at. The parts are taken as `poses` and the edges that are `in` have them.
 template <int D>

@@ -57,12 +57,19 @@ TEST(OdometryVariance, LeavesTrueCovariancesAlone) {
 }
 
 TEST(OdometryVariance, IsNoLargerThanAllowed) {
-  Boasting graph(5.0);
-  EXPECT_EQ(graph.factor(9.0), 9.0);
+  auto noise = urban_nav_core::testing::evenNoise(0.02, 0.004);
+  noise.drawn = 5.0;
+  const auto graph = urban_nav_core::testing::sphereGraph(12, 24, 20.0, noise, 3);
+  const std::size_t chains = graph.truth.size() - 1;
+  Problem<3> problem = test::simulatedProblem<3>(graph, deadReckoning(graph));
+  for (std::size_t e = chains; e < problem.edges.size(); ++e) problem.edges[e].information /= noise.drawn * noise.drawn;
+  const std::vector<double> weights(problem.edges.size(), 1.0);
+  Solution<3> solution = solve(problem, {}, weights);
+  EXPECT_EQ(takeOdometryVariance(problem, chains, weights, {}, solution, 9.0), 9.0);
   SolveOptions from_here;
   from_here.start = Start::Vertices;
-  graph.problem.poses = graph.solution.poses;
-  EXPECT_NEAR(solve(graph.problem, from_here, graph.weights).cost, graph.solution.cost, 1e-6 * graph.solution.cost);
+  problem.poses = solution.poses;
+  EXPECT_NEAR(solve(problem, from_here, weights).cost, solution.cost, 1e-6 * solution.cost);
 }
 
 TEST(OdometryVariance, IsNotDecidedByOneClosure) {

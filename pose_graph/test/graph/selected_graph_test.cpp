@@ -26,16 +26,16 @@ SimulatedGraph drawSphere(std::uint64_t seed) {
 
 bool isChain(const GraphEdge& edge) { return edge.b == edge.a + 1; }
 
-NodeRef nodeOf(std::size_t pose) { return {"a", static_cast<StampNs>(pose + 1) * kBetweenPoses}; }
+NodeRef toNode(std::size_t pose) { return {"a", static_cast<StampNs>(pose + 1) * kBetweenPoses}; }
 
 // Steps and closures of a simulated graph as a session; closures that may act alone.
-PoseGraph graphOf(const SimulatedGraph& simulated) {
+PoseGraph makeGraph(const SimulatedGraph& simulated) {
   PoseGraph graph{Parameters()};
   for (const GraphEdge& edge : simulated.edges) {
     if (!isChain(edge)) continue;
     urban_nav_core::RelativePose step;
-    step.from = nodeOf(edge.a).stamp;
-    step.to = nodeOf(edge.b).stamp;
+    step.from = toNode(edge.a).stamp;
+    step.to = toNode(edge.b).stamp;
     step.T_from_to = edge.T_a_b;
     step.covariance = edge.information.inverse();
     EXPECT_TRUE(graph.addOdometry("a", step));
@@ -43,8 +43,8 @@ PoseGraph graphOf(const SimulatedGraph& simulated) {
   for (const GraphEdge& edge : simulated.edges) {
     if (isChain(edge)) continue;
     Closure closure;
-    closure.a = nodeOf(edge.a);
-    closure.b = nodeOf(edge.b);
+    closure.a = toNode(edge.a);
+    closure.b = toNode(edge.b);
     closure.source = "test";
     closure.measured.T_a_b = edge.T_a_b;
     closure.measured.information = edge.information;
@@ -54,14 +54,14 @@ PoseGraph graphOf(const SimulatedGraph& simulated) {
   return graph;
 }
 
-RobustSolution<3> selectedOf(const PoseGraph& graph) {
+RobustSolution<3> runSelection(const PoseGraph& graph) {
   const Batch batch = graph.batch();
   std::vector<EdgeRole> roles(batch.problem.edges.size() - batch.closures.size(), EdgeRole::Trusted);
   roles.resize(batch.problem.edges.size(), EdgeRole::Candidate);
   return relaxSelected(batch.problem, roles, {});
 }
 
-void expectVerdictsOf(const RobustSolution<3>& selected, const PoseGraph& graph) {
+void expectVerdicts(const RobustSolution<3>& selected, const PoseGraph& graph) {
   std::size_t e = selected.edges.size() - graph.closures().size();
   for (const auto& [id, closure] : graph.closures()) EXPECT_EQ(closure.verdict, selected.edges[e++].verdict) << id;
 }
@@ -77,7 +77,7 @@ TEST(SelectedGraph, FalseClosuresAloneLeaveTheMapToOdometry) {
     SimulatedGraph simulated = drawSphere(wrong);
     addFalseClosures(simulated, FalseClosures::Random, wrong, wrong + 10);
     keepFalseAlone(simulated);
-    PoseGraph graph = graphOf(simulated);
+    PoseGraph graph = makeGraph(simulated);
     const Relaxed relaxed = graph.relax();
     EXPECT_EQ(relaxed.accepted, 0u) << wrong;
     EXPECT_TRUE(relaxed.selection.undecided) << wrong;
@@ -86,7 +86,7 @@ TEST(SelectedGraph, FalseClosuresAloneLeaveTheMapToOdometry) {
     const Track& track = graph.tracks()[0];
     for (std::size_t i = 0; i < track.map.size(); ++i)
       EXPECT_LT(distanceBetween(track.map[i], track.odom[i]), 1e-6) << wrong << ' ' << i;
-    expectVerdictsOf(selectedOf(graph), graph);
+    expectVerdicts(runSelection(graph), graph);
   }
 }
 
@@ -94,13 +94,13 @@ TEST(SelectedGraph, VerdictsAreThoseOfTheSelectionOfFiles) {
   for (const std::size_t wrong : {0, 60}) {
     SimulatedGraph simulated = drawSphere(3);
     addFalseClosures(simulated, FalseClosures::Random, wrong, 5);
-    PoseGraph graph = graphOf(simulated);
+    PoseGraph graph = makeGraph(simulated);
     const Relaxed relaxed = graph.relax();
-    const RobustSolution<3> selected = selectedOf(graph);
+    const RobustSolution<3> selected = runSelection(graph);
     EXPECT_FALSE(relaxed.selection.undecided);
     EXPECT_EQ(relaxed.selection.contested, selected.selection.contested);
     EXPECT_GT(relaxed.accepted, 100u);
-    expectVerdictsOf(selected, graph);
+    expectVerdicts(selected, graph);
   }
 }
 
@@ -115,11 +115,11 @@ TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
                                  [](const GraphEdge& edge) { return !isChain(edge); });
   const GraphEdge newest = *late;
   simulated.edges.erase(std::next(late).base());
-  PoseGraph graph = graphOf(simulated);
+  PoseGraph graph = makeGraph(simulated);
   const Relaxed relaxed = graph.relax();
   ASSERT_EQ(relaxed.slips.size(), 1u);
-  EXPECT_EQ(relaxed.slips[0].from.stamp, nodeOf(kSlipped).stamp);
-  EXPECT_EQ(relaxed.slips[0].to.stamp, nodeOf(kSlipped + 1).stamp);
+  EXPECT_EQ(relaxed.slips[0].from.stamp, toNode(kSlipped).stamp);
+  EXPECT_EQ(relaxed.slips[0].to.stamp, toNode(kSlipped + 1).stamp);
   EXPECT_EQ(relaxed.rejected, 0u);
   EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::Slipped));
   const auto expectNearTruth = [&] {
@@ -128,10 +128,10 @@ TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
       EXPECT_LT(distanceBetween(T_truth_map * graph.tracks()[0].map[i], simulated.truth[i]), 1.0) << i;
   };
   expectNearTruth();
-  // What is live goes on from there, and the next batch from the measurement.
+  // The live graph goes on from there, and the next batch from the measurement.
   Closure closure;
-  closure.a = nodeOf(newest.a);
-  closure.b = nodeOf(newest.b);
+  closure.a = toNode(newest.a);
+  closure.b = toNode(newest.b);
   closure.source = "late";
   closure.measured.T_a_b = newest.T_a_b;
   closure.measured.information = newest.information;
@@ -141,7 +141,7 @@ TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
   expectNearTruth();
   graph.removeClosure(id);
   graph.relax();
-  PoseGraph again = graphOf(simulated);
+  PoseGraph again = makeGraph(simulated);
   again.relax();
   for (std::size_t i = 0; i < graph.tracks()[0].map.size(); ++i)
     EXPECT_EQ(graph.tracks()[0].map[i].t(), again.tracks()[0].map[i].t()) << i;
@@ -152,7 +152,7 @@ TEST(SelectedGraph, OneAtATimeEndsWithTheVerdictsOfTheBatch) {
   SimulatedGraph simulated = drawSphere(4);
   addFalseClosures(simulated, FalseClosures::Random, 30, 9);
   keepFalseAlone(simulated);
-  PoseGraph batch = graphOf(simulated), live = batch;
+  PoseGraph batch = makeGraph(simulated), live = batch;
   for (const auto& [id, closure] : batch.closures()) live.removeClosure(id);
   for (const auto& [id, closure] : batch.closures()) {
     live.addClosure(closure);
@@ -193,7 +193,7 @@ TEST(SelectedGraph, ARowThatIsAMetreOffIsNotJoinedSilently) {
       off.t = Eigen::Vector3d(std::cos(2.0 * static_cast<double>(seed)), std::sin(2.0 * static_cast<double>(seed)), 0);
       for (std::size_t k = 0; k < static_cast<std::size_t>(length); ++k)
         add(first + k, first + 100 + k, truth[first + k].inverse() * truth[first + 100 + k] * off, 0.05, 0.01);
-      PoseGraph graph = graphOf(simulated);
+      PoseGraph graph = makeGraph(simulated);
       const Relaxed relaxed = graph.relax();
       double off_odometry = 0.0, moved_by = 0.0;
       for (std::size_t i = 0; i < truth.size(); ++i) {

@@ -211,21 +211,21 @@ TEST(Selection, AnEdgeGivenTenTimesCountsOnce) {
   for (std::size_t e = 0; e < often.edges.size(); ++e) EXPECT_EQ(ten.accepted(e), one.accepted(e / 10)) << e;
 }
 
-// Odometry that errs by less than it states from one step to the next, and by more over a long way: a wrong scale of its
-// turns adds up. Two streets are driven twice.
+// Odometry that errs by less than it states from one step to the next, and by more over a long distance: a wrong
+// scale of its turns adds up. Two streets are driven twice.
 Problem<2> drawStreets(std::uint64_t seed) {
   constexpr int kSide = 150, kRoundPoses = 4 * kSide, kPoses = kRoundPoses + 3 * kSide;
   constexpr double kMetres = 0.04, kRadians = 8e-4, kDrawn = 0.6, kTurnBias = 1.2e-4;
   test::Dice dice(seed);
-  Problem<2> made;
-  made.poses.resize(1);
+  Problem<2> result;
+  result.poses.resize(1);
   std::vector<Rigid<2>> truth(1);
   const auto add = [&](int from, int to, double bias) {
     const Rigid<2> exact = truth[static_cast<std::size_t>(from)].inverse() * truth[static_cast<std::size_t>(to)];
     Tangent<2> noise = test::drawTangent<2>(dice, kDrawn * kMetres, kDrawn * kRadians);
     noise[2] += bias;
-    made.edges.push_back({from, to, exact * moved(Rigid<2>(), noise), TangentMatrix<2>::Zero()});
-    made.edges.back().information.diagonal() =
+    result.edges.push_back({from, to, exact * moved(Rigid<2>(), noise), TangentMatrix<2>::Zero()});
+    result.edges.back().information.diagonal() =
         Eigen::Vector3d(kMetres, kMetres, kRadians).cwiseAbs2().cwiseInverse();
   };
   for (int i = 0; i + 1 < kPoses; ++i) {
@@ -234,11 +234,11 @@ Problem<2> drawStreets(std::uint64_t seed) {
     if (i % kSide == kSide - 1) step.R = expRotation(RotationVector<2>(M_PI / 2.0));
     truth.push_back(truth.back() * step);
     add(i, i + 1, kTurnBias);
-    made.poses.push_back(made.poses.back() * made.edges.back().Z);
+    result.poses.push_back(result.poses.back() * result.edges.back().Z);
   }
   for (int i = 10; i < kSide - 10; i += 3) add(i, i + kRoundPoses, 0.0);
   for (int i = 2 * kSide + 20; i < 2 * kSide + 70; i += 5) add(i, i + kRoundPoses, 0.0);
-  return made;
+  return result;
 }
 
 TEST(Selection, NoneOfTheClosuresOfStreetsDrivenTwiceIsLost) {

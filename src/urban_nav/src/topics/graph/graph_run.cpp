@@ -211,7 +211,7 @@ void addFixWarnings(const pose_graph::Parameters& parameters, GraphRun& run) {
                            urban_nav_core::formatNumber(use.sigma_factor, 2));
 }
 
-/// What a user should know of the selection among closures.
+/// Adds warnings about the selection among closures.
 void addSelectionWarnings(GraphRun& run) {
   const pose_graph::Relaxed& relaxed = run.relaxed;
   for (const std::string& warning :
