@@ -12,8 +12,8 @@ namespace pose_graph {
 
 /// A pose-graph file as a problem: the ids of its poses, whatever they are, become 0...n-1 in ascending order; its
 /// edges stay in the order of the file. Vertices that edges name and the file does not list are placed by following
-/// edges, and named in `notes`. Landmarks, priors, sensors and fixed vertices become further poses and edges after
-/// those of the file.
+/// edges, and named in `notes`. Landmarks and the frame that priors and fixed vertices refer to become further poses,
+/// their measurements further edges after those of the file; fixed vertices and the frame are fixed poses.
 template <int D>
 struct FileProblem {
   using Id = urban_nav_core::G2oGraph::Id;
@@ -25,7 +25,7 @@ struct FileProblem {
   std::vector<int> edges;          ///< of each edge of the file: its index in problem.edges; -1 for one to itself
   std::vector<int> point_edges;    ///< of each measurement of a landmark: its index in problem.edges
   std::vector<int> priors;         ///< of each prior
-  int frame = -1;                  ///< the pose that is the frame of the file; -1 where nothing refers to one
+  int frame = -1;                  ///< the fixed pose that is the frame of the file; -1 where nothing refers to one
   std::vector<std::string> notes;  ///< what a user should know, a sentence each
 };
 
@@ -44,8 +44,8 @@ template <int D>
 FileProblem<D> makeProblem(const urban_nav_core::G2oGraph& graph, const std::string& name,
                            Semidefinite demanded = Semidefinite::Whole);
 
-/// The graph with these poses (all of `file.problem`) for its vertices and landmarks, in the frame of the file where
-/// something refers to it; vertices it did not list are added at the end. Fixed vertices keep their numbers.
+/// The graph with these poses (all of `file.problem`) for its vertices and landmarks; vertices it did not list are added
+/// at the end. Fixed vertices keep their numbers.
 template <int D>
 urban_nav_core::G2oGraph withPoses(const urban_nav_core::G2oGraph& graph, const FileProblem<D>& file,
                                    const std::vector<Rigid<D>>& poses);

@@ -47,7 +47,7 @@ class Marginals {
   Marginals(Marginals&&) noexcept;
   Marginals& operator=(Marginals&&) noexcept;
 
-  /// The first pose of the part that a pose belongs to.
+  /// The first pose of the part that a pose belongs to, or the first fixed one where the part has any.
   int first(int pose) const;
   /// Of T_first_pose; that of the first itself is zero.
   Marginal<D> ofPose(int pose) const { return between(first(pose), pose); }

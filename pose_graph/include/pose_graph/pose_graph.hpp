@@ -41,6 +41,7 @@ enum class Trouble : int {
   Undecided,    ///< no set of closures is likelier than chance: the map is that of odometry
   Guess,        ///< another set of closures is nearly as likely, or the graph is too large to weigh any
   Slipped,      ///< closures contradict a step of odometry
+  Unconverged,  ///< the last relaxation ended before it reached the minimum
 };
 const char* toString(Trouble trouble);
 
@@ -91,6 +92,7 @@ struct Relaxed {
   double cost_before = 0.0, cost_after = 0.0;
   std::vector<Iteration> iterations;
   Ending ending = Ending::Converged;
+  double gradient = 0.0;  ///< as Solution::gradient
   /// Poses that moved by more than 1 cm or 0.02 deg, as runs [first, last] of a track's numbers.
   struct Run {
     std::size_t track = 0, first = 0, last = 0;
@@ -302,6 +304,7 @@ class PoseGraph {
   SelectionReport selection_;
   std::vector<Relaxed::Slip> slips_;
   double odometry_lean_ = 0.0;
+  std::string ending_warning_;  ///< of the last relaxation
   bool broken_ = false;
   std::any live_;  ///< IncrementalSolver: what update() goes on from; empty where that is not known
 };

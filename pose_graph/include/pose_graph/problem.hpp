@@ -36,14 +36,34 @@ struct Edge {
   int from = 0, to = 0;
   Rigid<D> Z;
   TangentMatrix<D> information = TangentMatrix<D>::Identity();
+  /// m, of the point that is measured, in the axes of `to`: what Z measures is T_to shifted by it. Zero but for priors of
+  /// sensors away from their pose.
+  Eigen::Matrix<double, D, 1> lever = Eigen::Matrix<double, D, 1>::Zero();
+
+  bool hasLever() const { return !lever.isZero(0.0); }
+  /// T_to as Z measures it.
+  Rigid<D> measured(const Rigid<D>& T_to) const { return {T_to.R, T_to.t + T_to.R * lever}; }
+  /// T_to from T_from, as measured.
+  Rigid<D> predicted(const Rigid<D>& T_from) const {
+    const Rigid<D> T = T_from * Z;
+    return {T.R, T.t - T.R * lever};
+  }
 };
 
 /// A pose graph on SE(D): `poses` are T_map_i, the first guess (any), named 0...n-1; an edge may run either way, and a
 /// pair of poses may have several.
+///
+/// Poses in `fixed` are constants: they are no unknowns, stay where `poses` has them to the last bit, and what they are
+/// joined to lies in their common frame. Ascending, each once. A part of the graph without a fixed pose is free to move
+/// as a whole; the first of its poses is held while it is relaxed.
 template <int D>
 struct Problem {
   std::vector<Rigid<D>> poses;
   std::vector<Edge<D>> edges;
+  std::vector<int> fixed = {};
+
+  /// The same poses, fixed as they are, without any edge.
+  Problem withoutEdges() const { return {poses, {}, fixed}; }
 };
 
 /// What is minimised, each without the factor 1/2 (definitions: README.md, "Costs").

@@ -14,7 +14,7 @@ enum class Start {
   Auto,      ///< the vertices or the rotations found by chordal relaxation, whichever cost less
   Vertices,  ///< Problem::poses as they are
   Odometry,  ///< the chain of edges i to i + 1; where it breaks, a spanning tree
-  Identity,  ///< all poses at the origin, unturned
+  Identity,  ///< all poses at the origin, unturned, but the fixed ones
 };
 
 /// Options of one minimisation with fixed weights.
@@ -45,9 +45,14 @@ enum class Ending {
   Stuck,       ///< no step, however small, lowers the cost: round-off, or directions without information
 };
 const char* toString(Ending ending);
+/// Whether the minimisation ended before it was done, and nobody asked for that.
+inline bool isEarly(Ending ending) { return ending == Ending::Iterations || ending == Ending::Stuck; }
+/// A sentence for the user: why a minimisation ended early, with the norm of the gradient there. Empty if it did not.
+std::string endingWarning(Ending ending, std::size_t iterations, double gradient);
 
-/// Relaxed poses. The first pose of each connected component stays where the start had it; where the problem has poses
-/// given for Start::Auto, the result is moved so that pose 0 stays at its given place.
+/// Relaxed poses. Fixed poses stay where they are given. The first pose of each connected component without any stays
+/// where the start had it; where the problem has poses given for Start::Auto, the result is moved so that pose 0 stays
+/// at its given place.
 template <int D>
 struct Solution {
   std::vector<Rigid<D>> poses;
@@ -56,6 +61,7 @@ struct Solution {
   double cost = 0.0;
   std::vector<Iteration> iterations;
   Ending ending = Ending::Converged;
+  double gradient = 0.0;  ///< where it ended early, gradientNorm() there
   int components = 0;  ///< parts of the graph that no edge connects; each is relaxed in its own frame
   /// Rotations end up far from what edges measure, so that there may be a better valley, and the graph is too large to
   /// look for one.
@@ -66,6 +72,11 @@ struct Solution {
 template <int D>
 double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objective objective,
             const std::vector<double>& weights = {});
+
+/// Euclidean norm of the derivatives of the cost by moves of the unknown poses, 1/m and 1/rad. `weights` as in cost().
+template <int D>
+double gradientNorm(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objective objective,
+                    const std::vector<double>& weights = {});
 
 /// The sum over edges of an objective, minimised over all poses. See Relaxation for many of the same graph.
 /// The problem must be sound (check.hpp); never returns a pose that is not finite.

@@ -24,7 +24,8 @@ EdgeResidual<objective, D> edgeResidual(const EdgeTerm<D>& term, const TangentMa
                                         const Rigid<D>& to) {
   constexpr int kR = kRotationSize<D>;
   const Rotation<D> A = from.R * term.R_Z, R_E = A.transpose() * to.R;
-  const Eigen::Matrix<double, D, 1> d = to.t - from.t, e_t = A.transpose() * d - term.t_Z;
+  const Eigen::Matrix<double, D, 1> arm = term.measured(to).t - to.t, d = to.t + arm - from.t,
+                                    e_t = A.transpose() * d - term.t_Z;
   EdgeResidual<objective, D> made;
   auto& J = made.J_to;  // in the axes of A at first
   J.setZero();
@@ -45,6 +46,7 @@ EdgeResidual<objective, D> edgeResidual(const EdgeTerm<D>& term, const TangentMa
   if constexpr (D == 3) J.template rightCols<3>() = (J.template rightCols<3>() * A.transpose()).eval();
   made.J_from = -J;
   made.J_from.template rightCols<kR>() -= J.template leftCols<D>() * turned(d);
+  if (term.has_lever) J.template rightCols<kR>() += (J.template leftCols<D>() * turned(arm)).eval();
   return made;
 }
 

@@ -148,6 +148,7 @@ Solution<D> solveByCeres(const Problem<D>& problem, const SolveOptions& options,
     case Objective::G2o: descend<Objective::G2o>(problem, options, weights, made); break;
   }
   made.cost = cost(problem, made.poses, options.objective, weights);
+  made.gradient = isEarly(made.ending) ? gradientNorm(problem, made.poses, options.objective, weights) : 0.0;
   return made;
 }
 

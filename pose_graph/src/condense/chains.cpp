@@ -17,7 +17,9 @@ class Finder {
         first_(problem.poses.size() + 1, 0),
         degree_(problem.poses.size(), 0),
         gone_(problem.edges.size(), 0),
-        stripped_(problem.poses.size(), 0) {
+        stripped_(problem.poses.size(), 0),
+        fixed_(problem.poses.size(), 0) {
+    for (const int pose : problem.fixed) fixed_[sz(pose)] = 1;
     for (const Edge<D>& edge : problem.edges) {
       ++first_[sz(edge.from) + 1];
       ++first_[sz(edge.to) + 1];
@@ -56,10 +58,11 @@ class Finder {
     return -1;
   }
 
-  // A tree is stripped down to its last pose: degrees never fall below zero, and who has none left stays.
+  // A tree is stripped down to its last pose: degrees never fall below zero, and who has none left stays. A fixed pose
+  // is no twig: what lies between two of them is held at both ends.
   void stripTwigs() {
     for (std::size_t i = 0; i < degree_.size(); ++i) {
-      for (int pose = static_cast<int>(i); degree_[sz(pose)] == 1;) {
+      for (int pose = static_cast<int>(i); degree_[sz(pose)] == 1 && !fixed_[sz(pose)];) {
         const int e = nextEdge(pose);
         const Edge<D>& edge = problem_.edges[sz(e)];
         const int on = edge.from == pose ? edge.to : edge.from;
@@ -79,7 +82,7 @@ class Finder {
     in_core_.assign(degree_.size(), 0);
     for (std::size_t i = 0; i < degree_.size(); ++i) {
       if (stripped_[i]) continue;
-      if (degree_[i] != 2) {
+      if (degree_[i] != 2 || fixed_[i]) {
         in_core_[i] = 1;
         continue;
       }
@@ -144,7 +147,7 @@ class Finder {
   const Problem<D>& problem_;
   const std::vector<char>& invertible_;
   std::vector<int> first_, incident_, degree_;
-  std::vector<char> gone_, stripped_, in_core_;
+  std::vector<char> gone_, stripped_, in_core_, fixed_;
   Chains made_;
 };
 

@@ -29,7 +29,7 @@ struct Chains {
     Link link;
   };
   std::vector<Twig> twigs;
-  std::vector<int> core;        ///< poses, ascending; at least one of each component
+  std::vector<int> core;        ///< poses, ascending; at least one of each component, and all fixed ones
   std::vector<int> core_edges;  ///< edges between core poses, in order, that belong to no chain
 
   std::size_t size() const { return begin.size(); }

@@ -18,7 +18,8 @@ Condensed<D>::Condensed(const Problem<D>& problem, const std::vector<double>& we
   std::vector<char> invertible(problem.edges.size());
   std::vector<TangentMatrix<D>> inverses(problem.edges.size());
   for (std::size_t e = 0; e < invertible.size(); ++e)
-    invertible[e] = (weights.empty() || weights[e] == 1.0) && invert<D>(problem.edges[e].information, inverses[e]);
+    invertible[e] = (weights.empty() || weights[e] == 1.0) && !problem.edges[e].hasLever() &&
+                    invert<D>(problem.edges[e].information, inverses[e]);
   chains_ = findChains(problem, invertible);
   core_of_.assign(problem.poses.size(), -1);
   for (std::size_t c = 0; c < chains_.core.size(); ++c) core_of_[sz(chains_.core[c])] = static_cast<int>(c);
@@ -33,8 +34,8 @@ Condensed<D>::Condensed(const Problem<D>& problem, const std::vector<double>& we
 
 template <int D>
 Rigid<D> Condensed<D>::measured(const Link& link) const {
-  const Rigid<D>& Z = problem_->edges[sz(link.edge)].Z;
-  return link.against ? Z.inverse() : Z;
+  const Edge<D>& edge = problem_->edges[sz(link.edge)];
+  return link.against ? edge.measured({}) * edge.Z.inverse() : edge.predicted({});
 }
 
 template <int D>
@@ -82,6 +83,11 @@ template <int D>
 Problem<D> Condensed<D>::core(const std::vector<Rigid<D>>& poses) const {
   Problem<D> made;
   for (const int pose : chains_.core) made.poses.push_back(poses[sz(pose)]);
+  for (const int pose : problem_->fixed) {
+    const int at = core_of_[sz(pose)];
+    made.fixed.push_back(at);
+    made.poses[sz(at)] = problem_->poses[sz(pose)];
+  }
   for (const int e : chains_.core_edges) {
     Edge<D> edge = problem_->edges[sz(e)];
     edge.from = core_of_[sz(edge.from)];

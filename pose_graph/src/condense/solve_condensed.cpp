@@ -40,15 +40,16 @@ std::vector<Rigid<D>> collectPlaces(const Chains& chains, const std::vector<Rigi
   return made;
 }
 
-/// Each component as a whole to where its first pose was given.
+/// Each component as a whole to where its first pose was given. Fixed poses hold theirs.
 template <int D>
 void moveToFirst(const Problem<D>& problem, const Unknowns& unknowns, std::vector<Rigid<D>>& poses) {
-  std::vector<Rigid<D>> T_given_made(sz(unknowns.components));
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    if (unknowns.of_pose[i] < 0) T_given_made[sz(unknowns.component[i])] = problem.poses[i] * poses[i].inverse();
+  const int held = problem.fixed.empty() ? -1 : unknowns.component[sz(problem.fixed.front())];
+  std::vector<Rigid<D>> T_given_made;
+  for (const int origin : unknowns.origin)
+    T_given_made.push_back(problem.poses[sz(origin)] * poses[sz(origin)].inverse());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (unknowns.of_pose[i] < 0) poses[i] = problem.poses[i];
-    else poses[i] = T_given_made[sz(unknowns.component[i])] * poses[i];
+    else if (unknowns.component[i] != held) poses[i] = T_given_made[sz(unknowns.component[i])] * poses[i];
   }
 }
 
@@ -97,13 +98,14 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
     chain_cost = condensed.relinearise();
     const double open = condensed.mismatch(poses);
     if (!std::isfinite(chain_cost) || !std::isfinite(open)) return std::nullopt;
-    const bool over = descent.ending == Ending::Stopped || descent.ending == Ending::Stuck;
+    const bool over = descent.ending == Ending::Stopped;
     const bool closed = open <= kClosed * descent.cost || descent.cost + open <= kNothing;
     const bool settled = std::abs(descent.cost - last_cost) <=
                              std::max(kSettledLeast, kSettledShare * options.tolerance) * descent.cost ||
                          descent.cost <= kNothing;
     const bool stalls = round >= kFreeRounds && !closed && open > kContraction * last_open;
-    if (stalls || (descent.ending == Ending::Iterations && in_core.iterations < options.iterations))
+    if (stalls || descent.ending == Ending::Stuck ||
+        (descent.ending == Ending::Iterations && in_core.iterations < options.iterations))
       return std::nullopt;
     last_cost = descent.cost;
     last_open = open;

@@ -20,7 +20,6 @@ class ConstraintAdder {
  public:
   ConstraintAdder(const G2oGraph& graph, const std::string& name, Semidefinite demanded, FileProblem<D>& file)
       : graph_(graph), name_(name), demanded_(demanded), file_(file) {
-    for (const Edge<D>& edge : file.problem.edges) stiffest(edge.information);
     for (const G2oGraph::Offset& offset : graph.offsets) offsets_[offset.id] = toRigid<D>(graph.pose(offset));
   }
 
@@ -49,8 +48,8 @@ class ConstraintAdder {
       edge.Z = toRigid<D>(graph_.pose(prior));
       edge.information = priorInformation(prior);
       demandSemidefinite<D>(demanded_, edge.information, "the prior of " + std::to_string(prior.vertex), name_);
-      stiffest(edge.information);
-      edge.to = sensorOn(prior);
+      edge.to = poseOrLandmark(prior.vertex);
+      if constexpr (D == 3) mount(edge, offset(prior.parameter));
       edge.from = frame();
       file_.priors.push_back(static_cast<int>(file_.problem.edges.size()));
       add(edge, EdgeRole::Asserted);
@@ -69,11 +68,11 @@ class ConstraintAdder {
         file_.notes.push_back("FIX names vertex " + std::to_string(id) + ", which does not exist");
         continue;
       }
-      const int at = frame();  // before the pose is read: it may move them all
-      Edge<D> edge = stiff(at, pose, file_.problem.poses[sz(pose)]);
-      if (landmark_.count(id)) edge.information.template bottomRightCorner<kTurn, kTurn>().setZero();
-      add(edge, EdgeRole::Asserted);
+      file_.problem.fixed.push_back(pose);
+      frame();
+      if (landmark_.count(id)) releaseRotation(pose);
     }
+    std::sort(file_.problem.fixed.begin(), file_.problem.fixed.end());
   }
 
  private:
@@ -90,16 +89,28 @@ class ConstraintAdder {
   }
 
   int frame() {
-    if (file_.frame < 0) file_.frame = addPose({});
+    if (file_.frame < 0) file_.problem.fixed.push_back(file_.frame = addPose({}));
     return file_.frame;
   }
 
-  void stiffest(const TangentMatrix<D>& information) {
-    stiffest_ = std::max(stiffest_, information.diagonal().maxCoeff());
+  // A fixed landmark has a place, but no rotation that a pose could be measured by.
+  void releaseRotation(int landmark) {
+    for (const int e : file_.point_edges) {
+      Edge<D>& edge = file_.problem.edges[sz(e)];
+      if (edge.to != landmark || file_.roles[sz(e)] != EdgeRole::Trusted) continue;
+      edge.information.template bottomRightCorner<kTurn, kTurn>().setZero();
+      file_.roles[sz(e)] = EdgeRole::Asserted;
+    }
   }
 
-  Edge<D> stiff(int from, int to, const Rigid<D>& Z) const {
-    return {from, to, Z, TangentMatrix<D>::Identity() * (kStiffness * (stiffest_ > 0.0 ? stiffest_ : 1.0))};
+  // E = Z^-1 T M of the sensor at M is, but for the lever arm, a measurement of T: turned by M, it has the same error.
+  static void mount(Edge<D>& edge, const Rigid<D>& M) {
+    edge.lever = M.t;
+    edge.Z.R = edge.Z.R * M.R.transpose();
+    TangentMatrix<D> turn = TangentMatrix<D>::Zero();
+    turn.template topLeftCorner<D, D>() = M.R.transpose();
+    if constexpr (D == 3) turn.template bottomRightCorner<3, 3>() = M.R.transpose();
+    edge.information = (turn.transpose() * edge.information * turn).eval();
   }
 
   int poseOrLandmark(G2oGraph::Id id) const {
@@ -132,7 +143,6 @@ class ConstraintAdder {
         edge.information(row, column) = edge.information(column, row) = measured.information[next++];
     const std::string what = "the edge from " + std::to_string(measured.from) + " to " + std::to_string(measured.to);
     demandSemidefinite<D>(Semidefinite::Whole, edge.information, what, name_);
-    stiffest(edge.information);
     Rigid<D>& landmark = file_.problem.poses[sz(edge.to)];
     const Rigid<D> seen = file_.problem.poses[sz(edge.from)] * edge.Z;
     if (!placed[sz(edge.to)]) landmark.t = seen.t;
@@ -157,24 +167,10 @@ class ConstraintAdder {
     return made;
   }
 
-  /// The pose that a prior measures: the vertex, or a sensor away from it.
-  int sensorOn(const G2oGraph::Prior& prior) {
-    const int pose = poseOrLandmark(prior.vertex);
-    if constexpr (D == 3) {
-      const Rigid<D>& mount = offset(prior.parameter);
-      if (mount.t.isZero(0.0) && mount.R.isIdentity(0.0)) return pose;
-      const int sensor = addPose(file_.problem.poses[sz(pose)] * mount);
-      add(stiff(pose, sensor, mount), EdgeRole::Trusted);
-      return sensor;
-    }
-    return pose;
-  }
-
   const G2oGraph& graph_;
   const std::string& name_;
   Semidefinite demanded_;
   FileProblem<D>& file_;
-  double stiffest_ = 0.0;
   std::map<G2oGraph::Id, int> landmark_;
   std::map<G2oGraph::Id, Rigid<D>> offsets_;
 };

@@ -128,29 +128,27 @@ template <int D>
 G2oGraph withPoses(const G2oGraph& graph, const FileProblem<D>& file, const std::vector<Rigid<D>>& poses) {
   G2oGraph made = graph;
   std::vector<char> listed(file.ids.size(), 0);
-  const auto inFile = [&](std::size_t i) {
-    return toPose(file.frame < 0 ? poses[i] : poses[static_cast<std::size_t>(file.frame)].inverse() * poses[i]);
+  const auto isFixed = [&](std::size_t i) {
+    return std::binary_search(file.problem.fixed.begin(), file.problem.fixed.end(), static_cast<int>(i));
   };
-  std::vector<G2oGraph::Id> fixed = graph.fixed;
-  std::sort(fixed.begin(), fixed.end());
-  const auto isFixed = [&](G2oGraph::Id id) { return std::binary_search(fixed.begin(), fixed.end(), id); };
   for (G2oGraph::Vertex& vertex : made.vertices) {
     const std::size_t i = static_cast<std::size_t>(findNumber(file.ids, vertex.id));
-    if (file.frame < 0 || !isFixed(vertex.id)) made.setPose(vertex, inFile(i));
+    if (!isFixed(i)) made.setPose(vertex, toPose(poses[i]));
     listed[i] = 1;
   }
   for (std::size_t i = 0; i < listed.size(); ++i) {
     if (listed[i]) continue;
     G2oGraph::Vertex vertex;
     vertex.id = file.ids[i];
-    made.setPose(vertex, inFile(i));
+    made.setPose(vertex, toPose(poses[i]));
     made.vertices.push_back(vertex);
   }
   for (std::size_t k = 0; k < file.point_ids.size(); ++k) {
-    const urban_nav_core::Vector3d at = inFile(file.ids.size() + k).t();
+    const std::size_t i = file.ids.size() + k;
+    const urban_nav_core::Vector3d at = toPose(poses[i]).t();
     if (k >= made.points.size()) made.points.push_back({file.point_ids[k], {}});
     G2oGraph::Point& point = made.points[k];
-    if (file.frame < 0 || !isFixed(point.id)) point.values = {at.x(), at.y(), D == 2 ? 0.0 : at.z()};
+    if (!isFixed(i)) point.values = {at.x(), at.y(), D == 2 ? 0.0 : at.z()};
   }
   return made;
 }

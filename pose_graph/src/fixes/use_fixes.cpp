@@ -54,13 +54,11 @@ class FixGraph {
   /// Weighs the fixes by their errors, and their information by a factor of their standard deviations.
   void weigh(const std::vector<double>& errors, double width, double sigma_factor) {
     std::size_t i = 0;
-    forEachFix([&](std::size_t edge, const Rigid<3>& frame, const PlacedFix& fix) {
+    forEachFix([&](std::size_t edge, const Rigid<3>&, const PlacedFix& fix) {
       const double relative = errors[i++] / width;
       const double weight = fix.share / (sigma_factor * sigma_factor * (1.0 + relative * relative));
       graph_.edges[edge].information.topLeftCorner<3, 3>() =
           Matrix3d((weight / fix.sigma.array().square()).matrix().asDiagonal());
-      // The lever arm is that of the present rotations: it is short, and they are known well.
-      graph_.edges[edge].Z.t = fix.measured - frame.R.transpose() * (graph_.poses[poseIndex(fix.pose)].R * fix.lever);
     });
   }
 
@@ -130,6 +128,8 @@ class FixGraph {
     Edge<3> edge;
     edge.from = static_cast<int>(graph_.poses.size()) - 1;
     edge.to = fix.pose;
+    edge.Z.t = fix.measured;
+    edge.lever = fix.lever;
     edge.information.setZero();  // weigh() gives it
     graph_.edges.push_back(edge);
     weights_.push_back(1.0);

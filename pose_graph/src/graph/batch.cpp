@@ -26,8 +26,7 @@ bool isSame(const Closure& a, const Closure& b) {
 
 /// The graph with the edges that are believed.
 Problem<3> acceptedGraph(const Problem<3>& problem, const std::vector<double>& weights) {
-  Problem<3> accepted;
-  accepted.poses = problem.poses;
+  Problem<3> accepted = problem.withoutEdges();
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
     if (weights[e] > 0.0) accepted.edges.push_back(problem.edges[e]);
   return accepted;
@@ -102,6 +101,8 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
   batch.odometry_variance =
       takeOdometryVariance(batch.problem, chains, weights, wanted, batch.solution, largest, begin);
   if (batch.parameters.gps) takeFixes(batch, chains, weights, wanted);
+  if (isEarly(batch.solution.ending))
+    batch.solution.gradient = gradientNorm(batch.problem, batch.solution.poses, wanted.objective, weights);
 }
 
 Relaxed PoseGraph::take(const Batch& batch) {
@@ -120,6 +121,7 @@ Relaxed PoseGraph::take(const Batch& batch) {
   made.cost_after = batch.solution.cost;
   made.iterations = batch.solution.iterations;
   made.ending = batch.solution.ending;
+  made.gradient = batch.solution.gradient;
   std::vector<Relaxed::Run> moved = numberParts();
   Laid laid = laidBy(batch);
   const bool levelled = isOfRunning(level(laid, false));
@@ -128,6 +130,7 @@ Relaxed PoseGraph::take(const Batch& batch) {
     append(moved, judgeNew(made));
     append(moved, numberParts());
   }
+  ending_warning_ = endingWarning(made.ending, made.iterations.size(), made.gradient);
   tell(made, std::move(moved), before, levelled);
   return made;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "manifold/rotation.hpp"
 #include "pose_graph/marginals.hpp"
 #include "solve/normal_equations.hpp"
 
@@ -18,8 +19,7 @@ constexpr double kVariancePrior = 6.0;     // numbers that odometry's own word w
 
 // Parts that the chains alone leave, less those that are left with the closures: each one that was joined took a pose.
 int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector<double>& weights) {
-  Problem<3> joined;
-  joined.poses = problem.poses;
+  Problem<3> joined = problem.withoutEdges();
   joined.edges.assign(problem.edges.begin(), problem.edges.begin() + static_cast<std::ptrdiff_t>(chains));
   const int apart = makeUnknowns(joined).components;
   for (std::size_t e = chains; e < problem.edges.size(); ++e)
@@ -40,6 +40,10 @@ std::optional<double> redundancyOfChains(const Problem<3>& problem, std::size_t 
     if (known.knowledge != Knowledge::Full) return std::nullopt;
     TangentMatrix<3> turn = TangentMatrix<3>::Zero();  // from the axes of `from` to those of Z's child
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.Z.R.transpose();
+    if (edge.hasLever())
+      turn = (turn * leverJacobian(edge, poses[static_cast<std::size_t>(edge.from)],
+                                   poses[static_cast<std::size_t>(edge.to)]))
+                 .eval();
     sum += (edge.information * (turn * known.covariance * turn.transpose())).trace();
   }
   if (!std::isfinite(sum) || sum <= 0.0) return std::nullopt;

@@ -49,6 +49,7 @@ const char* toString(Trouble trouble) {
     case Trouble::Undecided: return "Undecided";
     case Trouble::Guess: return "Guess";
     case Trouble::Slipped: return "Slipped";
+    case Trouble::Unconverged: return "Unconverged";
   }
   return "";
 }
@@ -276,6 +277,8 @@ urban_nav_core::Status PoseGraph::status() const {
   if (parts_ > 1)
     return {Health::Degraded, static_cast<int>(Trouble::Separate),
             std::to_string(parts_) + " maps that no accepted closure joins"};
+  if (!ending_warning_.empty())
+    return {Health::Degraded, static_cast<int>(Trouble::Unconverged), ending_warning_};
   if (waiting > 0)
     return {Health::Ok, static_cast<int>(Trouble::Waiting),
             std::to_string(waiting) + " closures wait for a second one that agrees"};

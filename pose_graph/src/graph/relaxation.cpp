@@ -99,6 +99,7 @@ Relaxed PoseGraph::update() {
   std::vector<Relaxed::Run> moved = judgeNew(made);
   const std::vector<Relaxed::Run> renumbered = numberParts();
   moved.insert(moved.end(), renumbered.begin(), renumbered.end());
+  ending_warning_ = endingWarning(made.ending, made.iterations.size(), made.gradient);
   tell(made, std::move(moved), before);
   return made;
 }
@@ -122,6 +123,7 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   made.iterations = live.iterations();
   made.ending = live.ending();
   made.needs_batch = added.disagreement || added.provisional;
+  made.gradient = live.gradient();
   return std::move(paper.moves.runs);
 }
 

@@ -46,6 +46,7 @@ IncrementalSolver::Offer IncrementalSolver::offer(const GraphView& view, const C
   undo_.emplace_back();
   undo_.back().cost = cost_;
   undo_.back().ending = ending_;
+  undo_.back().gradient = gradient_;
   insert(view, closure_edge.a);
   insert(view, closure_edge.b);
   for (const Nodes& nodes : nodes_)
@@ -76,6 +77,7 @@ void IncrementalSolver::readmitByTruncatedSquares() {
   }
   cost_ = undo.cost;
   ending_ = undo.ending;
+  gradient_ = undo.gradient;
 }
 
 void IncrementalSolver::remember(const NodeIndex& place) {
@@ -270,7 +272,7 @@ bool IncrementalSolver::layBent(const GraphView& view, Core& core) {
 void IncrementalSolver::relax(const GraphView& view, double hopeless) {
   iterations_.clear();
   ending_ = Ending::Converged;
-  cost_ = cost_before_ = 0.0;
+  cost_ = cost_before_ = gradient_ = 0.0;
   Core core = this->core(view);
   std::vector<Rigid<3>>& poses = core.problem.poses;
   if (poses.empty()) return;
@@ -330,6 +332,7 @@ void IncrementalSolver::relax(const GraphView& view, double hopeless) {
     }
     cost_ = equations.linearise(Objective::Geodesic, poses, {});
   }
+  if (isEarly(ending_)) gradient_ = gradientNorm(core.problem, poses, Objective::Geodesic);
   for (Nodes& nodes : nodes_)
     for (auto& [index, node] : nodes) node.pose = poses[sz(node.number)];
 }

@@ -55,6 +55,8 @@ class IncrementalSolver {
   double cost() const { return cost_; }
   const std::vector<Iteration>& iterations() const { return iterations_; }
   Ending ending() const { return ending_; }
+  /// As Solution::gradient, of the core.
+  double gradient() const { return gradient_; }
 
   /// Writes where the poses are now: those that moved by more than a tenth of what is reported, and the end of
   /// each track.
@@ -94,6 +96,7 @@ class IncrementalSolver {
   double cost_ = 0.0, cost_before_ = 0.0;
   std::vector<Iteration> iterations_;
   Ending ending_ = Ending::Converged;
+  double gradient_ = 0.0;
 
   /// How to take an offer back: to where its predecessors on trial had brought things.
   struct Undo {
@@ -101,6 +104,7 @@ class IncrementalSolver {
     std::vector<Rigid<3>> poses;                     ///< of the nodes in the core's order, those inserted included
     double cost = 0.0;
     Ending ending = Ending::Converged;
+    double gradient = 0.0;
   };
   std::vector<Undo> undo_;  ///< of those on trial, in the order of the offers
 };

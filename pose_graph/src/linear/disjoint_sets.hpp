@@ -31,6 +31,11 @@ class DisjointSets {
     return first != second;
   }
 
+  /// Makes one set of the sets of all these.
+  void joinAll(const std::vector<int>& members) {
+    for (const int member : members) join(members.front(), member);
+  }
+
  private:
   std::vector<int> above_;  // a root is its own
 };

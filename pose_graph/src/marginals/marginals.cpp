@@ -16,6 +16,7 @@ template <int D>
 Problem<D> telling(const Problem<D>& problem, const std::vector<double>& weights) {
   Problem<D> made;
   made.poses.resize(problem.poses.size());
+  made.fixed = problem.fixed;
   made.edges.reserve(problem.edges.size());
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     Edge<D> edge = problem.edges[e];
@@ -84,13 +85,9 @@ struct Marginals<D>::Parts {
 
   NormalEquations<D> equations;
   std::vector<Rigid<D>> poses;
-  std::vector<int> first;           // of each component
   std::vector<Inverse<D>> inverse;  // one; of singular equations a second with pins of double strength; none: overflow
 
   Parts(const Problem<D>& problem, const std::vector<Rigid<D>>& at) : equations(problem), poses(at) {
-    const Unknowns& unknowns = equations.unknowns();
-    first.assign(sz(unknowns.components), -1);
-    for (std::size_t i = poses.size(); i-- > 0;) first[sz(unknowns.component[i])] = static_cast<int>(i);
     equations.linearise(Objective::Geodesic, poses, {});
     BlockMatrix<kN>& H = equations.H();
     std::vector<int> pinned;
@@ -138,7 +135,8 @@ Marginals<D>& Marginals<D>::operator=(Marginals&&) noexcept = default;
 
 template <int D>
 int Marginals<D>::first(int pose) const {
-  return parts_->first[sz(parts_->equations.unknowns().component[sz(pose)])];
+  const Unknowns& unknowns = parts_->equations.unknowns();
+  return unknowns.origin[sz(unknowns.component[sz(pose)])];
 }
 
 template <int D>

@@ -92,6 +92,8 @@ EdgeTerm<D> makeTerm(const Edge<D>& edge) {
   made.R_Z = edge.Z.R;
   made.t_Z = edge.Z.R.transpose() * edge.Z.t;
   made.information = edge.information;
+  made.lever = edge.lever;
+  made.has_lever = edge.hasLever();
   made.tau = D * harmonic<D>(edge.information.template topLeftCorner<D, D>());
   // SE-Sync has 3 / (2 trace) of the information of the quaternion's vector, which is four times that of the rotation
   // vector.

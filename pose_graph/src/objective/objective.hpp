@@ -17,6 +17,11 @@ struct EdgeTerm {
   Eigen::Matrix<double, D, 1> t_Z;  ///< of Z, in the frame of its child: R_Z^T t
   TangentMatrix<D> information;
   double kappa = 0.0, tau = 0.0;
+  Eigen::Matrix<double, D, 1> lever = Eigen::Matrix<double, D, 1>::Zero();  ///< as in Edge
+  bool has_lever = false;
+
+  /// The pose that Z measures: `to`, shifted by the lever arm.
+  Rigid<D> measured(const Rigid<D>& to) const { return has_lever ? Rigid<D>{to.R, to.t + to.R * lever} : to; }
 };
 template <int D>
 EdgeTerm<D> makeTerm(const Edge<D>& edge);
@@ -64,8 +69,20 @@ struct EdgeQuadratic {
   TangentMatrix<D> K;
 };
 
+/// As it stands for the end of a lever arm, for the pose itself: a turn phi of the pose shifts the end, which is `arm`
+/// away from it in the map's axes, by phi x arm. `d` becomes that of the pose.
+template <int D>
+void moveFromLever(const Eigen::Matrix<double, D, 1>& arm, EdgeQuadratic<D>& quadratic) {
+  constexpr int kR = kRotationSize<D>;
+  const Eigen::Matrix<double, D, kR> turn = turned(arm);
+  quadratic.d -= arm;
+  quadratic.g_to.template tail<kR>() += turn.transpose() * quadratic.g_to.template head<D>();
+  quadratic.K.template rightCols<kR>() += (quadratic.K.template leftCols<D>() * turn).eval();
+  quadratic.K.template bottomRows<kR>() += (turn.transpose() * quadratic.K.template topRows<D>()).eval();
+}
+
 template <Objective objective, int D>
-EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
+EdgeQuadratic<D> edgeQuadraticAtLever(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
   EdgeQuadratic<D> made;
   const Rotation<D> A = from.R * term.R_Z;
   made.d = to.t - from.t;
@@ -92,9 +109,18 @@ EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, co
 }
 
 template <Objective objective, int D>
-double edgeCost(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
+EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
+  if (!term.has_lever) return edgeQuadraticAtLever<objective, D>(term, from, to);
+  EdgeQuadratic<D> made = edgeQuadraticAtLever<objective, D>(term, from, term.measured(to));
+  moveFromLever<D>(to.R * term.lever, made);
+  return made;
+}
+
+template <Objective objective, int D>
+double edgeCost(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& pose) {
   const Rotation<D> A = from.R * term.R_Z;
-  return localCost<objective, D>(term, A.transpose() * (to.t - from.t) - term.t_Z, A.transpose() * to.R);
+  const Eigen::Matrix<double, D, 1> to = term.has_lever ? term.measured(pose).t : pose.t;
+  return localCost<objective, D>(term, A.transpose() * (to - from.t) - term.t_Z, A.transpose() * pose.R);
 }
 
 }  // namespace pose_graph

@@ -42,6 +42,7 @@ void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<doubl
     for (std::size_t e = 0; e < in.size(); ++e)
       if (in[e]) part_.edges.push_back(problem_->edges[e]);
     part_.poses = problem_->poses;
+    part_.fixed = problem_->fixed;
     equations_ = std::make_unique<NormalEquations<D>>(part_, equations_.get());
     cholesky_ = std::make_unique<BlockCholesky<kN>>(equations_->symbolic());
   }
@@ -63,7 +64,8 @@ bool AcceptedGraph<D>::canKeepPattern(const std::vector<char>& in) const {
   }
   if (static_cast<double>(gone) > kGone * static_cast<double>(part_.edges.size())) return false;
   DisjointSets joined(problem_->poses.size());
-  int components = joined.size();
+  joined.joinAll(problem_->fixed);
+  int components = joined.size() - std::max(0, static_cast<int>(problem_->fixed.size()) - 1);
   for (std::size_t e = 0; e < in.size(); ++e)
     if (in[e] && joined.join(problem_->edges[e].from, problem_->edges[e].to)) --components;
   return components == equations_->unknowns().components;
@@ -71,9 +73,13 @@ bool AcceptedGraph<D>::canKeepPattern(const std::vector<char>& in) const {
 
 template <int D>
 double AcceptedGraph<D>::work(const std::vector<char>& in, bool soon) const {
+  std::vector<char> fixed(problem_->poses.size(), 0);
+  for (const int pose : problem_->fixed) fixed[sz(pose)] = 1;
   std::vector<std::pair<int, int>> pairs;
-  for (std::size_t e = 0; e < in.size(); ++e)
-    if (in[e]) pairs.emplace_back(problem_->edges[e].from, problem_->edges[e].to);
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    const Edge<D>& edge = problem_->edges[e];
+    if (in[e] && !fixed[sz(edge.from)] && !fixed[sz(edge.to)]) pairs.emplace_back(edge.from, edge.to);
+  }
   const Adjacency graph = makeAdjacency(static_cast<int>(problem_->poses.size()), pairs);
   return factorWork(analyse(graph, soon ? minimumDegreeOrder(graph) : eliminationOrder(graph)));
 }

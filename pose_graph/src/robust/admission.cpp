@@ -41,8 +41,7 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
     state.in.push_back(evaluator.edge(static_cast<int>(e)).rank > 0);  // a link without information joins nothing
   for (int e : evaluator.candidates()) state.in[sz(e)] = 0;
-  Problem<D> part;
-  part.poses = problem.poses;
+  Problem<D> part = problem.withoutEdges();
   bool asserted = false;
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     if (state.in[e] && roles[e] == EdgeRole::Trusted) part.edges.push_back(problem.edges[e]);

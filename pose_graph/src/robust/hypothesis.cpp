@@ -314,8 +314,7 @@ Hypothesis<D> HypothesisJudge<D>::assessRows(const Hypothesis<D>& hypothesis) co
 template <int D>
 Hypothesis<D> HypothesisJudge<D>::judgeOdometry() {
   Hypothesis<D> made;
-  Problem<D> part;
-  part.poses = problem_.poses;
+  Problem<D> part = problem_.withoutEdges();
   for (std::size_t e = 0; e < roles_.size(); ++e) {
     made.in.push_back(roles_[e] != EdgeRole::Candidate);
     if (made.in.back()) part.edges.push_back(problem_.edges[e]);

@@ -21,8 +21,7 @@ namespace {
 
 template <int D>
 Problem<D> extractPart(const Problem<D>& problem, const std::vector<char>& in, std::vector<Rigid<D>> poses) {
-  Problem<D> part;
-  part.poses = std::move(poses);
+  Problem<D> part{std::move(poses), {}, problem.fixed};
   for (std::size_t e = 0; e < in.size(); ++e)
     if (in[e]) part.edges.push_back(problem.edges[e]);
   return part;
@@ -221,10 +220,10 @@ Solution<D> relaxAccepted(const Problem<D>& part, const std::vector<Rigid<D>>& g
   if (made.ending != Ending::Iterations || options.iterations <= kNearSteps) return made;
   SolveOptions anew = options;
   anew.untangle = options.untangle && isTangled(part, {}, made.poses);
-  Solution<D> afresh = solve(Problem<D>{given, part.edges}, anew);
+  Solution<D> afresh = solve(Problem<D>{given, part.edges, part.fixed}, anew);
   if (afresh.cost <= made.cost) return afresh;
   near.iterations = options.iterations - kNearSteps;
-  return solve(Problem<D>{std::move(made.poses), part.edges}, near);
+  return solve(Problem<D>{std::move(made.poses), part.edges, part.fixed}, near);
 }
 
 template <int D>

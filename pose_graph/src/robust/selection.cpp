@@ -159,8 +159,7 @@ class Selection {
 
   // Judges the proposed graph without what is barred.
   Judgement<D> judgeProposed(const VarianceFactors& factors, double most_work) const {
-    Problem<D> part;
-    part.poses = proposed_.poses;
+    Problem<D> part = proposed_.withoutEdges();
     std::vector<EdgeRole> roles;
     std::vector<std::size_t> names;
     for (std::size_t e = 0; e < proposed_roles_.size(); ++e) {
@@ -190,6 +189,7 @@ class Selection {
   // Whether what is accepted joins the two ends of each slip: where nothing does, nothing has refuted the step.
   bool holdsWithout(const Judgement<D>& judged, const std::vector<Slip<D>>& slips) const {
     DisjointSets joined(problem_.poses.size());
+    joined.joinAll(problem_.fixed);
     for (std::size_t e = 0; e < judged.edges.size(); ++e)
       if (judged.edges[e].weight > 0.0) joined.join(problem_.edges[e].from, problem_.edges[e].to);
     return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {

@@ -200,6 +200,7 @@ bool areOneRow(const BetweenClosure& a, const BetweenClosure& b) {
 template <int D>
 std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   DisjointSets parts(problem.poses.size());
+  parts.joinAll(problem.fixed);
   for (std::size_t e = 0; e < roles.size(); ++e) {
     if (roles[e] == EdgeRole::Candidate || problem.edges[e].information.isZero(0.0)) continue;
     parts.join(problem.edges[e].from, problem.edges[e].to);
@@ -214,6 +215,7 @@ SessionLinks linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>
                           const std::vector<Rigid<D>>& poses) {
   SessionLinks made;
   DisjointSets sets(problem.poses.size());
+  sets.joinAll(problem.fixed);
   std::vector<double> weights(in.begin(), in.end());
   for (std::size_t e = 0; e < in.size(); ++e)
     if (in[e]) sets.join(problem.edges[e].from, problem.edges[e].to);

@@ -12,7 +12,7 @@ namespace pose_graph {
 template <int D>
 UniqueEdges<D> uniqueEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   UniqueEdges<D> made;
-  made.problem.poses = problem.poses;
+  made.problem = problem.withoutEdges();
   std::unordered_map<std::uint64_t, int> latest;  // between two poses, and for each the one before
   std::vector<int> before;
   latest.reserve(roles.size());
@@ -22,7 +22,9 @@ UniqueEdges<D> uniqueEdges(const Problem<D>& problem, const std::vector<EdgeRole
     int same = last;
     for (; same >= 0; same = before[sz(same)]) {
       const Edge<D>& other = made.problem.edges[sz(same)];
-      if (other.Z.t == edge.Z.t && other.Z.R == edge.Z.R && other.information == edge.information) break;
+      if (other.Z.t == edge.Z.t && other.Z.R == edge.Z.R && other.information == edge.information &&
+          other.lever == edge.lever)
+        break;
     }
     if (same >= 0) {
       made.of_edge.push_back(same);

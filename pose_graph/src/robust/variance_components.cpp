@@ -34,11 +34,12 @@ VarianceComponents varianceComponents(const Problem<D>& problem, const std::vect
     const Rotation<D> A = poses[sz(edge.from)].R * edge.Z.R;
     Tangent<D> error;
     error.template head<D>() =
-        A.transpose() * (poses[sz(edge.to)].t - poses[sz(edge.from)].t) - edge.Z.R.transpose() * edge.Z.t;
+        A.transpose() * (edge.measured(poses[sz(edge.to)]).t - poses[sz(edge.from)].t) - edge.Z.R.transpose() * edge.Z.t;
     error.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * poses[sz(edge.to)].R));
     TangentMatrix<D> turn = TangentMatrix<D>::Identity();
     turn.template topLeftCorner<D, D>() = edge.Z.R.transpose();
     if constexpr (D == 3) turn.template bottomRightCorner<3, 3>() = edge.Z.R.transpose();
+    if (edge.hasLever()) turn = (turn * leverJacobian(edge, poses[sz(edge.from)], poses[sz(edge.to)])).eval();
     const TangentMatrix<D> covariance = turn * marginal.covariance * turn.transpose();
     const Tangent<D> weighted = edge.information * error;
     const TangentMatrix<D> leverage = weights[e] * edge.information * covariance;

@@ -32,6 +32,7 @@ WhitenedEdge<D> whitened(const Edge<D>& edge) {
   made.from = edge.from;
   made.to = edge.to;
   made.Z = edge.Z;
+  made.lever = edge.lever;
   made.W.setZero();
   const auto eigen = urban_nav_core::smallEigen<kTangentSize<D>>(edge.information);
   const Tangent<D>& values = eigen.values;
@@ -55,6 +56,7 @@ std::vector<WhitenedEdge<D>> whitened(const std::vector<Edge<D>>& edges) {
     made.back().from = edges[e].from;
     made.back().to = edges[e].to;
     made.back().Z = edges[e].Z;
+    made.back().lever = edges[e].lever;
   }
   return made;
 }
@@ -63,7 +65,7 @@ template <int D>
 Tangent<D> whitenedError(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
   const Rotation<D> A = from.R * edge.Z.R;
   Tangent<D> e;
-  e.template head<D>() = A.transpose() * (to.t - from.t) - edge.Z.R.transpose() * edge.Z.t;
+  e.template head<D>() = A.transpose() * (to.t + to.R * edge.lever - from.t) - edge.Z.R.transpose() * edge.Z.t;
   e.template tail<kRotationSize<D>>() = logRotation(Rotation<D>(A.transpose() * to.R));
   return edge.W * e;
 }
@@ -72,7 +74,7 @@ template <int D>
 WhitenedJacobians<D> whitenedJacobians(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
   constexpr int kR = kRotationSize<D>;
   const Rotation<D> A = from.R * edge.Z.R;
-  const Eigen::Matrix<double, D, 1> d = to.t - from.t;
+  const Eigen::Matrix<double, D, 1> arm = to.R * edge.lever, d = to.t + arm - from.t;
   Tangent<D> e;
   e.template head<D>() = A.transpose() * d - edge.Z.R.transpose() * edge.Z.t;
   e.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * to.R));
@@ -82,6 +84,7 @@ WhitenedJacobians<D> whitenedJacobians(const WhitenedEdge<D>& edge, const Rigid<
   else by_to.template bottomRightCorner<kR, kR>() = logByLeft(RotationVector<D>(e.template tail<kR>())) * A.transpose();
   by_from = -by_to;
   by_from.template topRightCorner<D, kR>() = -A.transpose() * turned(d);
+  by_to.template topRightCorner<D, kR>() = A.transpose() * turned(arm);
   WhitenedJacobians<D> made;
   made.error = edge.W * e;
   made.by_from = edge.W * by_from;

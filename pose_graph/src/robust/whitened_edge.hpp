@@ -16,6 +16,7 @@ struct WhitenedEdge {
   Rigid<D> Z;
   TangentMatrix<D> W;
   int rank = 0;
+  Eigen::Matrix<double, D, 1> lever = Eigen::Matrix<double, D, 1>::Zero();  ///< as in Edge
 };
 template <int D>
 WhitenedEdge<D> whitened(const Edge<D>& edge);

@@ -24,21 +24,69 @@ constexpr double kFactorRoundOff = 1e-13;
 // Of the same and the number of rotations' entries: the cost of residuals that are round-off.
 constexpr double kNoCost = 1e-20;
 
-/// Half the gradient by each rotation, (X M)_i, seen from it and symmetric.
+/// Half the gradient of the cost by a pose, (X M)_i, and the multiplier that it asks for.
 template <int D>
-std::vector<Rotation<D>> multipliers(const std::vector<EdgeTerm<D>>& terms, const std::vector<Rigid<D>>& poses) {
-  std::vector<Rotation<D>> made(poses.size(), Rotation<D>::Zero());
+struct PoseGradient {
+  Eigen::Matrix<double, D, 1> by_t = Eigen::Matrix<double, D, 1>::Zero();
+  Rotation<D> by_R = Rotation<D>::Zero();
+  Rotation<D> lambda = Rotation<D>::Zero();  ///< sym(R_i^T (X M)_i)
+};
+
+template <int D>
+std::vector<PoseGradient<D>> gradients(const std::vector<EdgeTerm<D>>& terms, const std::vector<Rigid<D>>& poses) {
+  std::vector<PoseGradient<D>> made(poses.size());
   for (const EdgeTerm<D>& term : terms) {
-    const Rigid<D>&from = poses[sz(term.from)], &to = poses[sz(term.to)];
+    const Rigid<D>& from = poses[sz(term.from)];
+    const Rigid<D> to = term.measured(poses[sz(term.to)]);
     const Eigen::Matrix<double, D, 1> t = term.R_Z * term.t_Z;
     const Rotation<D> turn = from.R * term.R_Z - to.R;
     const Eigen::Matrix<double, D, 1> shift = to.t - from.t - from.R * t;
-    made[sz(term.from)] +=
-        from.R.transpose() * (term.kappa * turn * term.R_Z.transpose() - term.tau * shift * t.transpose());
-    made[sz(term.to)] -= term.kappa * to.R.transpose() * turn;
+    PoseGradient<D>&at_from = made[sz(term.from)], &at_to = made[sz(term.to)];
+    at_from.by_t -= term.tau * shift;
+    at_from.by_R += term.kappa * turn * term.R_Z.transpose() - term.tau * shift * t.transpose();
+    at_to.by_t += term.tau * shift;
+    at_to.by_R -= term.kappa * turn;
+    if (term.has_lever) at_to.by_R += term.tau * shift * term.lever.transpose();
   }
-  for (Rotation<D>& each : made) each = (0.5 * (each + each.transpose())).eval();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const Rotation<D> seen = poses[i].R.transpose() * made[i].by_R;
+    made[i].lambda = 0.5 * (seen + seen.transpose());
+  }
   return made;
+}
+
+/// The poses whose part has a fixed one, which are not fixed themselves.
+template <int D>
+std::vector<char> findAnchored(const Problem<D>& problem, const Unknowns& unknowns) {
+  std::vector<char> made(problem.poses.size(), 0);
+  if (problem.fixed.empty()) return made;
+  const int part = unknowns.component[sz(problem.fixed.front())];
+  for (const int i : unknowns.pose) made[sz(i)] = unknowns.component[sz(i)] == part;
+  return made;
+}
+
+/// By how much the quadratic form of a part with fixed poses is less at its own minimum than at these poses:
+/// tr(B S^-1 B^T), B half its gradient there. `cholesky`: of S with `eta` on its rotations.
+template <int D>
+double depthOfAnchored(const QuadraticForm<D>& form, const BlockCholesky<D + 1>& cholesky,
+                       const std::vector<PoseGradient<D>>& gradient, const std::vector<Rigid<D>>& poses,
+                       const std::vector<char>& anchored, double eta) {
+  const std::size_t n = poses.size();
+  std::vector<double> B(n * (D + 1) * D, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!anchored[i]) continue;
+    const Rotation<D> by_R = gradient[i].by_R - poses[i].R * gradient[i].lambda + eta * poses[i].R;
+    for (std::size_t row = 0; row < D; ++row) {
+      double* const at = B.data() + (row * n + sz(form.symbolic.place[i])) * (D + 1);
+      at[0] = gradient[i].by_t[static_cast<Eigen::Index>(row)];
+      for (int c = 0; c < D; ++c) at[c + 1] = by_R(static_cast<Eigen::Index>(row), c);
+    }
+  }
+  std::vector<double> x = B;
+  cholesky.solve(x.data(), D);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) sum += B[k] * x[k];
+  return sum;
 }
 
 }  // namespace
@@ -49,17 +97,29 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
   made.cost = cost(problem, poses, Objective::Chordal, weights);
   if (problem.edges.empty() || !std::isfinite(made.cost)) return made;
   QuadraticForm<D> form(problem, weights);
-  const std::vector<Rotation<D>> lambda = multipliers<D>(form.terms, poses);
+  const std::vector<PoseGradient<D>> gradient = gradients<D>(form.terms, poses);
+  const std::vector<char> anchored = findAnchored(problem, form.unknowns);
   BlockMatrix<D + 1>& S = form.M;
-  double dual = 0.0, largest = 0.0;
+  double dual = 0.0, largest = 0.0, free_cost = made.cost;
+  std::size_t free = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    dual += lambda[i].trace();
+    const bool is_free = !anchored[i] && !form.isFixed(form.symbolic.place[i]);
+    if (is_free) dual += gradient[i].lambda.trace();
+    free += is_free;
     auto& block = S.diagonal[sz(form.symbolic.place[i])];
-    block.template bottomRightCorner<D, D>() -= lambda[i];
+    block.template bottomRightCorner<D, D>() -= gradient[i].lambda;
     largest = std::max(largest, block.diagonal().cwiseAbs().maxCoeff());
   }
-  // All of a part may be shifted together at no cost: the translation of its first pose is held, which changes no sign.
-  form.holdTranslations(S, largest);
+  if (!problem.fixed.empty()) {
+    free_cost = 0.0;
+    const int part = form.unknowns.component[sz(problem.fixed.front())];
+    for (const EdgeTerm<D>& term : form.terms)
+      if (form.unknowns.component[sz(term.from)] != part)
+        free_cost += edgeCost<Objective::Chordal, D>(term, poses[sz(term.from)], poses[sz(term.to)]);
+  }
+  // All of a free part may be shifted together at no cost: the translation of its first pose is held, which changes no
+  // sign.
+  form.hold(S, largest);
   const double numbers = static_cast<double>(D) * static_cast<double>(poses.size());
   BlockCholesky<D + 1> cholesky(form.symbolic);
   double shifted = 0.0;
@@ -75,7 +135,9 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
       const double between = std::sqrt(too_small * eta);
       (isPositive(between) ? eta : too_small) = between;
     }
-    made.gap = std::max(made.cost - dual, 0.0) + eta * numbers;
+    made.gap = std::max(free_cost - dual, 0.0) + eta * static_cast<double>(D) * static_cast<double>(free);
+    if (free < poses.size() && isPositive(eta))
+      *made.gap += depthOfAnchored(form, cholesky, gradient, poses, anchored, eta);
   }
   // Where measurements fit to the last digit, the cost is nothing and any share of it less.
   const double scale = largest * numbers;
@@ -91,7 +153,7 @@ Certificate certifyConverged(const Problem<D>& problem, std::vector<Rigid<D>>& p
   options.objective = Objective::Chordal;
   options.start = Start::Vertices;
   options.tolerance = kConverged;
-  Solution<D> converged = solve(Problem<D>{poses, problem.edges}, options, weights);
+  Solution<D> converged = solve(Problem<D>{poses, problem.edges, problem.fixed}, options, weights);
   if (converged.cost <= cost(problem, poses, Objective::Chordal, weights)) poses = std::move(converged.poses);
   return certify(problem, poses, weights);
 }

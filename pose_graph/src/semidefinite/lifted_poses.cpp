@@ -50,7 +50,7 @@ class Lifted {
     BlockMatrix<kB> A = form_.M;
     const double mean = cost_ / (D * static_cast<double>(A.diagonal.size()));
     for (auto& block : A.diagonal) block.template bottomRightCorner<D, D>().diagonal().array() += mean;
-    form_.holdTranslations(A, 1.0);
+    form_.hold(A, 1.0);
     return std::isfinite(cost_) && preconditioner_.factor(A, form_.pattern);
   }
 
@@ -102,6 +102,7 @@ class Lifted {
     for (std::size_t k = 0; k < lambda_.size(); ++k) {
       if (form_.holdsTranslation(static_cast<int>(k)))
         for (int c = 0; c < kSideBySide; ++c) v[k * kB * kSideBySide + sz(c)] = 0.0;
+      if (form_.isFixed(static_cast<int>(k))) std::fill_n(v.data() + k * kB * kSideBySide, kB * kSideBySide, 0.0);
       const Eigen::Matrix<double, D, D> across = rows(v, k) * rows(x_, k).transpose();
       rows(v, k) -= (0.5 * (across + across.transpose())).eval() * rows(x_, k);
     }
@@ -191,11 +192,12 @@ Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
   Numbers x(poses.size() * (D + 1) * kSideBySide, 0.0);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     double* at = x.data() + sz(form.symbolic.place[i]) * (D + 1) * kSideBySide;
+    const double noise = form.isFixed(form.symbolic.place[i]) ? 0.0 : kNoise;
     for (int d = 0; d < D; ++d) at[d] = poses[i].t[d];
     for (int a = 0; a < D; ++a)
       for (int c = 0; c < kSideBySide; ++c) {
         const double uniform = 2.0 * std::ldexp(static_cast<double>(sequence() >> 11U), -53) - 1.0;
-        at[(a + 1) * kSideBySide + c] = (c < D ? poses[i].R(c, a) : 0.0) + kNoise * uniform;
+        at[(a + 1) * kSideBySide + c] = (c < D ? poses[i].R(c, a) : 0.0) + noise * uniform;
       }
     for (int a = 1; a <= D; ++a) {
       Eigen::Map<Eigen::Matrix<double, kSideBySide, 1>> row(at + a * kSideBySide);
@@ -209,10 +211,10 @@ Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
   return x;
 }
 
-/// Of each part by itself: its D dimensions are not another's.
+/// Of each part by itself: its D dimensions are not another's. Those of a part with fixed poses are theirs.
 template <int D>
 std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, const Numbers& x,
-                                              const std::vector<Rigid<D>>& start) {
+                                              const std::vector<Rigid<D>>& start, const std::vector<int>& fixed) {
   using Wide = Eigen::Matrix<double, kSideBySide, kSideBySide>;
   using Block = Eigen::Matrix<double, D + 1, kSideBySide, Eigen::RowMajor>;
   const auto block = [&](std::size_t i) {
@@ -228,6 +230,8 @@ std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, cons
     if (!eigen) return std::nullopt;
     kept[c] = eigen->vectors.template rightCols<D>();
   }
+  const int anchored = fixed.empty() ? -1 : form.unknowns.component[sz(fixed.front())];
+  if (anchored >= 0) kept[sz(anchored)].setIdentity();
   const auto flat = [&](std::size_t i) -> Rotation<D> {
     return (block(i).template bottomRows<D>() * kept[sz(form.unknowns.component[i])]).transpose();
   };
@@ -235,14 +239,16 @@ std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, cons
   for (std::size_t i = 0; i < start.size(); ++i)
     hands[sz(form.unknowns.component[i])] += flat(i).determinant() < 0.0 ? -1 : 1;
   for (std::size_t c = 0; c < hands.size(); ++c)
-    if (hands[c] < 0) kept[c].col(0) *= -1.0;
+    if (hands[c] < 0 && static_cast<int>(c) != anchored) kept[c].col(0) *= -1.0;
   std::vector<Rigid<D>> made(start.size());
   std::vector<Rigid<D>> moved(sums.size());
   for (std::size_t i = 0; i < start.size(); ++i) {
     made[i].R = nearestRotation(flat(i));
     made[i].t = (block(i).row(0) * kept[sz(form.unknowns.component[i])]).transpose();
-    if (form.unknowns.of_pose[i] < 0) moved[sz(form.unknowns.component[i])] = start[i] * made[i].inverse();
   }
+  for (const int origin : form.unknowns.origin)
+    moved[sz(form.unknowns.component[sz(origin)])] = start[sz(origin)] * made[sz(origin)].inverse();
+  if (anchored >= 0) moved[sz(anchored)] = {};
   for (std::size_t i = 0; i < start.size(); ++i) {
     made[i] = moved[sz(form.unknowns.component[i])] * made[i];
     if (form.unknowns.of_pose[i] < 0) made[i] = start[i];
@@ -261,7 +267,7 @@ std::optional<std::vector<Rigid<D>>> liftedPoses(const Problem<D>& problem, cons
   if (!lifted.prepare()) return std::nullopt;
   for (int i = 0; i < kLiftedSteps && lifted.step(); ++i) {
   }
-  return laidBack<D>(form, lifted.x(), start);
+  return laidBack<D>(form, lifted.x(), start, problem.fixed);
 }
 
 template std::optional<std::vector<Rigid<2>>> liftedPoses(const Problem<2>&, const std::vector<Rigid<2>>&,

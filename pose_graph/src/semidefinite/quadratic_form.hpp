@@ -22,10 +22,11 @@ struct QuadraticForm {
   QuadraticForm(const QuadraticForm&) = delete;
   QuadraticForm& operator=(const QuadraticForm&) = delete;
 
-  /// Takes the row and the column of one translation of each part out of A, which has M's pattern: its first pose's,
-  /// which may be shifted at no cost. What stands there instead is `pivot`.
-  void holdTranslations(BlockMatrix<kB>& A, double pivot) const;
+  /// Takes rows and columns out of A, which has M's pattern: those of fixed poses, and of each part without any the
+  /// translation of its first pose, which may be shifted at no cost. What stands there instead is `pivot`.
+  void hold(BlockMatrix<kB>& A, double pivot) const;
   bool holdsTranslation(int place) const { return held_[static_cast<std::size_t>(place)] != 0; }
+  bool isFixed(int place) const { return fixed_[static_cast<std::size_t>(place)] != 0; }
 
   std::vector<EdgeTerm<D>> terms;  ///< of the edges that count, kappa and tau times their weights
   Unknowns unknowns;
@@ -37,7 +38,7 @@ struct QuadraticForm {
  private:
   explicit QuadraticForm(const Problem<D>& problem);
 
-  std::vector<char> held_;  // by place
+  std::vector<char> held_, fixed_;  // by place
 };
 
 extern template struct QuadraticForm<2>;

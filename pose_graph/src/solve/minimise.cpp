@@ -45,7 +45,7 @@ double roundOff(const NormalEquations<D>& equations, const std::vector<Rigid<D>>
   double sum = 0.0;
   for (std::size_t e = 0; e < equations.terms().size(); ++e) {
     const EdgeTerm<D>& term = equations.terms()[e];
-    const double metres = poses[sz(term.from)].t.norm() + poses[sz(term.to)].t.norm() + term.t_Z.norm();
+    const double metres = poses[sz(term.from)].t.norm() + poses[sz(term.to)].t.norm() + term.t_Z.norm() + term.lever.norm();
     Tangent<D> least = Tangent<D>::Constant(kLeast);
     least.template head<D>() *= metres;
     sum += (weights.empty() ? 1.0 : weights[e]) * least.cwiseAbs2().dot(term.information.diagonal());
@@ -94,6 +94,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
   Descent made;
   made.ending = Ending::Iterations;
   double damping = 0.0;
+  double least_damping = 0.0;  // the least with which the equations could be factored
   Forecast forecast;
   std::vector<double> x;
   std::vector<TangentMatrix<D>> undamped;
@@ -107,12 +108,14 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
     const std::vector<Tangent<D>> scale = dampingScale<D>(undamped);
     Iteration step;
     std::vector<Rigid<D>> next;
+    bool was_plain = damping <= least_damping;
     for (;; ++step.refused) {
       if (damping > kLargestDamping) {
         made.ending = Ending::Stuck;
         return made;
       }
       if (damping > 0.0 || step.refused > 0) addDamping<D>(equations.H(), undamped, scale, damping);
+      const double more_damping = damping > 0.0 ? 10.0 * damping : kFirstDamping;
       if (cholesky.factor(equations.H(), equations.pattern())) {
         x = equations.g();
         for (double& value : x) value = -value;
@@ -125,13 +128,26 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
         next = stepped(equations, x, poses);
         step.cost = equations.cost(options.objective, next, weights);
         if (std::isfinite(step.cost) && step.cost <= made.cost) break;
-        // At the minimum round-off decides: a step that promises nothing is none.
-        if (step.predicted <= options.tolerance * made.cost || made.cost <= roundOff(equations, poses, weights)) {
+        // At the minimum round-off decides: a step that promises nothing is none. A damped one promises nothing anywhere
+        // if it is short enough: there the plain one tells.
+        const bool is_nothing = step.predicted <= options.tolerance * made.cost;
+        if ((is_nothing && damping <= least_damping) || made.cost <= roundOff(equations, poses, weights)) {
           made.ending = Ending::Converged;
           return made;
         }
+        if (is_nothing && was_plain) {
+          made.ending = Ending::Stuck;
+          return made;
+        }
+        if (is_nothing) {
+          was_plain = true;
+          damping = least_damping;
+          continue;
+        }
+      } else {
+        least_damping = std::max(least_damping, more_damping);
       }
-      damping = damping > 0.0 ? 10.0 * damping : kFirstDamping;
+      damping = more_damping;
     }
     step.damping = damping;
     poses.swap(next);
@@ -139,7 +155,8 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
     made.cost = step.cost;
     made.iterations.push_back(step);
     const double still = forecast.remaining(std::max(gained, step.predicted));
-    if (still <= options.tolerance * made.cost || made.cost <= 0.0) {
+    const bool is_settled = still <= options.tolerance * made.cost;
+    if ((is_settled && damping <= least_damping) || made.cost <= 0.0) {
       made.ending = Ending::Converged;
       return made;
     }
@@ -147,7 +164,8 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
       made.ending = Ending::Stopped;
       return made;
     }
-    if (ratio > 0.75 && step.refused == 0) damping = damping > kLeastDamping ? damping / 10.0 : 0.0;
+    if (is_settled) damping = least_damping;
+    else if (ratio > 0.75 && step.refused == 0) damping = damping > kLeastDamping ? damping / 10.0 : 0.0;
     else if (ratio < 0.25) damping = std::max(4.0 * damping, kFirstDamping);
     if (static_cast<int>(made.iterations.size()) < options.iterations)
       equations.linearise(options.objective, poses, weights);

@@ -8,11 +8,13 @@
 
 namespace pose_graph {
 
-/// Which poses of a graph are free: all but the first of each connected component.
+/// Which poses of a graph are unknown: all but the fixed ones and, of each connected component without any, the first.
+/// All fixed poses, and what is connected to one of them, are one component: they lie in one frame.
 struct Unknowns {
   std::vector<int> of_pose;    ///< name of the unknown, -1 for a pose that is held
   std::vector<int> pose;       ///< of each unknown
   std::vector<int> component;  ///< of each pose, by their first poses
+  std::vector<int> origin;     ///< of each component: the first of its poses that is held
   int components = 0;
 };
 /// Edges with weight zero count as edges: the pattern does not depend on weights.

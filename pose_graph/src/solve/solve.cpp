@@ -46,16 +46,6 @@ void untangle(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cho
 
 }  // namespace
 
-const char* toString(Ending ending) {
-  switch (ending) {
-    case Ending::Converged: return "converged";
-    case Ending::Iterations: return "iterations";
-    case Ending::Stopped: return "stopped";
-    case Ending::Stuck: return "stuck";
-  }
-  return "";
-}
-
 template <int D>
 double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objective objective,
             const std::vector<double>& weights) {
@@ -101,6 +91,7 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const st
     else untangle(equations, cholesky, problem, options, weights, made);
   }
   if (condensed && condensed->cost < made.cost) return *std::move(condensed);
+  if (isEarly(made.ending)) made.gradient = gradientNorm(problem, made.poses, options.objective, weights);
   return made;
 }
 

@@ -43,19 +43,23 @@ template <int D>
 std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vector<char>& known) {
   const Incidence incidence = makeIncidence(problem);
   std::vector<Rigid<D>> poses = problem.poses;
-  std::vector<char> reached = known;
-  std::vector<int> chain, others;  // reached poses, to be looked at: chain edges go first and far
+  std::vector<char> reached = known, fixed(problem.poses.size(), 0);
+  for (const int pose : problem.fixed) reached[sz(pose)] = fixed[sz(pose)] = 1;
+  std::vector<int> chain, others;  // reached poses whose neighbours are to be reached: chain edges go first and far
   std::size_t next_other = 0;
+  const auto follow = [&](int pose, const Edge<D>& edge) {
+    const int other = edge.from == pose ? edge.to : edge.from;
+    if (reached[sz(other)]) return;
+    poses[sz(other)] =
+        edge.from == pose ? edge.predicted(poses[sz(pose)]) : edge.measured(poses[sz(pose)]) * edge.Z.inverse();
+    poses[sz(other)].R = renormalised<D>(poses[sz(other)].R);
+    reached[sz(other)] = 1;
+    chain.push_back(other);
+  };
   const auto visit = [&](int pose, bool chain_only) {
     for (int k = incidence.first[sz(pose)]; k < incidence.first[sz(pose) + 1]; ++k) {
       const Edge<D>& edge = problem.edges[sz(incidence.edge[sz(k)])];
-      if (chain_only != (std::abs(edge.from - edge.to) == 1)) continue;
-      const int other = edge.from == pose ? edge.to : edge.from;
-      if (reached[sz(other)]) continue;
-      poses[sz(other)] = edge.from == pose ? poses[sz(pose)] * edge.Z : poses[sz(pose)] * edge.Z.inverse();
-      poses[sz(other)].R = renormalised<D>(poses[sz(other)].R);
-      reached[sz(other)] = 1;
-      chain.push_back(other);
+      if (chain_only == (std::abs(edge.from - edge.to) == 1)) follow(pose, edge);
     }
   };
   const auto spread = [&] {
@@ -64,15 +68,21 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vect
         const int pose = chain.back();
         chain.pop_back();
         visit(pose, true);
-        others.push_back(pose);
+        if (!fixed[sz(pose)]) others.push_back(pose);
       } else {
         visit(others[next_other++], false);
       }
     }
   };
   for (std::size_t i = poses.size(); i-- > 0;)
-    if (known[i]) chain.push_back(static_cast<int>(i));
+    if (reached[i]) chain.push_back(static_cast<int>(i));
   spread();
+  // Many edges may lead from a fixed pose, as priors do from the frame: each reaches only what those before it do not.
+  for (const int pose : problem.fixed)
+    for (int k = incidence.first[sz(pose)]; k < incidence.first[sz(pose) + 1]; ++k) {
+      follow(pose, problem.edges[sz(incidence.edge[sz(k)])]);
+      spread();
+    }
   for (std::size_t root = 0; root < poses.size(); ++root) {
     if (reached[root]) continue;
     reached[root] = 1;

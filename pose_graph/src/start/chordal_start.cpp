@@ -86,7 +86,8 @@ std::optional<std::vector<Rigid<D>>> translationsFor(const NormalEquations<D>& e
     const Rotation<D> T = rotations[sz(term.from)] * term.R_Z;
     const Rotation<D> W =
         (weights.empty() ? 1.0 : weights[e]) * (T * term.information.template topLeftCorner<D, D>() * T.transpose());
-    const Eigen::Matrix<double, D, 1> step = T * term.t_Z;  // t_to - t_from as measured
+    Eigen::Matrix<double, D, 1> step = T * term.t_Z;  // t_to - t_from as measured
+    if (term.has_lever) step -= rotations[sz(term.to)] * term.lever;
     const Eigen::Matrix<double, D, 1> b = W * step;
     if (place.from >= 0) {
       A.diagonal[sz(place.from)] += W;

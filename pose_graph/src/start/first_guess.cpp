@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/first_guess.hpp"
 
+#include "linear/index.hpp"
+#include "start/aligned.hpp"
 #include "start/along_edges.hpp"
 #include "start/chordal_start.hpp"
 
@@ -11,7 +13,17 @@ std::vector<Rigid<D>> firstGuess(const NormalEquations<D>& equations, const Prob
                                  const SolveOptions& options, const std::vector<double>& weights) {
   if (options.start == Start::Vertices) return problem.poses;
   if (options.start == Start::Odometry) return posesAlongEdges(problem);
-  if (options.start == Start::Identity) return std::vector<Rigid<D>>(problem.poses.size());
+  if (options.start == Start::Identity) {
+    std::vector<Rigid<D>> poses(problem.poses.size());
+    for (const int pose : problem.fixed) poses[sz(pose)] = problem.poses[sz(pose)];
+    return poses;
+  }
+  if (!problem.fixed.empty() && !areRotationsTied(problem, weights)) {
+    std::vector<Rigid<D>> aligned = posesAlongEdges(problem);
+    alignWithFixed(problem, weights, aligned);
+    const double cost_aligned = equations.cost(options.objective, aligned, weights);
+    return cost_aligned < equations.cost(options.objective, problem.poses, weights) ? aligned : problem.poses;
+  }
   const auto rotations = chordalRotations(equations, problem.poses, weights);
   if (!rotations) return problem.poses;
   const auto poses = translationsFor(equations, *rotations, problem.poses, weights);

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "linear/index.hpp"
-#include "manifold/rotation.hpp"
 #include "robust/accepted_graph.hpp"
 #include "robust/whitened_edge.hpp"
+#include "start/aligned.hpp"
 #include "start/along_edges.hpp"
 
 namespace pose_graph {
@@ -60,42 +60,19 @@ double middleSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Ri
   return *at;
 }
 
-// The frame of the priors where their positions fit those of the poses best (Umeyama, least-squares estimation of
-// transformation parameters, PAMI 1991, without scale): of positions alone no other start finds how it is turned.
-template <int D>
-void alignFrame(const FileProblem<D>& file, std::vector<Rigid<D>>& poses) {
-  if (file.frame < 0 || file.priors.size() < 2) return;
-  using Position = Eigen::Matrix<double, D, 1>;
-  Position prior_mean = Position::Zero(), pose_mean = Position::Zero();
-  const double share = 1.0 / static_cast<double>(file.priors.size());
-  const auto at = [&](int e) { return poses[sz(file.problem.edges[sz(e)].to)].t; };
-  for (const int e : file.priors) {
-    prior_mean += share * file.problem.edges[sz(e)].Z.t;
-    pose_mean += share * at(e);
-  }
-  Eigen::Matrix<double, D, D> moments = Eigen::Matrix<double, D, D>::Zero();
-  for (const int e : file.priors)
-    moments += (at(e) - pose_mean) * (file.problem.edges[sz(e)].Z.t - prior_mean).transpose();
-  if (moments.isZero(0.0)) return;
-  Rigid<D>& frame = poses[sz(file.frame)];
-  frame.R = nearestRotation(moments);
-  frame.t = pose_mean - frame.R * prior_mean;
-}
-
 // Where odometry and most of the doubted ones put the poses. Nothing where least squares fit all of them.
 template <int D>
 std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doubted<D>>& doubted) {
   const Problem<D>& problem = file.problem;
   const std::vector<EdgeRole>& roles = file.roles;
   std::vector<char> in;
-  Problem<D> part;
-  part.poses = problem.poses;
+  Problem<D> part = problem.withoutEdges();
   for (std::size_t e = 0; e < roles.size(); ++e) {
     in.push_back(roles[e] != EdgeRole::Candidate && whitened(problem.edges[e]).rank > 0);
     if (in.back()) part.edges.push_back(problem.edges[e]);
   }
   std::vector<Rigid<D>> poses = posesAlongEdges(part);
-  alignFrame(file, poses);
+  alignWithFixed(part, {}, poses);  // of positions alone no other start finds how the poses are turned
   AcceptedGraph<D> graph(problem);
   std::vector<double> weights(roles.size(), 1.0);
   graph.take(in, weights);

@@ -167,6 +167,21 @@ Problem<2> shape(int poses, const std::vector<std::pair<int, int>>& pairs) {
   return problem;
 }
 
+TEST(Chains, FixedPosesAreInTheCore) {
+  Problem<2> path;
+  path.poses.resize(9);
+  for (int i = 1; i < 9; ++i) path.edges.push_back({i - 1, i, {}, Eigen::Matrix3d::Identity()});
+  const std::vector<char> invertible(8, 1);
+  path.fixed = {2, 6};
+  const Chains made = findChains(path, invertible);
+  EXPECT_EQ(made.core, (std::vector<int>{2, 6}));
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_EQ(made.begin[0], 2);
+  EXPECT_EQ(made.end(0), 6);
+  EXPECT_EQ(made.twigs.size(), 4U);
+  EXPECT_TRUE(made.core_edges.empty());
+}
+
 TEST(Chains, KnowTreesAndRings) {
   const auto find = [](const Problem<2>& problem) {
     return findChains(problem, std::vector<char>(problem.edges.size(), 1));

@@ -208,8 +208,8 @@ TEST(GraphFile, FixedVerticesKeepTheirNumbers) {
   EXPECT_EQ(made.vertices[0].values, graph.vertices[0].values);
   EXPECT_EQ(made.vertices[2].values, graph.vertices[2].values);
   const Rigid<2>&frame = solution.poses[static_cast<std::size_t>(file.frame)], &held = solution.poses[2];
-  EXPECT_LT(((frame.inverse() * held).t - Eigen::Vector2d(2, 0.3)).norm(), 1e-4);
-  EXPECT_NEAR(costOfLines(made), solution.cost, 1e-5 * solution.cost);
+  EXPECT_EQ((frame.inverse() * held).t, Eigen::Vector2d(2, 0.3));
+  EXPECT_NEAR(costOfLines(made), solution.cost, 1e-9 * solution.cost);
   for (const double step : {-1e-3, 1e-3}) {
     G2oGraph moved = made;
     moved.vertices[1].values[0] += step;
@@ -233,6 +233,25 @@ TEST(GraphFile, SensorsOfSpaceAreAtTheirMounts) {
   const Eigen::Vector3d landmark(made.points[0].values[0], made.points[0].values[1], made.points[0].values[2]);
   EXPECT_LT((landmark - Eigen::Vector3d(2, 4, 6)).norm(), 1e-6);
   EXPECT_NE(catchError("EDGE_SE3_PRIOR 0 3 1 2 3 0 0 0 1" + kI3).find("parameter 3"), std::string::npos);
+}
+
+TEST(GraphFile, AFixedLandmarkStaysAndTurnsNothing) {
+  const std::string text =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 1.5\nVERTEX_XY 7 2 0.5\nEDGE_SE2 0 1 1 0 1.5 100 0 0 100 0 400\n"
+      "EDGE_SE2_XY 1 7 0.5 -1.1 100 0 100\nEDGE_SE2_XY 0 7 2.1 0.6 100 0 100\nFIX 0 7\n";
+  const G2oGraph graph = parseG2o(text, "g.g2o");
+  const FileProblem<2> file = parsed<2>(text);
+  const Solution<2> solution = solve(file.problem, {});
+  const G2oGraph made = withPoses(graph, file, solution.poses);
+  EXPECT_EQ(made.vertices[0].values, graph.vertices[0].values);
+  EXPECT_EQ(made.points[0].values, graph.points[0].values);
+  EXPECT_NEAR(costOfLines(made), solution.cost, 1e-9 * solution.cost);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double step : {-1e-4, 1e-4}) {
+      G2oGraph moved = made;
+      moved.vertices[1].values[axis] += step;
+      EXPECT_GT(costOfLines(moved), solution.cost) << axis;
+    }
 }
 
 TEST(GraphFile, AFileWithoutEdgesIsRefused) {

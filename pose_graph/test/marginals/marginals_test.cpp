@@ -81,6 +81,31 @@ TEST(Marginals, EveryPairEqualsTheDenseInverse) {
   }
 }
 
+/// With fixed poses they are what is left of those without, once the places of the fixed ones are known.
+TEST(Marginals, OfFixedPosesAreConditional) {
+  Dice dice(11);
+  Problem<3> problem = drawProblem<3>(dice, 14, 8, 0.1, 0.1);
+  const Eigen::MatrixXd P = denseCovariance(problem);
+  Eigen::MatrixXd across(P.rows(), 12);
+  across << P.middleCols<6>(6 * 4), P.middleCols<6>(6 * 9);
+  Eigen::MatrixXd own(12, 12);
+  own << across.middleRows<6>(6 * 4), across.middleRows<6>(6 * 9);
+  const Eigen::MatrixXd conditional = P - across * *urban_nav_core::invertPositiveDefinite(own) * across.transpose();
+  problem.fixed = {0, 4, 9};
+  const Marginals<3> marginals(problem, problem.poses);
+  EXPECT_LT(marginals.between(4, 9).covariance.norm(), 1e-12);
+  for (int a = 0; a < 14; ++a)
+    for (int b = 0; b < 14; ++b) {
+      if (a == b || (problem.fixed.end() != std::find(problem.fixed.begin(), problem.fixed.end(), a) &&
+                     problem.fixed.end() != std::find(problem.fixed.begin(), problem.fixed.end(), b)))
+        continue;
+      const Matrix6d expected = expectedBetween(problem, conditional, a, b);
+      EXPECT_LT((marginals.between(a, b).covariance - expected).norm(), 1e-6 * expected.norm()) << a << " " << b;
+    }
+  problem.fixed = {4, 9};
+  EXPECT_EQ(Marginals<3>(problem, problem.poses).first(0), 4);
+}
+
 TEST(Marginals, ThePlaneIsAPartOfSpace) {
   using urban_nav_core::testing::evenNoise;
   const auto graph = urban_nav_core::testing::planarGridGraph(6, 5, 1.0, 0.4, evenNoise(0.05, 0.02), 3);

@@ -43,6 +43,49 @@ TEST(Certificate, IsGivenAtTheOptimum) {
   expectCertifiedAtTheOptimum<3>();
 }
 
+/// The same bound for a graph between constants, which bend it, and for one beside it that is free.
+template <int D>
+void expectCertifiedBetweenConstants() {
+  Dice dice(19);
+  for (int draw = 0; draw < 5; ++draw) {
+    Problem<D> problem = drawProblem<D>(dice, 50, 30, 0.05, 0.05);
+    const Problem<D> other = drawProblem<D>(dice, 20, 10, 0.05, 0.05);
+    problem.fixed = {3, 20, 49};
+    for (const int pose : problem.fixed)
+      problem.poses[static_cast<std::size_t>(pose)] =
+          moved<D>(problem.poses[static_cast<std::size_t>(pose)], drawTangent<D>(dice, 0.05, 0.02));
+    problem.poses.insert(problem.poses.end(), other.poses.begin(), other.poses.end());
+    for (Edge<D> edge : other.edges) {
+      edge.from += 50;
+      edge.to += 50;
+      edge.lever = drawTangent<D>(dice, 0.3, 0.0).template head<D>();
+      edge.Z.t += edge.Z.R * edge.lever;
+      problem.edges.push_back(edge);
+    }
+    const Solution<D> solution = solve(problem, chordal());
+    const Certificate certificate = certify(problem, solution.poses);
+    EXPECT_TRUE(certificate.certified);
+    ASSERT_TRUE(certificate.gap);
+    EXPECT_LT(*certificate.gap, 1e-4 * solution.cost);
+    std::vector<Rigid<D>> off = solution.poses;
+    for (std::size_t i = 0; i < off.size(); ++i)
+      if (i != 3 && i != 20 && i != 49) off[i] = moved<D>(off[i], drawTangent<D>(dice, 0.02, 0.01));
+    const Certificate away = certify(problem, off);
+    EXPECT_FALSE(away.certified);
+    if (away.gap) {
+      EXPECT_GE(*away.gap, away.cost - solution.cost);
+    }
+    std::vector<Rigid<D>> found = off;
+    EXPECT_TRUE(certifyConverged(problem, found).certified);
+    EXPECT_EQ(found[20].t, problem.poses[20].t);
+  }
+}
+
+TEST(Certificate, IsGivenBetweenConstants) {
+  expectCertifiedBetweenConstants<2>();
+  expectCertifiedBetweenConstants<3>();
+}
+
 TEST(Certificate, IsGivenWhereEverythingFits) { EXPECT_TRUE(certify(ring(30, 1), ring(30, 1).poses).certified); }
 
 TEST(Certificate, IsNotGivenToAKnot) {

@@ -52,6 +52,31 @@ TEST(LiftedPoses, AreNearTheOptimumFromAnywhere) {
   expectNearTheOptimumFromAnywhere<3>();
 }
 
+TEST(LiftedPoses, LeaveFixedOnesWhereTheyAre) {
+  Dice dice(6);
+  for (int draw = 0; draw < 5; ++draw) {
+    Problem<3> problem = drawProblem<3>(dice, 60, 40, 0.1, 0.1);
+    problem.fixed = {7, 30};
+    SolveOptions options;
+    options.objective = Objective::Chordal;
+    options.start = Start::Vertices;
+    const double best = solve(problem, options).cost;
+    std::vector<Rigid<3>> anywhere;
+    for (std::size_t i = 0; i < problem.poses.size(); ++i)
+      anywhere.push_back(i == 7 || i == 30 ? problem.poses[i] : drawRigid<3>(dice, 10.0, 2.0));
+    const auto poses = liftedPoses(problem, anywhere, {});
+    ASSERT_TRUE(poses);
+    for (const std::size_t i : {7U, 30U}) {
+      EXPECT_EQ((*poses)[i].R, problem.poses[i].R);
+      EXPECT_EQ((*poses)[i].t, problem.poses[i].t);
+    }
+    options.objective = Objective::Chordal;
+    Problem<3> near = problem;
+    near.poses = *poses;
+    EXPECT_LT(solve(near, options).cost, 1.001 * best);
+  }
+}
+
 TEST(LiftedPoses, KnowPartsAndWeights) {
   // Two rings that nothing joins but an edge without weight: each stays with its first pose, and neither with its knot.
   Problem<2> both = ring(24, 2);

@@ -22,6 +22,21 @@ TEST(Unknowns, FirstPosesOfComponentsAreHeld) {
   EXPECT_EQ(made.of_pose, (std::vector<int>{-1, -1, -1, 0, 1, 2, -1}));
 }
 
+TEST(Unknowns, FixedPosesAreNoneAndLieInOneComponent) {
+  Problem<2> problem;
+  problem.poses.resize(7);
+  problem.edges.push_back({5, 2, {}, {}});
+  problem.edges.push_back({3, 1, {}, {}});
+  problem.edges.push_back({4, 5, {}, {}});
+  problem.fixed = {3, 4, 6};
+  const Unknowns made = makeUnknowns(problem);
+  EXPECT_EQ(made.components, 2);
+  EXPECT_EQ(made.component, (std::vector<int>{0, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(made.origin, (std::vector<int>{0, 3}));
+  EXPECT_EQ(made.pose, (std::vector<int>{1, 2, 5}));
+  EXPECT_EQ(made.of_pose, (std::vector<int>{-1, 0, 1, -1, -1, 2, -1}));
+}
+
 TEST(Unknowns, NoPosesAndNoEdges) {
   EXPECT_EQ(makeUnknowns(Problem<3>()).components, 0);
   Problem<3> lone;
@@ -71,10 +86,14 @@ struct DenseSystem {
 };
 
 template <int D>
-void expectDense(Objective objective, bool weighted) {
+void expectDense(Objective objective, bool weighted, bool constrained) {
   constexpr int kN = kTangentSize<D>;
   Dice dice(7);
-  const Problem<D> problem = drawProblem<D>(dice, 9, 8, 0.5, 0.7);
+  Problem<D> problem = drawProblem<D>(dice, 9, 8, 0.5, 0.7);
+  if (constrained) {
+    problem.fixed = {2, 3, 7};
+    for (Edge<D>& edge : problem.edges) edge.lever = drawTangent<D>(dice, 1.5, 0.0).template head<D>();
+  }
   std::vector<double> weights;
   for (std::size_t e = 0; weighted && e < problem.edges.size(); ++e)
     weights.push_back(e % 3 == 0 ? 0.0 : dice.uniform());
@@ -101,8 +120,10 @@ void expectDense(Objective objective, bool weighted) {
 TEST(NormalEquations, EqualDenseOnesByNumericJacobians) {
   for (const Objective objective : kObjectives) {
     for (const bool weighted : {false, true}) {
-      expectDense<2>(objective, weighted);
-      expectDense<3>(objective, weighted);
+      for (const bool constrained : {false, true}) {
+        expectDense<2>(objective, weighted, constrained);
+        expectDense<3>(objective, weighted, constrained);
+      }
     }
   }
 }

@@ -35,6 +35,17 @@ TEST(AlongEdges, TheChainGoesFirst) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(poses[static_cast<std::size_t>(i)].t.x(), i);
 }
 
+TEST(AlongEdges, FixedPosesStayAndTheirOtherEdgesComeLast) {
+  Problem<2> problem;
+  problem.poses.resize(6);
+  problem.poses[2].t.x() = 20.0;
+  problem.fixed = {2, 5};
+  problem.edges = {step(5, 0, -7.0), step(5, 4, 70.0), step(0, 1, 1.0), step(1, 2, 1.0), step(3, 4, 1.0)};
+  const std::vector<Rigid<2>> poses = posesAlongEdges(problem);
+  const double expected[] = {18.0, 19.0, 20.0, 69.0, 70.0, 0.0};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(poses[i].t.x(), expected[i]) << i;
+}
+
 TEST(AlongEdges, OtherEdgesBridgeABrokenChain) {
   Problem<2> problem;
   problem.poses.resize(5);

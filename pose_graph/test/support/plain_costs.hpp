@@ -30,7 +30,8 @@ PlainResidual plainChordal(const Edge<D>& edge, const Rigid<D>& from, const Rigi
   const Eigen::Matrix<double, D, D> turn = child * (to.R - from.R * edge.Z.R);
   PlainResidual made;
   made.r.resize(D * D + D);
-  made.r << Eigen::Map<const Eigen::Matrix<double, D * D, 1>>(turn.data()), child * (to.t - from.t - from.R * edge.Z.t);
+  made.r << Eigen::Map<const Eigen::Matrix<double, D * D, 1>>(turn.data()),
+      child * (to.t + to.R * edge.lever - from.t - from.R * edge.Z.t);
   made.W = Eigen::MatrixXd::Zero(D * D + D, D * D + D);
   made.W.diagonal().head(D * D).setConstant(kappa);
   made.W.diagonal().tail(D).setConstant(tau);
@@ -40,7 +41,7 @@ PlainResidual plainChordal(const Edge<D>& edge, const Rigid<D>& from, const Rigi
 template <int D>
 PlainResidual plainResidual(Objective objective, const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
   if (objective == Objective::Chordal) return plainChordal(edge, from, to);
-  const Rigid<D> E = edge.Z.inverse() * (from.inverse() * to);
+  const Rigid<D> E = edge.Z.inverse() * (from.inverse() * Rigid<D>{to.R, to.t + to.R * edge.lever});
   PlainResidual made;
   made.r.resize(kTangentSize<D>);
   made.W = edge.information;

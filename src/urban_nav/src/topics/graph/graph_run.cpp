@@ -314,6 +314,8 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   assessClosures(made, previous.offered.size());
   addFixWarnings(parameters, made);
   addSelectionWarnings(made);
+  if (const pose_graph::Relaxed& last = made.relaxed; isEarly(last.ending))
+    made.warnings.push_back(endingWarning(last.ending, last.iterations.size(), last.gradient));
   const auto relaxed = Clock::now();
   made.covariances = computeCovariances(made.graph, sessions);
   addScale(made, runs);

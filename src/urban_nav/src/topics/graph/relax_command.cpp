@@ -111,15 +111,16 @@ pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, con
                                      const pose_graph::SolveOptions& options) {
   const bool doubted = parameters.robust;
   const std::string& solver = parameters.solver;
-  if (solver == "relative_pcg" && file.problem.edges.size() != file.edges.size())
+  const bool is_constrained =
+      !file.problem.fixed.empty() || !file.priors.empty() || !file.point_edges.empty() || !file.point_ids.empty();
+  if (solver == "relative_pcg" && is_constrained)
     throw UserError("", "--solver relative_pcg with priors, landmarks or fixed vertices",
                     "--solver gauss_newton, ceres");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
   if (doubted) robust = selected(file, options);
   if (solver != "gauss_newton") {
-    pose_graph::Problem<D> accepted;
-    accepted.poses = file.problem.poses;
+    pose_graph::Problem<D> accepted = file.problem.withoutEdges();
     for (std::size_t e = 0; e < robust.edges.size(); ++e)
       if (robust.edges[e].verdict == urban_nav_core::ClosureVerdict::Accepted)
         accepted.edges.push_back(file.problem.edges[e]);
@@ -169,6 +170,10 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
   report.components = solution.components;
   report.rejected = rejectedEdges(file, robust);
   report.ending = toString(solution.ending);
+  if (isEarly(solution.ending)) {
+    report.gradient = solution.gradient;
+    warnings.add(endingWarning(solution.ending, solution.iterations.size(), solution.gradient));
+  }
   // Each of a component's poses but the first hangs on one trusted edge.
   const std::size_t trusted = report.poses - static_cast<std::size_t>(std::max(solution.components, 1));
   if (doubted && report.edges > trusted) report.variance = robust.variance_factor;
@@ -181,9 +186,9 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
         "rotations end up far from what edges measure: there may be a better minimum, which is looked for in "
         "smaller graphs only");
   // A tree contradicts nothing.
-  if (!doubted || file.problem.edges.size() + static_cast<std::size_t>(std::max(solution.components, 1)) <=
-                      file.problem.poses.size())
-    return;
+  const std::size_t held =
+      static_cast<std::size_t>(std::max(solution.components, 1)) + std::max<std::size_t>(file.problem.fixed.size(), 1) - 1;
+  if (!doubted || file.problem.edges.size() + held <= file.problem.poses.size()) return;
   report.scales = estimateScales(file.problem, file.roles, robust.edges, solution.poses, robust.selection);
   for (const std::string& warning : pose_graph::selectionWarnings(file, robust, *report.scales)) warnings.add(warning);
 }

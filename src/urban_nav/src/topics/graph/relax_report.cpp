@@ -69,6 +69,7 @@ Json toJson(const RelaxReport& report) {
   json["iterations"] = report.iterations;
   if (report.variance) json["variance_factor"] = *report.variance;
   json["ending"] = report.ending;
+  if (report.gradient) json["gradient"] = *report.gradient;
   json["ms_batch"] = report.ms;
   json["cost_before"] = toJson(report.before);
   json["cost_after"] = toJson(report.after);

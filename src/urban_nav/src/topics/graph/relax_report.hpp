@@ -24,6 +24,7 @@ struct RelaxReport {
   int components = 0;
   std::optional<double> variance;  ///< RobustSolution::variance_factor, where closures were judged
   std::string ending;
+  std::optional<double> gradient;  ///< Solution::gradient, where it ended early
   double ms = 0.0;
   std::optional<pose_graph::Certificate> certificate;  ///< of the accepted edges, by the chordal objective
   std::optional<pose_graph::DeviationScales> scales;   ///< where closures were judged

@@ -82,6 +82,34 @@ TEST_F(Relax, ChordalOptimaAreCertified) {
   EXPECT_EQ(readTextFile(path("a.json")).find("certified"), std::string::npos);
 }
 
+TEST_F(Relax, CeresHoldsFixedVerticesAndPriorsToo) {
+  writeAtomically(path("in.g2o"), std::string(kSquare) + "FIX 1 3\nEDGE_PRIOR_SE2 4 0.2 0 0.1 50 0 0 50 0 90\n");
+  for (const char* objective : {"geodesic", "chordal", "g2o"}) {
+    ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--objective", objective, "--robust", "off"}), 0);
+    ASSERT_EQ(relax({path("in.g2o"), "-o", path("b.g2o"), "--objective", objective, "--robust", "off", "--solver", "ceres"}), 0);
+    const G2oGraph in = read("in.g2o"), a = read("a.g2o");
+    expectSamePoses(a, read("b.g2o"), 1e-4);
+    EXPECT_EQ(a.vertices[1].values, in.vertices[1].values);
+    EXPECT_EQ(a.vertices[3].values, in.vertices[3].values);
+  }
+  EXPECT_EQ(relax({path("in.g2o"), "-o", path("c.g2o"), "--solver", "relative_pcg"}), 2);
+}
+
+TEST_F(Relax, AnEndAtTheLimitIsAWarningThatStatesTheGradient) {
+  writeAtomically(path("in.g2o"), kSquare);
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--robust", "off", "--start", "odometry", "--set",
+                   "pose_graph.iterations=1", "--json", path("a.json")}),
+            0);
+  const std::string json = readTextFile(path("a.json"));
+  EXPECT_NE(json.find("\"ending\": \"iterations\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"gradient\": "), std::string::npos) << json;
+  EXPECT_NE(json.find("ended after 1 iterations before it reached the minimum: the gradient of the cost is"),
+            std::string::npos)
+      << json;
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("b.g2o"), "--robust", "off", "--json", path("b.json")}), 0);
+  EXPECT_EQ(readTextFile(path("b.json")).find("gradient"), std::string::npos);
+}
+
 TEST_F(Relax, ToroGoesInAndOut) {
   writeAtomically(path("in.g2o"), kSquare);
   urban_nav_core::writeToro(path("in.graph"), read("in.g2o"));
