@@ -22,8 +22,8 @@ struct Certificate {
 /// that is nowhere less than -eta on the rotations, no poses cost less than sum tr(Lambda_i) - eta * D * n: whatever
 /// Lambda is, so that the bound does not rest on how well the minimisation has converged. Lambda_i = sym(R_i^T (X M)_i)
 /// is the multiplier of R_i^T R_i = I at a minimum. That S + eta is positive semidefinite is what a Cholesky
-/// factorisation finds, to its round-off. Of a part with fixed poses X holds constants, and the bound is the least value
-/// of tr(X S X^T) over all others, by one more solution.
+/// factorisation finds, to its round-off. Of a part with fixed poses X holds constants, and the bound is the least
+/// value of tr(X S X^T) over all others, by one more solution.
 ///
 /// One or a few factorisations of blocks of D + 1. A minimum that is not certified may still be the global one where
 /// noise is large. `weights` as in cost(); the problem must be sound.

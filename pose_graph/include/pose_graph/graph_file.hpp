@@ -44,8 +44,8 @@ template <int D>
 FileProblem<D> makeProblem(const urban_nav_core::G2oGraph& graph, const std::string& name,
                            Semidefinite demanded = Semidefinite::Whole);
 
-/// The graph with these poses (all of `file.problem`) for its vertices and landmarks; vertices it did not list are added
-/// at the end. Fixed vertices keep their numbers.
+/// The graph with these poses (all of `file.problem`) for its vertices and landmarks; vertices it did not list are
+/// added at the end. Fixed vertices keep their numbers.
 template <int D>
 urban_nav_core::G2oGraph withPoses(const urban_nav_core::G2oGraph& graph, const FileProblem<D>& file,
                                    const std::vector<Rigid<D>>& poses);

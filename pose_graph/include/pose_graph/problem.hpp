@@ -36,8 +36,8 @@ struct Edge {
   int from = 0, to = 0;
   Rigid<D> Z;
   TangentMatrix<D> information = TangentMatrix<D>::Identity();
-  /// m, of the point that is measured, in the axes of `to`: what Z measures is T_to shifted by it. Zero but for priors of
-  /// sensors away from their pose.
+  /// Lever arm, m, of the point that is measured, in the axes of `to`: Z measures T_to shifted by it. Zero but for
+  /// priors of sensors away from their pose.
   Eigen::Matrix<double, D, 1> lever = Eigen::Matrix<double, D, 1>::Zero();
 
   bool hasLever() const { return !lever.isZero(0.0); }

@@ -45,7 +45,7 @@ enum class Ending {
   Stuck,       ///< no step, however small, lowers the cost: round-off, or directions without information
 };
 const char* toString(Ending ending);
-/// Whether the minimisation ended before it was done, and nobody asked for that.
+/// Whether the minimisation ended before it was done without a request for that.
 inline bool isEarly(Ending ending) { return ending == Ending::Iterations || ending == Ending::Stuck; }
 /// A sentence for the user: why a minimisation ended early, with the norm of the gradient there. Empty if it did not.
 std::string endingWarning(Ending ending, std::size_t iterations, double gradient);
@@ -62,7 +62,7 @@ struct Solution {
   std::vector<Iteration> iterations;
   Ending ending = Ending::Converged;
   double gradient = 0.0;  ///< where it ended early, gradientNorm() there
-  int components = 0;  ///< parts of the graph that no edge connects; each is relaxed in its own frame
+  int components = 0;     ///< parts of the graph that no edge connects; each is relaxed in its own frame
   /// Rotations end up far from what edges measure, so that there may be a better valley, and the graph is too large to
   /// look for one.
   bool may_be_tangled = false;

@@ -41,8 +41,8 @@ std::optional<double> redundancyOfChains(const Problem<3>& problem, std::size_t 
     TangentMatrix<3> turn = TangentMatrix<3>::Zero();  // from the axes of `from` to those of Z's child
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.Z.R.transpose();
     if (edge.hasLever())
-      turn = (turn * leverJacobian(edge, poses[static_cast<std::size_t>(edge.from)],
-                                   poses[static_cast<std::size_t>(edge.to)]))
+      turn = (turn *
+              leverJacobian(edge, poses[static_cast<std::size_t>(edge.from)], poses[static_cast<std::size_t>(edge.to)]))
                  .eval();
     sum += (edge.information * (turn * known.covariance * turn.transpose())).trace();
   }

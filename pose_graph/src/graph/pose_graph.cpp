@@ -277,8 +277,7 @@ urban_nav_core::Status PoseGraph::status() const {
   if (parts_ > 1)
     return {Health::Degraded, static_cast<int>(Trouble::Separate),
             std::to_string(parts_) + " maps that no accepted closure joins"};
-  if (!ending_warning_.empty())
-    return {Health::Degraded, static_cast<int>(Trouble::Unconverged), ending_warning_};
+  if (!ending_warning_.empty()) return {Health::Degraded, static_cast<int>(Trouble::Unconverged), ending_warning_};
   if (waiting > 0)
     return {Health::Ok, static_cast<int>(Trouble::Waiting),
             std::to_string(waiting) + " closures wait for a second one that agrees"};

@@ -47,14 +47,14 @@ Rotation<D> renormalised(const Rotation<D>& R) {
   return 0.5 * R * (3.0 * Rotation<D>::Identity() - R.transpose() * R);
 }
 
-/// How the end of an edge's lever arm moves when T_from_to does by (rho, phi), both in the axes of `from`.
+/// Derivative of the end of an edge's lever arm by a move (rho, phi) of T_from_to, both in the axes of `from`.
 template <int D>
 TangentMatrix<D> leverJacobian(const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
-  TangentMatrix<D> made = TangentMatrix<D>::Identity();
+  TangentMatrix<D> J = TangentMatrix<D>::Identity();
   if (edge.hasLever())
-    made.template topRightCorner<D, kRotationSize<D>>() =
+    J.template topRightCorner<D, kRotationSize<D>>() =
         turned(Eigen::Matrix<double, D, 1>(from.R.transpose() * (to.R * edge.lever)));
-  return made;
+  return J;
 }
 
 /// T moved by d = (rho, phi): [Exp(phi) R, t + rho], both in the parent frame.

@@ -69,8 +69,8 @@ struct EdgeQuadratic {
   TangentMatrix<D> K;
 };
 
-/// As it stands for the end of a lever arm, for the pose itself: a turn phi of the pose shifts the end, which is `arm`
-/// away from it in the map's axes, by phi x arm. `d` becomes that of the pose.
+/// Converts a quadratic for the end of a lever arm to one for the pose itself: a turn phi of the pose shifts the end,
+/// which is `arm` away from it in the map's axes, by phi x arm. `d` becomes that of the pose.
 template <int D>
 void moveFromLever(const Eigen::Matrix<double, D, 1>& arm, EdgeQuadratic<D>& quadratic) {
   constexpr int kR = kRotationSize<D>;
@@ -111,9 +111,9 @@ EdgeQuadratic<D> edgeQuadraticAtLever(const EdgeTerm<D>& term, const Rigid<D>& f
 template <Objective objective, int D>
 EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
   if (!term.has_lever) return edgeQuadraticAtLever<objective, D>(term, from, to);
-  EdgeQuadratic<D> made = edgeQuadraticAtLever<objective, D>(term, from, term.measured(to));
-  moveFromLever<D>(to.R * term.lever, made);
-  return made;
+  EdgeQuadratic<D> quadratic = edgeQuadraticAtLever<objective, D>(term, from, term.measured(to));
+  moveFromLever<D>(to.R * term.lever, quadratic);
+  return quadratic;
 }
 
 template <Objective objective, int D>

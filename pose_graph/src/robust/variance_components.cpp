@@ -33,8 +33,8 @@ VarianceComponents varianceComponents(const Problem<D>& problem, const std::vect
     if (marginal.knowledge != Knowledge::Full) continue;
     const Rotation<D> A = poses[sz(edge.from)].R * edge.Z.R;
     Tangent<D> error;
-    error.template head<D>() =
-        A.transpose() * (edge.measured(poses[sz(edge.to)]).t - poses[sz(edge.from)].t) - edge.Z.R.transpose() * edge.Z.t;
+    error.template head<D>() = A.transpose() * (edge.measured(poses[sz(edge.to)]).t - poses[sz(edge.from)].t) -
+                               edge.Z.R.transpose() * edge.Z.t;
     error.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * poses[sz(edge.to)].R));
     TangentMatrix<D> turn = TangentMatrix<D>::Identity();
     turn.template topLeftCorner<D, D>() = edge.Z.R.transpose();

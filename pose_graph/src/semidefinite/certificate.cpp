@@ -34,38 +34,38 @@ struct PoseGradient {
 
 template <int D>
 std::vector<PoseGradient<D>> gradients(const std::vector<EdgeTerm<D>>& terms, const std::vector<Rigid<D>>& poses) {
-  std::vector<PoseGradient<D>> made(poses.size());
+  std::vector<PoseGradient<D>> result(poses.size());
   for (const EdgeTerm<D>& term : terms) {
     const Rigid<D>& from = poses[sz(term.from)];
     const Rigid<D> to = term.measured(poses[sz(term.to)]);
     const Eigen::Matrix<double, D, 1> t = term.R_Z * term.t_Z;
     const Rotation<D> turn = from.R * term.R_Z - to.R;
     const Eigen::Matrix<double, D, 1> shift = to.t - from.t - from.R * t;
-    PoseGradient<D>&at_from = made[sz(term.from)], &at_to = made[sz(term.to)];
+    PoseGradient<D>&at_from = result[sz(term.from)], &at_to = result[sz(term.to)];
     at_from.by_t -= term.tau * shift;
     at_from.by_R += term.kappa * turn * term.R_Z.transpose() - term.tau * shift * t.transpose();
     at_to.by_t += term.tau * shift;
     at_to.by_R -= term.kappa * turn;
     if (term.has_lever) at_to.by_R += term.tau * shift * term.lever.transpose();
   }
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    const Rotation<D> seen = poses[i].R.transpose() * made[i].by_R;
-    made[i].lambda = 0.5 * (seen + seen.transpose());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Rotation<D> seen = poses[i].R.transpose() * result[i].by_R;
+    result[i].lambda = 0.5 * (seen + seen.transpose());
   }
-  return made;
+  return result;
 }
 
 /// The poses whose part has a fixed one, which are not fixed themselves.
 template <int D>
 std::vector<char> findAnchored(const Problem<D>& problem, const Unknowns& unknowns) {
-  std::vector<char> made(problem.poses.size(), 0);
-  if (problem.fixed.empty()) return made;
+  std::vector<char> result(problem.poses.size(), 0);
+  if (problem.fixed.empty()) return result;
   const int part = unknowns.component[sz(problem.fixed.front())];
-  for (const int i : unknowns.pose) made[sz(i)] = unknowns.component[sz(i)] == part;
-  return made;
+  for (const int i : unknowns.pose) result[sz(i)] = unknowns.component[sz(i)] == part;
+  return result;
 }
 
-/// By how much the quadratic form of a part with fixed poses is less at its own minimum than at these poses:
+/// Returns the depth of the minimum of a part's quadratic form, with fixed poses, below its value at these poses:
 /// tr(B S^-1 B^T), B half its gradient there. `cholesky`: of S with `eta` on its rotations.
 template <int D>
 double depthOfAnchored(const QuadraticForm<D>& form, const BlockCholesky<D + 1>& cholesky,

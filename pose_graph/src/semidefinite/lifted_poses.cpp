@@ -211,7 +211,7 @@ Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
   return x;
 }
 
-/// Of each part by itself: its D dimensions are not another's. Those of a part with fixed poses are theirs.
+/// Projects each part by itself: its D dimensions are not another's. Those of a part with fixed poses are theirs.
 template <int D>
 std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, const Numbers& x,
                                               const std::vector<Rigid<D>>& start, const std::vector<int>& fixed) {

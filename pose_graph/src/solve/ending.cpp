@@ -14,7 +14,7 @@ namespace {
 template <Objective objective, int D>
 std::vector<Tangent<D>> gradientAs(const Problem<D>& problem, const std::vector<Rigid<D>>& poses,
                                    const std::vector<double>& weights) {
-  std::vector<Tangent<D>> made(poses.size(), Tangent<D>::Zero());
+  std::vector<Tangent<D>> result(poses.size(), Tangent<D>::Zero());
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const double weight = weights.empty() ? 1.0 : weights[e];
     if (weight == 0.0) continue;
@@ -23,10 +23,10 @@ std::vector<Tangent<D>> gradientAs(const Problem<D>& problem, const std::vector<
     const Tangent<D> by_to = 2.0 * weight * at.g_to;
     Tangent<D> by_from = -by_to;
     by_from.template tail<kRotationSize<D>>() -= turned(at.d).transpose() * by_to.template head<D>();
-    made[sz(term.to)] += by_to;
-    made[sz(term.from)] += by_from;
+    result[sz(term.to)] += by_to;
+    result[sz(term.from)] += by_from;
   }
-  return made;
+  return result;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ std::string endingWarning(Ending ending, std::size_t iterations, double gradient
     return "the relaxation ended after " + std::to_string(iterations) + " iterations before it reached the minimum" +
            away + "; allow more with pose_graph.iterations";
   return "the relaxation found no step that lowers the cost, but did not reach the minimum" + away +
-         "; the information of the edges differs by more than a computation can resolve, or says nothing in some direction";
+         "; the information of edges differs by more than double precision resolves, or is zero in some direction";
 }
 
 template <int D>

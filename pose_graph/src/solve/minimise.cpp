@@ -45,7 +45,8 @@ double roundOff(const NormalEquations<D>& equations, const std::vector<Rigid<D>>
   double sum = 0.0;
   for (std::size_t e = 0; e < equations.terms().size(); ++e) {
     const EdgeTerm<D>& term = equations.terms()[e];
-    const double metres = poses[sz(term.from)].t.norm() + poses[sz(term.to)].t.norm() + term.t_Z.norm() + term.lever.norm();
+    const double metres =
+        poses[sz(term.from)].t.norm() + poses[sz(term.to)].t.norm() + term.t_Z.norm() + term.lever.norm();
     Tangent<D> least = Tangent<D>::Constant(kLeast);
     least.template head<D>() *= metres;
     sum += (weights.empty() ? 1.0 : weights[e]) * least.cwiseAbs2().dot(term.information.diagonal());
@@ -128,8 +129,8 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
         next = stepped(equations, x, poses);
         step.cost = equations.cost(options.objective, next, weights);
         if (std::isfinite(step.cost) && step.cost <= made.cost) break;
-        // At the minimum round-off decides: a step that promises nothing is none. A damped one promises nothing anywhere
-        // if it is short enough: there the plain one tells.
+        // At the minimum round-off decides: a step that promises nothing is no step. A damped one promises nothing
+        // anywhere if it is short enough: there the plain one decides.
         const bool is_nothing = step.predicted <= options.tolerance * made.cost;
         if ((is_nothing && damping <= least_damping) || made.cost <= roundOff(equations, poses, weights)) {
           made.ending = Ending::Converged;

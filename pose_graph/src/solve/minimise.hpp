@@ -16,9 +16,9 @@ struct Descent {
 };
 
 /// Gauss-Newton, and Levenberg-Marquardt where a plain step would raise the cost (Nocedal, Wright, Numerical
-/// Optimization, chapter 10; damping in proportion to the diagonal as Marquardt has it). Converged is what a plain step
-/// says: one that is damped until it is short promises little anywhere. `poses` are moved in place; they are never worse
-/// than they were.
+/// Optimization, chapter 10; damping in proportion to the diagonal as Marquardt has it). Only an undamped step ends it
+/// as converged: one that is damped until it is short promises little anywhere. `poses` are moved in place; they are
+/// never worse than they were.
 template <int D>
 Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const SolveOptions& options,
                  const std::vector<double>& weights, std::vector<Rigid<D>>& poses);

@@ -45,27 +45,28 @@ Unknowns makeUnknowns(const Problem<D>& problem) {
   DisjointSets components(sz(n));
   for (const Edge<D>& edge : problem.edges) components.join(edge.from, edge.to);
   components.joinAll(problem.fixed);
-  Unknowns made;
-  made.of_pose.assign(sz(n), 0);
-  made.component.assign(sz(n), 0);
+  Unknowns unknowns;
+  unknowns.of_pose.assign(sz(n), 0);
+  unknowns.component.assign(sz(n), 0);
   for (int i = 0; i < n; ++i) {
     const int root = components.root(i);  // the first pose of its component
     if (root == i) {
-      made.component[sz(i)] = made.components++;
-      made.origin.push_back(i);
+      unknowns.component[sz(i)] = unknowns.components++;
+      unknowns.origin.push_back(i);
     } else {
-      made.component[sz(i)] = made.component[sz(root)];
+      unknowns.component[sz(i)] = unknowns.component[sz(root)];
     }
   }
-  if (!problem.fixed.empty()) made.origin[sz(made.component[sz(problem.fixed.front())])] = problem.fixed.front();
-  for (const int i : made.origin) made.of_pose[sz(i)] = -1;
-  for (const int i : problem.fixed) made.of_pose[sz(i)] = -1;
+  if (!problem.fixed.empty())
+    unknowns.origin[sz(unknowns.component[sz(problem.fixed.front())])] = problem.fixed.front();
+  for (const int i : unknowns.origin) unknowns.of_pose[sz(i)] = -1;
+  for (const int i : problem.fixed) unknowns.of_pose[sz(i)] = -1;
   for (int i = 0; i < n; ++i) {
-    if (made.of_pose[sz(i)] < 0) continue;
-    made.of_pose[sz(i)] = static_cast<int>(made.pose.size());
-    made.pose.push_back(i);
+    if (unknowns.of_pose[sz(i)] < 0) continue;
+    unknowns.of_pose[sz(i)] = static_cast<int>(unknowns.pose.size());
+    unknowns.pose.push_back(i);
   }
-  return made;
+  return unknowns;
 }
 
 template <int D>

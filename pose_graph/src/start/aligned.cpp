@@ -19,21 +19,26 @@ template <int D>
 struct Correspondences {
   using Position = Eigen::Matrix<double, D, 1>;
   std::vector<Position> measured, present;
+  std::vector<double> shares;  // proportional to information
   bool is_tied = false;
 
   Rigid<D> fit() const {
     Position measured_mean = Position::Zero(), present_mean = Position::Zero();
-    const double share = 1.0 / static_cast<double>(measured.size());
-    for (const Position& p : measured) measured_mean += share * p;
-    for (const Position& p : present) present_mean += share * p;
+    double sum = 0.0;
+    for (const double share : shares) sum += share;
+    if (!(sum > 0.0)) return {};
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      measured_mean += shares[i] / sum * measured[i];
+      present_mean += shares[i] / sum * present[i];
+    }
     Rotation<D> moments = Rotation<D>::Zero();
     for (std::size_t i = 0; i < measured.size(); ++i)
-      moments += (measured[i] - measured_mean) * (present[i] - present_mean).transpose();
+      moments += shares[i] / sum * (measured[i] - measured_mean) * (present[i] - present_mean).transpose();
     if (moments.isZero(0.0) || !moments.allFinite()) return {};
-    Rigid<D> made;
-    made.R = nearestRotation(moments);
-    made.t = measured_mean - made.R * present_mean;
-    return made;
+    Rigid<D> result;
+    result.R = nearestRotation(moments);
+    result.t = measured_mean - result.R * present_mean;
+    return result;
   }
 };
 
@@ -57,6 +62,8 @@ void alignWithFixed(const Problem<D>& problem, const std::vector<double>& weight
     Correspondences<D>& part = found[sz(parts.root(from_fixed ? edge.to : edge.from))];
     part.is_tied |= !from_fixed || measuresRotation(edge);
     part.measured.push_back((poses[sz(edge.from)] * edge.Z).t);
+    part.shares.push_back((weights.empty() ? 1.0 : weights[e]) *
+                          edge.information.template topLeftCorner<D, D>().trace());
     part.present.push_back(edge.measured(poses[sz(edge.to)]).t);
   }
   std::vector<Rigid<D>> moves(poses.size());

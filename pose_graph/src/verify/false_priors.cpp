@@ -14,8 +14,9 @@ namespace pose_graph {
 
 namespace {
 
-// Of chi-square over degrees of freedom, in units of the middle one: as of a step of odometry that slipped.
+// Chi-square over degrees of freedom, in units of the middle one: as of a step of odometry that slipped.
 constexpr double kFalseSquare = 100.0;
+constexpr double kTieBreak = 1.1;      // factor of the weight of the first one, in the first round
 constexpr double kFitNarrowing = 4.0;  // of the square of the kernel's width, each round
 constexpr int kFitStartSteps = 20, kFitSteps = 3, kFitLastRounds = 5;
 constexpr double kFitStartShare = 1e-3, kFitShare = 1e-4;
@@ -60,7 +61,7 @@ double middleSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Ri
   return *at;
 }
 
-// Where odometry and most of the doubted ones put the poses. Nothing where least squares fit all of them.
+// Where odometry and most of the priors put the poses. Nothing where least squares fit all of them.
 template <int D>
 std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doubted<D>>& doubted) {
   const Problem<D>& problem = file.problem;
@@ -72,19 +73,24 @@ std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doub
     if (in.back()) part.edges.push_back(problem.edges[e]);
   }
   std::vector<Rigid<D>> poses = posesAlongEdges(part);
-  alignWithFixed(part, {}, poses);  // of positions alone no other start finds how the poses are turned
+  alignWithFixed(part, {}, poses);  // no other start finds how poses are turned whose positions alone are measured
   AcceptedGraph<D> graph(problem);
-  std::vector<double> weights(roles.size(), 1.0);
+  std::vector<double> weights(in.begin(), in.end());
   graph.take(in, weights);
   graph.relax(poses, kFitStartSteps, kFitStartShare, true);
   const bool all_fit = std::all_of(doubted.begin(), doubted.end(),
                                    [&](const Doubted<D>& one) { return one.squareOverRank(poses) <= kFalseSquare; });
   if (all_fit) return {};
   int last = 0;
+  bool is_first = true;
   for (double width = largestSquare(doubted, poses); last < kFitLastRounds;
        width = std::max(1.0, width / kFitNarrowing)) {
     last += width <= 1.0;
     for (const Doubted<D>& one : doubted) weights[sz(one.edge)] = 1.0 / (1.0 + one.squareOverRank(poses) / width);
+    // Two that contradict each other by the same amount would share the error for ever.
+    if (is_first) weights[sz(doubted.front().edge)] *= kTieBreak;
+    is_first = false;
+    alignWithFixed(problem, weights, poses);
     graph.take(in, weights);
     graph.relax(poses, kFitSteps, kFitShare, false);
   }

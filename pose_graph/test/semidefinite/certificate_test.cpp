@@ -43,7 +43,7 @@ TEST(Certificate, IsGivenAtTheOptimum) {
   expectCertifiedAtTheOptimum<3>();
 }
 
-/// The same bound for a graph between constants, which bend it, and for one beside it that is free.
+/// The same bound for a graph between constants, which bend it, and for a free one in the same problem.
 template <int D>
 void expectCertifiedBetweenConstants() {
   Dice dice(19);

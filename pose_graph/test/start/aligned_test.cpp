@@ -10,22 +10,22 @@ namespace {
 /// A path whose positions edges from a fixed pose measure, as satellites do; its poses lie somewhere else, turned.
 template <int D>
 Problem<D> drawMeasured(Dice& dice, bool with_rotation) {
-  Problem<D> made = drawProblem<D>(dice, 20, 4, 0.0, 0.0);
-  const int frame = static_cast<int>(made.poses.size());
+  Problem<D> result = drawProblem<D>(dice, 20, 4, 0.0, 0.0);
+  const int frame = static_cast<int>(result.poses.size());
   for (int pose = 0; pose < frame; pose += 3) {
-    Edge<D> prior{frame, pose, made.poses[static_cast<std::size_t>(pose)], {}};
+    Edge<D> prior{frame, pose, result.poses[static_cast<std::size_t>(pose)], {}};
     prior.information = TangentMatrix<D>::Identity();
     if (!with_rotation) {
       prior.Z.R.setIdentity();
       prior.information.template bottomRightCorner<kTangentSize<D> - D, kTangentSize<D> - D>().setZero();
       prior.lever = drawTangent<D>(dice, 0.3, 0.0).template head<D>();
-      prior.Z.t += made.poses[static_cast<std::size_t>(pose)].R * prior.lever;
+      prior.Z.t += result.poses[static_cast<std::size_t>(pose)].R * prior.lever;
     }
-    made.edges.push_back(prior);
+    result.edges.push_back(prior);
   }
-  made.poses.emplace_back();
-  made.fixed = {frame};
-  return made;
+  result.poses.emplace_back();
+  result.fixed = {frame};
+  return result;
 }
 
 template <int D>
@@ -47,7 +47,7 @@ void expectAligned() {
   }
 }
 
-TEST(Aligned, PositionsAloneTellHowAPathIsTurned) {
+TEST(Aligned, PositionsAloneTurnAPath) {
   expectAligned<2>();
   expectAligned<3>();
 }

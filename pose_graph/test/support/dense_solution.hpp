@@ -38,7 +38,7 @@ class DenseSolution {
   std::vector<Rigid<D>> poses;
   double cost = 0.0;
 
-  /// Of the cost by the free poses, one after the other.
+  /// Returns the gradient of the cost by the free poses, one after the other.
   Eigen::VectorXd gradient() const {
     Eigen::MatrixXd H;
     Eigen::VectorXd g;

@@ -186,8 +186,8 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
         "rotations end up far from what edges measure: there may be a better minimum, which is looked for in "
         "smaller graphs only");
   // A tree contradicts nothing.
-  const std::size_t held =
-      static_cast<std::size_t>(std::max(solution.components, 1)) + std::max<std::size_t>(file.problem.fixed.size(), 1) - 1;
+  const std::size_t parts = static_cast<std::size_t>(std::max(solution.components, 1));
+  const std::size_t held = parts + std::max<std::size_t>(file.problem.fixed.size(), 1) - 1;
   if (!doubted || file.problem.edges.size() + held <= file.problem.poses.size()) return;
   report.scales = estimateScales(file.problem, file.roles, robust.edges, solution.poses, robust.selection);
   for (const std::string& warning : pose_graph::selectionWarnings(file, robust, *report.scales)) warnings.add(warning);

@@ -86,7 +86,9 @@ TEST_F(Relax, CeresHoldsFixedVerticesAndPriorsToo) {
   writeAtomically(path("in.g2o"), std::string(kSquare) + "FIX 1 3\nEDGE_PRIOR_SE2 4 0.2 0 0.1 50 0 0 50 0 90\n");
   for (const char* objective : {"geodesic", "chordal", "g2o"}) {
     ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--objective", objective, "--robust", "off"}), 0);
-    ASSERT_EQ(relax({path("in.g2o"), "-o", path("b.g2o"), "--objective", objective, "--robust", "off", "--solver", "ceres"}), 0);
+    ASSERT_EQ(
+        relax({path("in.g2o"), "-o", path("b.g2o"), "--objective", objective, "--robust", "off", "--solver", "ceres"}),
+        0);
     const G2oGraph in = read("in.g2o"), a = read("a.g2o");
     expectSamePoses(a, read("b.g2o"), 1e-4);
     EXPECT_EQ(a.vertices[1].values, in.vertices[1].values);
