@@ -79,7 +79,7 @@ class LocalizationLaunch(LaunchCase):
         self.launch("localization.launch", store=self.store, bag=self.bag, rviz="false", paused="true")
         self.expect(lambda: "/player/pause_playback" in services() and "/localization/reset" in services(), "the nodes")
         heard = {*SENSORS, "/vo/relative_pose", "/vo/odometry", "/initialpose"}
-        self.expect(lambda: heard <= connections("/localization"), lambda: f"only {connections('/localisation')}")
+        self.expect(lambda: heard <= connections("/localization"), lambda: f"only {connections('/localization')}")
         self.expect(lambda: set(SENSORS) <= connections("/swf_vo"), lambda: f"only {connections('/swf_vo')}")
         self.expect(lambda: states and maps, "what is there before the first frame")
         self.assertEqual((states[0].state, states[0].has_pose, maps[0].header.frame_id), (LocalizationState.UNCERTAIN, False, "map"))
