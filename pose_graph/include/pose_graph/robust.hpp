@@ -54,9 +54,9 @@ struct SelectionReport {
   std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, where the graph is of a file
   /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
   double odometry_factor = 1.0, closure_factor = 1.0;
-
-  /// Whether the poses are those of the information put right: the factors differ from each other by more than 9.
-  bool isRescaled() const;
+  /// Whether the poses are those of the information put right: the factors differ from each other by more than 9, and
+  /// are likelier than the variances stated by a factor of 1000.
+  bool rescaled = false;
 };
 
 template <int D>
@@ -97,8 +97,8 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
 /// taken out, and with sessions joined by closures that agree with each other, at least three and more than chance
 /// explains. The set with the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of
 /// them: where no set is likelier by a factor of 1000, no closure is accepted. Edges that are the same to the last bit
-/// count once. Where the variances of odometry and closures are off by more than a factor of 9 against each other, the
-/// poses are those of the information put right. Of graphs beyond 200 000 poses
+/// count once. Where the variances of odometry and closures are off by more than a factor of 9 against each other, by
+/// evidence, the poses are those of the information put right. Of graphs beyond 200 000 poses
 /// the selection of relaxRobust() alone is weighed against odometry, by the core that their chains leave, or not at all
 /// where it is as large (SelectionReport::unweighed).
 template <int D>

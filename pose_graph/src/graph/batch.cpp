@@ -95,7 +95,7 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
     weights.push_back(closure.weight);
   }
   // More than odometry is trusted to be wrong by makes false closures fit too: that is for the selection to weigh.
-  const double begin = batch.selection.isRescaled() ? batch.selection.odometry_factor : 1.0;
+  const double begin = batch.selection.rescaled ? batch.selection.odometry_factor : 1.0;
   const double largest = batch.parameters.robust ? std::max(kLargestVariance, batch.selection.odometry_factor)
                                                  : std::numeric_limits<double>::infinity();
   batch.odometry_variance =
@@ -111,7 +111,7 @@ Relaxed PoseGraph::take(const Batch& batch) {
   takeVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
   selection_ = batch.selection;
-  takeClosureVariance(batch.selection.isRescaled() ? batch.selection.closure_factor : 1.0);
+  takeClosureVariance(batch.selection.rescaled ? batch.selection.closure_factor : 1.0);
   odometry_lean_ = batch.odometry_lean;
   fix_use_ = batch.fix_use;
   takeSteps(batch);

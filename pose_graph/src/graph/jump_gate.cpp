@@ -180,7 +180,7 @@ Assessment assess(Problem<3>& problem, const Parameters& parameters, const Solve
     admitAll(closures);
   }
   const bool waiting = makeWait(problem, chains, parameters, closures);
-  const bool is_rescaled = result.selection.isRescaled();
+  const bool is_rescaled = result.selection.rescaled;
   if (is_rescaled) rescale(result.selection, roles, problem);
   if (parameters.robust && !waiting && !is_rescaled && reference == nullptr) return result;
   std::vector<double> weights(chains, 1.0);

@@ -29,7 +29,7 @@ struct Assessment {
 /// weights and reasons; those that wait or are rejected have weight 0 in the solution. `reference`: relaxes what is
 /// accepted in place of solve(), if not null. A step that slipped measures in `problem` from then on what the solution
 /// has in its place, with next to no information; the information of chains and closures is divided by the factors of
-/// the selection where SelectionReport::isRescaled().
+/// the selection where SelectionReport::rescaled.
 Assessment assess(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 

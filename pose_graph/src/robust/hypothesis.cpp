@@ -12,6 +12,7 @@
 #include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 #include "robust/chance_density.hpp"
+#include "robust/copied_poses.hpp"
 #include "robust/variance_components.hpp"
 #include "start/along_edges.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
@@ -30,7 +31,7 @@ constexpr double kHypothesisShare = 1e-4;
 constexpr double kOdometryMargin = 100.0;
 constexpr int kNeighbours = 10;           // poses, as in ClosureLoops
 constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
-constexpr int kLongestRow = 30;    // closures that a row of false ones has at most
+constexpr int kLongestRow = 30;           // closures that a row of false ones has at most
 constexpr double kLooseRow = 25.0;  // as in InformationScale: false closures found in a row err alike, more or less
 
 double logFactorial(double n) { return std::lgamma(n + 1.0); }
@@ -122,6 +123,7 @@ bool areNear(const Edge<D>& a, const Edge<D>& b) {
 template <int D>
 HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
     : problem_(problem), roles_(roles), reckoning_(problem, roles) {
+  problem_.fixed = withoutCopiedPoses(problem, roles);
   for (std::size_t e = 0; e < roles.size(); ++e) {
     is_candidate_.push_back(roles[e] == EdgeRole::Candidate);
     if (is_candidate_.back()) candidates_.push_back(static_cast<int>(e));
@@ -238,6 +240,19 @@ VarianceFactors HypothesisJudge<D>::estimateFactors(AcceptedGraph<D>& graph, con
 
 template <int D>
 void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
+  assess(hypothesis, kComponentRounds);
+}
+
+template <int D>
+double HypothesisJudge<D>::gainByFactors(const Hypothesis<D>& hypothesis) const {
+  Hypothesis<D> as_stated = hypothesis;
+  as_stated.factors = {};
+  assess(as_stated, 0);
+  return hypothesis.log_evidence - as_stated.log_evidence;
+}
+
+template <int D>
+void HypothesisJudge<D>::assess(Hypothesis<D>& hypothesis, int rounds) const {
   constexpr int kN = kTangentSize<D>;
   std::vector<int> edges;
   for (std::size_t e = 0; e < roles_.size(); ++e)
@@ -248,18 +263,18 @@ void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
     return roles_[sz(e)] == EdgeRole::Candidate ? hypothesis.factors.closures : hypothesis.factors.odometry;
   };
   double steps_before[2] = {0.0, 0.0};
-  for (int round = 0; round <= kComponentRounds; ++round) {
+  for (int round = 0; round <= rounds; ++round) {
     for (const int e : edges) weights[sz(e)] = 1.0 / factorOf(e);
     graph.take(hypothesis.in, weights);
     graph.relax(hypothesis.poses, kHypothesisSteps, kHypothesisShare, false);
-    if (round == kComponentRounds) break;
+    if (round == rounds) break;
     if (!graph.factor(hypothesis.poses)) break;
     const VarianceFactors last = hypothesis.factors;
     hypothesis.factors = estimateFactors(graph, hypothesis);
     const double steps[2] = {std::log(hypothesis.factors.odometry / last.odometry),
                              std::log(hypothesis.factors.closures / last.closures)};
     if (std::abs(steps[0]) < kComponentsSettled && std::abs(steps[1]) < kComponentsSettled) {
-      round = kComponentRounds - 1;  // only the poses have to follow
+      round = rounds - 1;  // only the poses have to follow
     } else if (round % 2 == 1) {
       hypothesis.factors.odometry =
           std::min(hypothesis.factors.odometry * std::exp(leap(steps_before[0], steps[0])), largest_odometry_);

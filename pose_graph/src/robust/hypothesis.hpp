@@ -62,6 +62,10 @@ class HypothesisJudge {
   /// edge outside is a slip, and costs what the rarity of slips says.
   void judge(Hypothesis<D>& hypothesis) const;
 
+  /// Logarithm of how much likelier the estimated factors of a hypothesis are than the variances that the information
+  /// states; near zero where a few closures determine the factors.
+  double gainByFactors(const Hypothesis<D>& hypothesis) const;
+
   /// The largest factor that steps of odometry allow: where errors are independent from step to step, half the square
   /// of the difference of two successive steps bounds the variance of one, as the motion only adds to it; the middle
   /// one of all, times 100 for errors that are not independent, and 100 at least.
@@ -91,11 +95,13 @@ class HypothesisJudge {
   Hypothesis<D> judgeOdometry();
 
  private:
+  // Relaxes, estimates the factors in so many rounds at most, and fills `log_evidence`.
+  void assess(Hypothesis<D>& hypothesis, int rounds) const;
   double chance(const Hypothesis<D>& hypothesis) const;
   // Estimates both factors anew where the graph is relaxed and factored.
   VarianceFactors estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const;
 
-  Problem<D> problem_;  // what an edge does not measure lies within the map
+  Problem<D> problem_;  // what an edge does not measure lies within the map; poses fixed by odometry alone are free
   const std::vector<EdgeRole>& roles_;
   DeadReckoning<D> reckoning_;
   std::vector<int> candidates_;

@@ -23,6 +23,17 @@ template <int D>
 Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                         double most_work = std::numeric_limits<double>::infinity());
 
+/// Rejects all closures: odometry alone. Those that fitted what was accepted are undecided.
+inline void rejectCandidates(const std::vector<EdgeRole>& roles, std::vector<EdgeAssessment>& edges) {
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    const bool is_closure = roles[e] == EdgeRole::Candidate;
+    edges[e].weight = is_closure ? 0.0 : 1.0;
+    edges[e].verdict = is_closure ? urban_nav_core::ClosureVerdict::Rejected : urban_nav_core::ClosureVerdict::Accepted;
+    if (!is_closure) edges[e].reason = Reason::Role;
+    else if (edges[e].reason == Reason::Fits) edges[e].reason = Reason::Undecided;
+  }
+}
+
 /// Relaxes the edges with weight.
 template <int D>
 RobustSolution<D> solutionFrom(const Problem<D>& problem, const std::vector<EdgeRole>& roles,

@@ -87,8 +87,7 @@ class Selection {
     if (contested_ || core_) return !(evidence() >= kDecisive);
     const Hypothesis<D> rows = judge_->assessRows(best_.hypothesis);
     const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
-    const double needed =
-        is_loosened ? kDecisive + kEachDecisive * judge_->rowsInside(best_.hypothesis) : -kDecisive;
+    const double needed = is_loosened ? kDecisive + kEachDecisive * judge_->rowsInside(best_.hypothesis) : -kDecisive;
     return !(overOdometry(rows) >= needed);
   }
   /// Whether they should have been, and the graph is too large.
@@ -103,7 +102,13 @@ class Selection {
       return static_cast<double>(differ) > kContestedShare * static_cast<double>(candidates_);
     });
   }
-  bool tellsVariances() const { return judge_ && !judge_->areAssertions(); }
+  bool hasVariances() const { return judge_ && !judge_->areAssertions(); }
+  /// Whether the variances of odometry and closures are off against each other by far, and that is no chance.
+  bool isRescaled() const {
+    const VarianceFactors& found = best_.hypothesis.factors;
+    return hasVariances() && beyond(found.odometry / found.closures, kContestedFactor) &&
+           judge_->gainByFactors(best_.hypothesis) >= kDecisive;
+  }
   double evidence() const { return overOdometry(best_.hypothesis); }
   const Hypothesis<D>& odometryAlone() const { return odometry_; }
   const Hypothesis<D>& hypothesis() const { return best_.hypothesis; }
@@ -448,8 +453,6 @@ class Selection {
 
 }  // namespace
 
-bool SelectionReport::isRescaled() const { return beyond(odometry_factor / closure_factor, kContestedFactor); }
-
 template <int D>
 RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const SolveOptions& options) {
@@ -464,29 +467,24 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     report.log_evidence = selection.evidence();
     report.undecided = selection.isUndecided();
     report.has_rival = report.contested && !report.undecided && selection.hasRival();
-    if (selection.tellsVariances()) factors = selection.hypothesis().factors;
+    if (selection.hasVariances()) factors = selection.hypothesis().factors;
     report.odometry_factor = factors.odometry;
     report.closure_factor = factors.closures;
+    report.rescaled = !report.undecided && selection.isRescaled();
   }
-  Judgement<D> judged = selection.take();
+  Judgement<D> chosen = selection.take();
   if (report.undecided) {
     factors = {};
     report.odometry_factor = report.closure_factor = 1.0;
-    judged.poses = selection.odometryAlone().poses;
-    for (std::size_t e = 0; e < unique.roles.size(); ++e) {
-      EdgeAssessment& edge = judged.edges[e];
-      const bool out = unique.roles[e] == EdgeRole::Candidate;
-      edge.weight = out ? 0.0 : 1.0;
-      edge.verdict = out ? ClosureVerdict::Rejected : ClosureVerdict::Accepted;
-      if (!out) edge.reason = Reason::Role;
-      else if (edge.reason == Reason::Fits) edge.reason = Reason::Undecided;
-    }
+    chosen.poses = selection.odometryAlone().poses;
+    for (const int pose : problem.fixed) chosen.poses[sz(pose)] = problem.poses[sz(pose)];
+    rejectCandidates(unique.roles, chosen.edges);
   }
   Judgement<D> all;
-  all.poses = std::move(judged.poses);
-  all.variance = judged.variance;
-  for (const int e : unique.of_edge) all.edges.push_back(judged.edges[sz(e)]);
-  RobustSolution<D> made = report.isRescaled()
+  all.poses = std::move(chosen.poses);
+  all.variance = chosen.variance;
+  for (const int e : unique.of_edge) all.edges.push_back(chosen.edges[sz(e)]);
+  RobustSolution<D> made = report.rescaled
                                ? solutionFrom(withFactors(problem, roles, factors), roles, options, std::move(all))
                                : solutionFrom(problem, roles, options, std::move(all));
   made.selection = report;
