@@ -24,14 +24,16 @@ namespace {
 const double kLogTwoPiHypothesis = std::log(2.0 * M_PI);
 // A priori one step of a thousand slips.
 const double kLogSlip = std::log(1e-3);
-constexpr int kComponentRounds = 10, kHypothesisSteps = 15;
+constexpr int kHypothesisSteps = 15;
+constexpr double kDisplaced = 0.01;                   // of the extent
 constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // of a ratio; of logarithms
 constexpr double kComponentsSettled = 0.05;           // of the logarithms of the factors
 constexpr double kHypothesisShare = 1e-4;
 constexpr double kOdometryMargin = 100.0;
 constexpr int kNeighbours = 10;           // poses, as in ClosureLoops
 constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
-constexpr int kLongestRow = 30;           // closures that a row of false ones has at most
+constexpr std::size_t kMostUnconfirmed = 8;
+constexpr int kLongestRow = 30;     // closures that a row of false ones has at most
 constexpr double kLooseRow = 25.0;  // as in InformationScale: false closures found in a row err alike, more or less
 
 double logFactorial(double n) { return std::lgamma(n + 1.0); }
@@ -41,7 +43,7 @@ double logChoices(double all, double some) {
   return logFactorial(all) - logFactorial(some) - logFactorial(all - some) + std::log(all + 1.0);
 }
 
-// See HypothesisJudge::largestOdometryFactor().
+// See HypothesisEvaluator::largestOdometryFactor().
 template <int D>
 double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   std::vector<const Edge<D>*> step(problem.poses.size(), nullptr);
@@ -121,7 +123,7 @@ bool areNear(const Edge<D>& a, const Edge<D>& b) {
 }  // namespace
 
 template <int D>
-HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
+HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
     : problem_(problem), roles_(roles), reckoning_(problem, roles) {
   problem_.fixed = withoutCopiedPoses(problem, roles);
   for (std::size_t e = 0; e < roles.size(); ++e) {
@@ -168,7 +170,7 @@ HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector
 }
 
 template <int D>
-double HypothesisJudge<D>::chance(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::chance(const Hypothesis<D>& hypothesis) const {
   // A choice for the closures within chains, and one for those between each two chains: how many of them are true has
   // nothing to do with each other.
   struct Choice {
@@ -200,7 +202,7 @@ double HypothesisJudge<D>::chance(const Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-double HypothesisJudge<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
   std::vector<int> inside;
   for (const int e : candidates_)
     if (hypothesis.in[sz(e)]) inside.push_back(e);
@@ -220,7 +222,8 @@ double HypothesisJudge<D>::gainByContraction(const Hypothesis<D>& hypothesis) co
 
 // Sums of squares over redundancy (Förstner 1979), translation and rotation together.
 template <int D>
-VarianceFactors HypothesisJudge<D>::estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const {
+VarianceFactors HypothesisEvaluator<D>::estimateFactors(AcceptedGraph<D>& graph,
+                                                        const Hypothesis<D>& hypothesis) const {
   const double cost = graph.cost(hypothesis.poses);
   const typename AcceptedGraph<D>::Share closures = graph.share(hypothesis.poses, is_candidate_);
   double ranks[2] = {0.0, 0.0};
@@ -239,12 +242,12 @@ VarianceFactors HypothesisJudge<D>::estimateFactors(AcceptedGraph<D>& graph, con
 }
 
 template <int D>
-void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
-  assess(hypothesis, kComponentRounds);
+void HypothesisEvaluator<D>::evaluate(Hypothesis<D>& hypothesis) const {
+  assess(hypothesis, kRounds);
 }
 
 template <int D>
-double HypothesisJudge<D>::gainByFactors(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::gainByFactors(const Hypothesis<D>& hypothesis) const {
   Hypothesis<D> as_stated = hypothesis;
   as_stated.factors = {};
   assess(as_stated, 0);
@@ -252,7 +255,7 @@ double HypothesisJudge<D>::gainByFactors(const Hypothesis<D>& hypothesis) const 
 }
 
 template <int D>
-void HypothesisJudge<D>::assess(Hypothesis<D>& hypothesis, int rounds) const {
+void HypothesisEvaluator<D>::assess(Hypothesis<D>& hypothesis, int rounds) const {
   constexpr int kN = kTangentSize<D>;
   std::vector<int> edges;
   for (std::size_t e = 0; e < roles_.size(); ++e)
@@ -297,7 +300,7 @@ void HypothesisJudge<D>::assess(Hypothesis<D>& hypothesis, int rounds) const {
 }
 
 template <int D>
-double HypothesisJudge<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
   double rows = 0.0;
   for (const int e : candidates_) {
     const int near = neighbour_[sz(e)];
@@ -307,7 +310,48 @@ double HypothesisJudge<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-Hypothesis<D> HypothesisJudge<D>::assessRows(const Hypothesis<D>& hypothesis) const {
+std::vector<std::vector<int>> HypothesisEvaluator<D>::unconfirmedRows(const Hypothesis<D>& hypothesis) const {
+  struct Row {
+    std::vector<int> closures;
+    int begin = 0, end = 0;
+    std::size_t alone = 0;  // steps
+  };
+  std::vector<Row> rows;
+  std::vector<int> row_of(roles_.size(), -1);
+  for (const int e : candidates_) {
+    if (!hypothesis.in[sz(e)]) continue;
+    const auto [begin, end] = std::minmax(problem_.edges[sz(e)].from, problem_.edges[sz(e)].to);
+    const int near = neighbour_[sz(e)];
+    row_of[sz(e)] = near >= 0 && row_of[sz(near)] >= 0 ? row_of[sz(near)] : static_cast<int>(rows.size());
+    if (row_of[sz(e)] == static_cast<int>(rows.size())) rows.push_back({{}, begin, end, 0});
+    Row& row = rows[sz(row_of[sz(e)])];
+    row.closures.push_back(e);
+    row.begin = std::min(row.begin, begin);
+    row.end = std::max(row.end, end);
+  }
+  std::vector<std::ptrdiff_t> changes(problem_.poses.size() + 1, 0), number_changes = changes;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    ++changes[sz(rows[r].begin)];
+    --changes[sz(rows[r].end)];
+    number_changes[sz(rows[r].begin)] += static_cast<std::ptrdiff_t>(r);
+    number_changes[sz(rows[r].end)] -= static_cast<std::ptrdiff_t>(r);
+  }
+  std::ptrdiff_t spanning = 0, numbers = 0;  // rows over a step, and the sum of their numbers
+  for (std::size_t step = 0; step + 1 < problem_.poses.size(); ++step) {
+    spanning += changes[step];
+    numbers += number_changes[step];
+    if (spanning == 1) ++rows[static_cast<std::size_t>(numbers)].alone;
+  }
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const Row& row) { return row.alone == 0; }), rows.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.alone > b.alone; });
+  std::vector<std::vector<int>> unconfirmed;
+  for (Row& row : rows)
+    if (unconfirmed.size() < kMostUnconfirmed) unconfirmed.push_back(std::move(row.closures));
+  return unconfirmed;
+}
+
+template <int D>
+Hypothesis<D> HypothesisEvaluator<D>::assessRows(const Hypothesis<D>& hypothesis, int rounds) const {
   Hypothesis<D> rows = hypothesis;
   double followers = 0.0;  // their densities given those before them in their row
   for (const int e : candidates_) {
@@ -321,13 +365,21 @@ Hypothesis<D> HypothesisJudge<D>::assessRows(const Hypothesis<D>& hypothesis) co
     rows.in[sz(e)] = 0;
     followers += log_alike_[sz(e)];
   }
-  judge(rows);
+  assess(rows, rounds);
   rows.log_evidence += followers + chance(hypothesis) - chance(rows);
   return rows;
 }
 
 template <int D>
-Hypothesis<D> HypothesisJudge<D>::judgeOdometry() {
+bool HypothesisEvaluator<D>::isDisplaced(const std::vector<Rigid<D>>& poses,
+                                         const std::vector<Rigid<D>>& others) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < poses.size(); ++i) largest = std::max(largest, (poses[i].t - others[i].t).norm());
+  return largest > kDisplaced * reckoning_.extent;
+}
+
+template <int D>
+Hypothesis<D> HypothesisEvaluator<D>::evaluateOdometry() {
   Hypothesis<D> made;
   Problem<D> part = problem_.withoutEdges();
   for (std::size_t e = 0; e < roles_.size(); ++e) {
@@ -335,12 +387,12 @@ Hypothesis<D> HypothesisJudge<D>::judgeOdometry() {
     if (made.in.back()) part.edges.push_back(problem_.edges[e]);
   }
   made.poses = posesAlongEdges(part);
-  judge(made);
+  evaluate(made);
   log_odometry_ = made.log_inside;
   return made;
 }
 
-template class HypothesisJudge<2>;
-template class HypothesisJudge<3>;
+template class HypothesisEvaluator<2>;
+template class HypothesisEvaluator<3>;
 
 }  // namespace pose_graph

@@ -42,7 +42,7 @@ struct Hypothesis {
   VarianceFactors factors;
   double log_inside = 0.0;      ///< the part of the evidence that is of the edges inside
   double log_evidence = 0.0;    ///< all of it
-  double by_contraction = 0.0;  ///< HypothesisJudge::gainByContraction()
+  double by_contraction = 0.0;  ///< HypothesisEvaluator::gainByContraction()
 };
 
 /// Judges hypotheses of one graph by their evidence: the density of all measurements, with the poses integrated out
@@ -54,13 +54,13 @@ struct Hypothesis {
 /// chance likelier than the odometry does, the set explains that much less beside odometry alone: any closures agree
 /// with a map drawn together to a few places.
 template <int D>
-class HypothesisJudge {
+class HypothesisEvaluator {
  public:
-  HypothesisJudge(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
+  HypothesisEvaluator(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
   /// Relaxes the edges that are in from `hypothesis.poses`, estimates the factors and fills `log_evidence`. A trusted
   /// edge outside is a slip, and costs what the rarity of slips says.
-  void judge(Hypothesis<D>& hypothesis) const;
+  void evaluate(Hypothesis<D>& hypothesis) const;
 
   /// Logarithm of how much likelier the estimated factors of a hypothesis are than the variances that the information
   /// states; near zero where a few closures determine the factors.
@@ -86,13 +86,22 @@ class HypothesisJudge {
   /// How many rows of neighbouring closures are inside: closures of one row are no independent witnesses.
   double rowsInside(const Hypothesis<D>& hypothesis) const;
 
+  /// Rows of closures inside that alone span some step between consecutive poses: no other closure confirms them, and
+  /// without one the map moves to where odometry leads. At most eight, those first that span most steps alone.
+  std::vector<std::vector<int>> unconfirmedRows(const Hypothesis<D>& hypothesis) const;
+
   /// An assessed hypothesis with one closure of each row (of thirty) alone, and the factors that follow from these:
   /// over a long distance odometry may err by more than it states where it errs by less from one closure of a row to
   /// the next, and the many of a row hide it.
-  Hypothesis<D> assessRows(const Hypothesis<D>& hypothesis) const;
+  /// The factors are estimated in so many rounds; none: they are those of the hypothesis.
+  Hypothesis<D> assessRows(const Hypothesis<D>& hypothesis, int rounds) const;
+  static constexpr int kRounds = 10;
+
+  /// Whether some pose is elsewhere by more than a hundredth of the map's extent.
+  bool isDisplaced(const std::vector<Rigid<D>>& poses, const std::vector<Rigid<D>>& others) const;
 
   /// Only trusted and asserted edges, judged. To be asked for before any other is judged.
-  Hypothesis<D> judgeOdometry();
+  Hypothesis<D> evaluateOdometry();
 
  private:
   // Relaxes, estimates the factors in so many rounds at most, and fills `log_evidence`.
@@ -118,7 +127,7 @@ class HypothesisJudge {
   std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour
 };
 
-extern template class HypothesisJudge<2>;
-extern template class HypothesisJudge<3>;
+extern template class HypothesisEvaluator<2>;
+extern template class HypothesisEvaluator<3>;
 
 }  // namespace pose_graph

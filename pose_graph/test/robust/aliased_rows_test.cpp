@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/robust.hpp"
+#include "support/drawn.hpp"
+#include "urban_nav_core/testing/graphs.hpp"
+
+namespace pose_graph {
+namespace {
+
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::testing::SimulatedGraph;
+
+constexpr std::size_t kPosesOfTown = 600;
+constexpr std::size_t kLastRevisit = 480;  // of the drive, that ends on streets of its own
+constexpr int kAliased = 10;
+
+SimulatedGraph drawBlocks(std::uint64_t seed) {
+  SimulatedGraph graph = urban_nav_core::testing::manhattanGraph(kPosesOfTown, 12, 0.5,
+                                                                 urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
+  graph.edges.erase(
+      std::remove_if(graph.edges.begin(), graph.edges.end(),
+                     [](const auto& edge) { return edge.b != edge.a + 1 && std::max(edge.a, edge.b) > kLastRevisit; }),
+      graph.edges.end());
+  return graph;
+}
+
+/// Returns the first pose that is 4 to 8 m from another one, and headed like it; -1 if no pose is.
+int findSimilar(const SimulatedGraph& graph, std::size_t other) {
+  for (std::size_t pose = 0; pose + kAliased < kLastRevisit; ++pose) {
+    const double metres = urban_nav_core::distanceBetween(graph.truth[pose], graph.truth[other]);
+    if (metres > 4.0 && metres < 8.0 && urban_nav_core::angleBetween(graph.truth[pose], graph.truth[other]) < 0.2)
+      return static_cast<int>(pose);
+  }
+  return -1;
+}
+
+/// Appends closures between two stretches of the same length that are taken for one place: each agrees with odometry
+/// along both, and with the others.
+void addAliasedRow(Problem<2>& problem, int from, int to, test::Dice& dice) {
+  const Edge<2> like = problem.edges.back();
+  const Rigid<2> offset = test::drawRigid<2>(dice, 0.3, 0.05);
+  for (int k = 0; k < kAliased; ++k) {
+    const auto at = [&](int pose) { return problem.poses[static_cast<std::size_t>(pose)]; };
+    Edge<2> edge = like;
+    edge.from = from + k;
+    edge.to = to + k;
+    edge.Z = at(from + k).inverse() * at(from) * offset * at(to).inverse() * at(to + k);
+    problem.edges.push_back(edge);
+  }
+}
+
+std::size_t countAliasedAccepted(const RobustSolution<2>& robust) {
+  return static_cast<std::size_t>(std::count_if(robust.edges.end() - kAliased, robust.edges.end(),
+                                                [](const EdgeAssessment& edge) { return edge.weight > 0.0; }));
+}
+
+void expectRejectedOrRival(double information) {
+  int rows = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    const SimulatedGraph graph = drawBlocks(seed);
+    Problem<2> problem = test::simulatedProblem<2>(graph, deadReckoning(graph));
+    for (Edge<2>& edge : problem.edges) edge.information *= information;
+    const RobustSolution<2> clean = relaxSelected(problem, rolesByNumbers(problem), {});
+    EXPECT_FALSE(clean.selection.undecided || clean.selection.has_rival) << seed;
+    const std::size_t end = kPosesOfTown - 1 - kAliased;
+    const int similar = findSimilar(graph, end);
+    if (similar < 0) continue;
+    ++rows;
+    test::Dice dice(seed);
+    addAliasedRow(problem, similar, static_cast<int>(end), dice);
+    const RobustSolution<2> robust = relaxSelected(problem, rolesByNumbers(problem), {});
+    EXPECT_TRUE(countAliasedAccepted(robust) == 0 || robust.selection.has_rival) << seed;
+  }
+  EXPECT_GE(rows, 4);
+}
+
+// One row of false closures at the end of a drive contradicts nothing but odometry: it may bend the chain, or have a
+// step slip.
+TEST(AliasedRows, AreRejectedOrNamedAsARival) { expectRejectedOrRival(1.0); }
+
+// Deviations stated twenty times too large let the row fit as it is.
+TEST(AliasedRows, AreRejectedOrNamedWhereTheInformationIsFarTooModest) { expectRejectedOrRival(1.0 / 400.0); }
+
+}  // namespace
+}  // namespace pose_graph
