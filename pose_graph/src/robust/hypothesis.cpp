@@ -134,9 +134,10 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
   std::pair<double, int> determinant;
   for (std::size_t e = 0; e < roles.size(); ++e) {
     TangentMatrix<D>& information = problem_.edges[e].information;
-    if (e == 0 || information != given) {
+    if (e == 0 || information != given || roles[e] != roles[e - 1]) {
       bounded = given = information;
-      boundInformation<D>(reckoning_.extent, bounded);
+      // A prior or a fix without information has no effect; a step of odometry without it ends somewhere in the map.
+      if (roles[e] != EdgeRole::Asserted || !information.isZero(0.0)) boundInformation<D>(reckoning_.extent, bounded);
       determinant = logDeterminant<D>(bounded);
     }
     information = bounded;

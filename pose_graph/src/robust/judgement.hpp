@@ -23,12 +23,17 @@ template <int D>
 Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                         double most_work = std::numeric_limits<double>::infinity());
 
-/// Rejects all closures: odometry alone. Those that fitted what was accepted are undecided.
-inline void rejectCandidates(const std::vector<EdgeRole>& roles, std::vector<EdgeAssessment>& edges) {
+/// Rejects the closures of all poses but those that stay as they are: odometry alone. Those that fitted what was
+/// accepted are undecided.
+template <int D>
+void rejectCandidates(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& stays,
+                      std::vector<EdgeAssessment>& edges) {
+  using urban_nav_core::ClosureVerdict;
   for (std::size_t e = 0; e < roles.size(); ++e) {
+    if (stays[static_cast<std::size_t>(problem.edges[e].from)]) continue;
     const bool is_closure = roles[e] == EdgeRole::Candidate;
     edges[e].weight = is_closure ? 0.0 : 1.0;
-    edges[e].verdict = is_closure ? urban_nav_core::ClosureVerdict::Rejected : urban_nav_core::ClosureVerdict::Accepted;
+    edges[e].verdict = is_closure ? ClosureVerdict::Rejected : ClosureVerdict::Accepted;
     if (!is_closure) edges[e].reason = Reason::Role;
     else if (edges[e].reason == Reason::Fits) edges[e].reason = Reason::Undecided;
   }

@@ -27,13 +27,15 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     report.closure_factor = factors.closures;
     report.rescaled = !report.undecided && selection.isRescaled();
   }
+  const std::vector<char> stays = report.undecided ? selection.inUncontestedParts() : std::vector<char>();
   Judgement<D> chosen = selection.take();
   if (report.undecided) {
     factors = {};
     report.odometry_factor = report.closure_factor = 1.0;
-    chosen.poses = selection.odometryAlone().poses;
+    for (std::size_t i = 0; i < stays.size(); ++i)
+      if (!stays[i]) chosen.poses[i] = selection.odometryAlone().poses[i];
     for (const int pose : problem.fixed) chosen.poses[sz(pose)] = problem.poses[sz(pose)];
-    rejectCandidates(unique.roles, chosen.edges);
+    rejectCandidates(unique.problem, unique.roles, stays, chosen.edges);
   }
   Judgement<D> all;
   all.poses = std::move(chosen.poses);

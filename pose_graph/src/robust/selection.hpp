@@ -34,7 +34,6 @@ constexpr double kFar = 100.0;  // of variances that are tried
 constexpr double kDense = 20.0, kSoonFactored = 1e7;
 constexpr double kRegrowFactor = 1.4;  // of variances: less changes hardly a verdict
 constexpr int kRegrows = 3;
-constexpr double kLeastPlaces = 3.0;   // rows of closures that only a slip explains: one or two may be false
 constexpr double kHealedShare = 0.01;  // of a step's information that what takes its place has
 // Beyond so many poses what nothing contests is not judged, and beyond so many one selection is all that there is time
 // for, weighed where the chains of a graph leave a core that is no larger.
@@ -91,16 +90,26 @@ class Selection {
     if (contested_ || core_) return !(evidence() >= kDecisive);
     const Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
     const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
-    const double needed =
-        is_loosened ? kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis) : -kDecisive;
-    return !(overOdometry(rows) >= needed);
+    const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
+    return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
   }
-  /// Whether they should have been, and the graph is too large.
+  /// By pose, whether no closure of its part, which odometry holds together, is rejected or leads to another part.
+  std::vector<char> inUncontestedParts() const {
+    std::vector<char> uncontested(problem_.poses.size(), 0), contested_part = uncontested;
+    if (core_ || !contested_) return uncontested;
+    for (std::size_t e = 0; e < roles_.size(); ++e) {
+      if (!isBetween(e) && best_.judgement.edges[e].verdict != urban_nav_core::ClosureVerdict::Rejected) continue;
+      contested_part[sz(parts_[sz(problem_.edges[e].from)])] = contested_part[sz(parts_[sz(problem_.edges[e].to)])] = 1;
+    }
+    for (std::size_t i = 0; i < uncontested.size(); ++i) uncontested[i] = !contested_part[sz(parts_[i])];
+    return uncontested;
+  }
+  /// Whether sets should have been weighed, and the graph is too large.
   bool isUnweighed() const { return unweighed_; }
   /// Whether another set that takes other closures is nearly as likely.
   bool hasRival() const {
     if (!evaluator_ || evaluator_->areAssertions()) return contested_ && hasRivalSet();
-    return has_rival_slip_ || (contested_ && hasRivalSet()) || (!core_ && hasUnconfirmedRow());
+    return (contested_ && hasRivalSet()) || (!core_ && hasUnconfirmedRow());
   }
   bool hasVariances() const { return evaluator_ && !evaluator_->areAssertions(); }
   /// Whether the variances of odometry and closures are off against each other by far, and that is no chance.
@@ -113,7 +122,6 @@ class Selection {
   const Hypothesis<D>& odometryAlone() const { return odometry_; }
   const Hypothesis<D>& hypothesis() const { return best_.hypothesis; }
   Judgement<D> take() { return std::move(best_.judgement); }
-  const std::vector<Slip<D>>& slips() const { return best_.slips; }
 
  private:
   struct Proposal {
@@ -228,13 +236,6 @@ class Selection {
     });
   }
 
-  // Rows of closures that the best set has not.
-  double countPlaces(Hypothesis<D> hypothesis) const {
-    for (std::size_t e = 0; e < roles_.size(); ++e)
-      hypothesis.in[e] = hypothesis.in[e] && !best_.hypothesis.in[e] && roles_[e] == EdgeRole::Candidate;
-    return evaluator_->rowsInside(hypothesis);
-  }
-
   // Closures between parts that the best set has not.
   std::size_t countLinking(const Hypothesis<D>& hypothesis) const {
     std::size_t linking = 0;
@@ -274,10 +275,6 @@ class Selection {
                           (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
     if (likelier || forced) contract(made.hypothesis);
     if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
-    if (is_new_slip && countPlaces(made.hypothesis) < kLeastPlaces) {
-      has_rival_slip_ = true;
-      return false;
-    }
     best_ = std::move(made);
     return true;
   }
@@ -477,7 +474,7 @@ class Selection {
   std::size_t candidates_ = 0, between_ = 0;
   std::vector<int> parts_;    // by pose, what odometry holds together
   std::vector<char> barred_;  // by edge: joins parts that too few closures agree on
-  bool contested_ = false, unweighed_ = false, has_rival_slip_ = false;
+  bool contested_ = false, unweighed_ = false;
   std::optional<CoreGraph<D>> core_;  // of a graph beyond kMostPoses
   std::unique_ptr<HypothesisEvaluator<D>> evaluator_;
   Hypothesis<D> odometry_;
