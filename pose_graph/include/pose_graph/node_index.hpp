@@ -16,8 +16,8 @@ struct ChainStep {
   bool joins = true;  ///< false: the chain is broken here; the rest is nothing then
   Edge<3> edge;       ///< but for its numbers
   TangentMatrix<3> covariance = TangentMatrix<3>::Zero();  ///< inverse of its information
-  bool slipped = false;  ///< closures contradict it: `edge` is the motion they give, with next to no information
-  bool invertible = true;                                 ///< whether there is one: else the step is no link of a chain
+  bool slipped = false;    ///< closures contradict it: `edge` is the motion they give, with next to no information
+  bool invertible = true;  ///< whether there is one: else the step is no link of a chain
   TangentMatrix<3> own_noise = TangentMatrix<3>::Zero();  ///< of the pose it ends at (PoseGraph::ownNoise)
 };
 

@@ -108,7 +108,7 @@ struct Relaxed {
     std::vector<Closure> causing_edges;  ///< as the reason has it
   };
   std::optional<Correction> correction;
-  bool needs_batch = false;  ///< update() verified closures one by one: only relax() weighs sets of them
+  bool needs_batch = false;   ///< update() verified closures one by one: only relax() weighs sets of them
   SelectionReport selection;  ///< of the last batch
   /// A step of odometry that all closures contradict: it counts next to nothing, and follows the closures.
   struct Slip {

@@ -94,13 +94,14 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
 
 /// relaxRobust() and, where that rejects many closures, finds the information far off or sees several sessions, its
 /// alternatives: the same with the information of odometry or of closures scaled, with steps of odometry that slipped
-/// taken out, and with sessions joined by closures that agree with each other, at least three and more than chance
-/// explains. The set with the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of
-/// them: where no set is likelier by a factor of 1000, no closure is accepted. Edges that are the same to the last bit
-/// count once. Where the variances of odometry and closures are off by more than a factor of 9 against each other, by
-/// evidence, the poses are those of the information put right. Of graphs beyond 200 000 poses
-/// the selection of relaxRobust() alone is weighed against odometry, by the core that their chains leave, or not at all
-/// where it is as large (SelectionReport::unweighed).
+/// taken out, and with sessions joined by closures that agree with each other, two of different rows at least and more
+/// than chance explains, or by all closures where none disagrees, which is a rival if they are only two. The set with
+/// the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of them: where no set is
+/// likelier by a factor of 1000, no closure is accepted. Edges that are the same to the last bit count once. Where the
+/// variances of odometry and closures are off by more than a factor of 9 against each other, by evidence, the poses are
+/// those of the information put right. Of graphs beyond 200 000 poses the selection of relaxRobust() alone is weighed
+/// against odometry, by the core that their chains leave, or not at all where it is as large
+/// (SelectionReport::unweighed).
 template <int D>
 RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const SolveOptions& options);

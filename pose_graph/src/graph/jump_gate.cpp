@@ -7,7 +7,6 @@
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/robust.hpp"
-#include "robust/session_links.hpp"
 
 namespace pose_graph {
 
@@ -58,22 +57,6 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
       if (static_cast<std::size_t>(other) >= chains)
         closure.contradicted_by.push_back(ids[static_cast<std::size_t>(other) - chains]);
   }
-}
-
-bool acceptsAll(const RobustSolution<3>& selected) {
-  return std::all_of(selected.edges.begin(), selected.edges.end(),
-                     [](const EdgeAssessment& edge) { return edge.weight > 0.0; });
-}
-
-// The selection of `relax`. Sessions that few closures join, too few to be weighed against chance, are joined where all
-// closures agree.
-RobustSolution<3> select(const Problem<3>& problem, const std::vector<EdgeRole>& roles, const SolveOptions& options) {
-  RobustSolution<3> selected = relaxSelected(problem, roles, options);
-  const std::vector<int> parts = sessionParts(problem, roles);
-  if (acceptsAll(selected) || std::all_of(parts.begin(), parts.end(), [&](int part) { return part == parts.front(); }))
-    return selected;
-  RobustSolution<3> plain = relaxRobust(problem, roles, options);
-  return acceptsAll(plain) ? plain : selected;
 }
 
 // A step that slipped takes over the motion that the closures give.
@@ -171,7 +154,7 @@ Assessment assess(Problem<3>& problem, const Parameters& parameters, const Solve
   const std::vector<EdgeRole> roles = assignRoles(chains, closures);
   Assessment result;
   if (parameters.robust) {
-    RobustSolution<3> selected = select(problem, roles, options);
+    RobustSolution<3> selected = relaxSelected(problem, roles, options);
     take(selected, chains, closures);
     result.selection = selected.selection;
     result.slipped = takeSlips(selected, chains, problem);

@@ -28,10 +28,17 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     report.rescaled = !report.undecided && selection.isRescaled();
   }
   const std::vector<char> stays = report.undecided ? selection.inUncontestedParts() : std::vector<char>();
-  Judgement<D> chosen = selection.take();
-  if (report.undecided) {
+  const bool takes_unopposed = selection.unopposed() && (report.undecided || selection.rejectsAny());
+  Judgement<D> chosen = takes_unopposed ? *selection.unopposed() : selection.take();
+  if (report.undecided || takes_unopposed) {
     factors = {};
     report.odometry_factor = report.closure_factor = 1.0;
+    report.rescaled = false;
+  }
+  if (takes_unopposed) {
+    report.has_rival = selection.isThinlyJoined();
+    report.undecided = false;
+  } else if (report.undecided) {
     for (std::size_t i = 0; i < stays.size(); ++i)
       if (!stays[i]) chosen.poses[i] = selection.odometryAlone().poses[i];
     for (const int pose : problem.fixed) chosen.poses[sz(pose)] = problem.poses[sz(pose)];

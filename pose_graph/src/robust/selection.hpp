@@ -49,26 +49,27 @@ class Selection {
   }
 
   void run() {
-    best_.judgement = judgeGraph(problem_, roles_);
+    best_.assessed = judgeGraph(problem_, roles_);
     if (candidates_ == 0) return;
-    if (problem_.poses.size() > kManyPoses && !isContested(best_.judgement)) return;
+    if (problem_.poses.size() > kManyPoses && !isContested(best_.assessed)) return;
     if (problem_.poses.size() > kMostPoses) {
       weighCore();
       return;
     }
     parts_ = sessionParts(problem_, roles_);
     for (std::size_t e = 0; e < roles_.size(); ++e) between_ += isBetween(e);
-    contested_ = isContested(best_.judgement) || between_ > 0;
+    contested_ = isContested(best_.assessed) || between_ > 0;
     evaluator_ = std::make_unique<HypothesisEvaluator<D>>(problem_, roles_);
     odometry_ = evaluator_->evaluateOdometry();
     weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
-    best_.hypothesis = hypothesisOver(best_.judgement, {});
+    best_.hypothesis = hypothesisOver(best_.assessed, {});
     evaluator_->evaluate(best_.hypothesis);
     contract(best_.hypothesis);
     weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
+    if (between_ > 0 && rejected(best_.assessed) == 0 && !isLoosened()) unopposed_ = best_.assessed;
     if (!contested_) {
       // A short slip costs few closures; one alone refutes no step.
-      if (rejected(best_.judgement) > 1) heal({});
+      if (rejected(best_.assessed) > 1) heal({});
       // False closures fit too where variances are stated far too large.
       if (!evaluator_->areAssertions() && evidence() < kDecisive)
         contested_ = propose({1.0 / kFar, 1.0 / kFar}, slips_);
@@ -93,12 +94,16 @@ class Selection {
     const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
     return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
   }
-  /// By pose, whether no closure of its part, which odometry holds together, is rejected or leads to another part.
+  /// Poses by all closures, where some join sessions, and none is rejected or fits because variances were enlarged: few
+  /// closures outweigh no chance.
+  const std::optional<Judgement<D>>& unopposed() const { return unopposed_; }
+  /// By pose, whether no closure of its part, which odometry holds together, is rejected or leads to another part. None
+  /// where closures fit because variances were enlarged.
   std::vector<char> inUncontestedParts() const {
     std::vector<char> uncontested(problem_.poses.size(), 0), contested_part = uncontested;
-    if (core_ || !contested_) return uncontested;
+    if (core_ || !contested_ || isLoosened()) return uncontested;
     for (std::size_t e = 0; e < roles_.size(); ++e) {
-      if (!isBetween(e) && best_.judgement.edges[e].verdict != urban_nav_core::ClosureVerdict::Rejected) continue;
+      if (!isBetween(e) && best_.assessed.edges[e].verdict != urban_nav_core::ClosureVerdict::Rejected) continue;
       contested_part[sz(parts_[sz(problem_.edges[e].from)])] = contested_part[sz(parts_[sz(problem_.edges[e].to)])] = 1;
     }
     for (std::size_t i = 0; i < uncontested.size(); ++i) uncontested[i] = !contested_part[sz(parts_[i])];
@@ -118,14 +123,16 @@ class Selection {
     return hasVariances() && beyond(found.odometry / found.closures, kContestedFactor) &&
            evaluator_->gainByFactors(best_.hypothesis) >= kDecisive;
   }
+  bool isThinlyJoined() const { return between_ < kLeastWeakLink; }
+  bool rejectsAny() const { return rejected(best_.assessed) > 0; }
   double evidence() const { return overOdometry(best_.hypothesis); }
   const Hypothesis<D>& odometryAlone() const { return odometry_; }
   const Hypothesis<D>& hypothesis() const { return best_.hypothesis; }
-  Judgement<D> take() { return std::move(best_.judgement); }
+  Judgement<D> take() { return std::move(best_.assessed); }
 
  private:
   struct Proposal {
-    Judgement<D> judgement;
+    Judgement<D> assessed;
     Hypothesis<D> hypothesis;
     std::vector<Slip<D>> slips;
     VarianceFactors grown_with;
@@ -158,6 +165,10 @@ class Selection {
   double overOdometry(const Hypothesis<D>& hypothesis) const {
     return hypothesis.log_evidence - hypothesis.by_contraction - odometry_.log_evidence;
   }
+  bool isLoosened() const {
+    const VarianceFactors& factors = best_.hypothesis.factors;
+    return std::max({best_.assessed.variance, factors.odometry, factors.closures}) > kContestedFactor;
+  }
   std::ptrdiff_t rejected(const Judgement<D>& judged) const {
     return std::count_if(judged.edges.begin(), judged.edges.end(), [](const EdgeAssessment& edge) {
       return edge.verdict == urban_nav_core::ClosureVerdict::Rejected;
@@ -169,7 +180,7 @@ class Selection {
   bool isContested(const Judgement<D>& judged) const {
     return candidates_ > 0 && (rejectsMany(judged) || beyond(judged.variance, kContestedFactor));
   }
-  bool takesNearlyAll() const { return !rejectsMany(best_.judgement) && evidence() >= kDecisive; }
+  bool takesNearlyAll() const { return !rejectsMany(best_.assessed) && evidence() >= kDecisive; }
 
   Hypothesis<D> hypothesisOver(const Judgement<D>& judged, const VarianceFactors& factors) const {
     Hypothesis<D> made;
@@ -254,15 +265,15 @@ class Selection {
     Proposal made;
     made.slips = slips;
     made.grown_with = factors;
-    made.judgement = judgeProposed(factors, forced ? std::numeric_limits<double>::infinity() : mostWork());
-    if (made.judgement.is_too_dense) return false;
+    made.assessed = judgeProposed(factors, forced ? std::numeric_limits<double>::infinity() : mostWork());
+    if (made.assessed.is_too_dense) return false;
     for (const Slip<D>& slip : slips) {
-      EdgeAssessment& edge = made.judgement.edges[sz(slip.edge)];
+      EdgeAssessment& edge = made.assessed.edges[sz(slip.edge)];
       edge.weight = 0.0;
       edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
       edge.reason = Reason::Slipped;
     }
-    made.hypothesis = hypothesisOver(made.judgement, factors);
+    made.hypothesis = hypothesisOver(made.assessed, factors);
     const bool known = std::any_of(weighed_.begin(), weighed_.end(),
                                    [&](const auto& other) { return other.second == made.hypothesis.in; });
     if (known && !forced && !is_doubtful_link) return false;
@@ -271,7 +282,7 @@ class Selection {
     const bool is_new_slip = slips.size() > best_.slips.size();
     const bool likelier = made.hypothesis.log_evidence >
                               best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
-                          (!is_new_slip || holdsWithout(made.judgement, slips)) &&
+                          (!is_new_slip || holdsWithout(made.assessed, slips)) &&
                           (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
     if (likelier || forced) contract(made.hypothesis);
     if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
@@ -291,10 +302,10 @@ class Selection {
     odometry_.poses = core_->expanded(odometry_.poses);
     Hypothesis<D> made;
     for (std::size_t i = 0; i < core_->problem().poses.size(); ++i)
-      made.poses.push_back(best_.judgement.poses[sz(core_->pose(static_cast<int>(i)))]);
+      made.poses.push_back(best_.assessed.poses[sz(core_->pose(static_cast<int>(i)))]);
     for (std::size_t e = 0; e < core_->problem().edges.size(); ++e) {
       const int edge = core_->edge(static_cast<int>(e));
-      made.in.push_back(edge < 0 || best_.judgement.edges[sz(edge)].weight > 0.0);
+      made.in.push_back(edge < 0 || best_.assessed.edges[sz(edge)].weight > 0.0);
     }
     core_->expanded(made.poses);
     core_->relinearise();
@@ -383,7 +394,7 @@ class Selection {
     const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
     std::vector<char> in = best_.hypothesis.in;
     in.resize(proposed_roles_.size(), 1);
-    if (rejected(best_.judgement) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
+    if (rejected(best_.assessed) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
     Considered some = considerWitnessed(scaled);
     std::vector<char> considered = std::move(some.witnessed), all(scaled.edges.size(), 1);
     const AcceptedGraph<D> graph(scaled);
@@ -419,7 +430,7 @@ class Selection {
   }
 
   void rescale() {
-    if (!isContested(best_.judgement) && !best_.hypothesis.factors.areBeyond(kContestedFactor)) return;
+    if (!isContested(best_.assessed) && !best_.hypothesis.factors.areBeyond(kContestedFactor)) return;
     const auto try_with = [&](const VarianceFactors& factors) {
       if (!takesNearlyAll() && factors.odometry <= evaluator_->largestOdometryFactor()) propose(factors, slips_);
     };
@@ -447,7 +458,7 @@ class Selection {
     const VarianceFactors& found = best_.hypothesis.factors;
     const double far = kFar * std::min(1.0, std::max(found.odometry, found.closures));
     std::size_t near = 0;
-    for (const EdgeAssessment& edge : best_.judgement.edges)
+    for (const EdgeAssessment& edge : best_.assessed.edges)
       near += edge.verdict == urban_nav_core::ClosureVerdict::Rejected &&
               edge.chi2 <= far * thresholds.limit[sz(std::max(1, edge.dof))];
     return static_cast<double>(near) > kContestedShare * static_cast<double>(candidates_);
@@ -475,6 +486,7 @@ class Selection {
   std::vector<int> parts_;    // by pose, what odometry holds together
   std::vector<char> barred_;  // by edge: joins parts that too few closures agree on
   bool contested_ = false, unweighed_ = false;
+  std::optional<Judgement<D>> unopposed_;
   std::optional<CoreGraph<D>> core_;  // of a graph beyond kMostPoses
   std::unique_ptr<HypothesisEvaluator<D>> evaluator_;
   Hypothesis<D> odometry_;
