@@ -55,7 +55,7 @@ struct SelectionReport {
   /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
   double odometry_factor = 1.0, closure_factor = 1.0;
   /// Whether the poses are those of the information put right: the factors differ from each other by more than 9, and
-  /// are likelier than the variances stated by a factor of 1000.
+  /// are likelier than the variances stated by a factor of 1000. Not where the set has a rival.
   bool rescaled = false;
 };
 

@@ -96,8 +96,8 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
   }
   // More than odometry is trusted to be wrong by makes false closures fit too: that is for the selection to weigh.
   const double begin = batch.selection.rescaled ? batch.selection.odometry_factor : 1.0;
-  const double largest = batch.parameters.robust ? std::max(kLargestVariance, batch.selection.odometry_factor)
-                                                 : std::numeric_limits<double>::infinity();
+  const double largest =
+      batch.parameters.robust ? std::max(kLargestVariance, begin) : std::numeric_limits<double>::infinity();
   batch.odometry_variance =
       takeOdometryVariance(batch.problem, chains, weights, wanted, batch.solution, largest, begin);
   if (batch.parameters.gps) takeFixes(batch, chains, weights, wanted);

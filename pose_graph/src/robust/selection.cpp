@@ -25,7 +25,7 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     if (selection.hasVariances()) factors = selection.hypothesis().factors;
     report.odometry_factor = factors.odometry;
     report.closure_factor = factors.closures;
-    report.rescaled = !report.undecided && selection.isRescaled();
+    report.rescaled = !report.undecided && !report.has_rival && selection.isRescaled();
   }
   const std::vector<char> stays = report.undecided ? selection.inUncontestedParts() : std::vector<char>();
   const bool takes_unopposed = selection.unopposed() && (report.undecided || selection.rejectsAny());
