@@ -23,6 +23,14 @@ urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
   return options;
 }
 
+/// Returns the line of a finding that `map` can repair; empty if it cannot.
+std::string repairLine(const urban_nav_input::Finding& finding) {
+  if (finding.options.empty()) return "";
+  std::string line = "    -> urban_nav map ...";
+  for (const std::string& option : finding.options) line += " " + option;
+  return line + "\n";
+}
+
 std::string toText(const urban_nav_input::Diagnosis& diagnosis) {
   std::string text = diagnosis.name + (diagnosis.kind.empty() ? "" : ": " + diagnosis.kind) + "\n";
   for (const std::string& line : diagnosis.contents) text += "  " + line + "\n";
@@ -32,7 +40,7 @@ std::string toText(const urban_nav_input::Diagnosis& diagnosis) {
             urban_nav_core::formatNumber(diagnosis.rate_hz, 3) + " Hz\n";
   for (const urban_nav_input::Finding& finding : diagnosis.findings)
     text += std::string("  ") + (finding.unusable ? "UNUSABLE " : "") + toString(finding.kind) + ": " + finding.text +
-            "\n    -> " + finding.remedy + "\n";
+            "\n    -> " + finding.remedy + "\n" + repairLine(finding);
   if (diagnosis.findings.empty()) text += "  no defect found\n";
   return text;
 }
@@ -60,6 +68,8 @@ Json toJson(const std::vector<urban_nav_input::Diagnosis>& all) {
       entry["text"] = finding.text;
       entry["remedy"] = finding.remedy;
       entry["unusable"] = finding.unusable;
+      Json& options = entry["options"] = Json::array();
+      for (const std::string& option : finding.options) options.append(option);
       findings.append(entry);
     }
   }

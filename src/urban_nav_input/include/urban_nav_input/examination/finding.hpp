@@ -16,6 +16,8 @@ struct Finding {
   std::string text;       ///< what is wrong, with its numbers
   std::string remedy;     ///< what repairs it: an option, a command, or what to change on the robot
   bool unusable = false;  ///< nothing can be mapped while this is so
+  /// Arguments of `map` that repair it on this recording; empty: only a new recording or a number of the user does.
+  std::vector<std::string> options = {};
 };
 
 /// Returns the findings in what the reader of an input states in sentences (SourceInfo::notes, Source::closingFaults).
