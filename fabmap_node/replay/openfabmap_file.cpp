@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fabmap_node/replay/openfabmap_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
 
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace fabmap_node {
@@ -17,8 +20,13 @@ namespace {
 const char* const kMatrixFile =
     "a YAML file of OpenCV (cv::FileStorage), or such a file with .gz, that holds one matrix";
 
-/// The first matrix of a file, as double.
-cv::Mat readMatrix(const std::string& path) {
+struct NamedMatrix {
+  std::string name;
+  cv::Mat values;  // double
+};
+
+/// The first matrix of a file.
+NamedMatrix readMatrix(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw UserError(path, "no such file", kMatrixFile);
   try {
     const cv::FileStorage storage(path, cv::FileStorage::READ);
@@ -29,7 +37,7 @@ cv::Mat readMatrix(const std::string& path) {
         if (matrix.empty() || matrix.channels() != 1 || matrix.dims != 2) continue;
         matrix.convertTo(matrix, CV_64F);
         if (!cv::checkRange(matrix)) throw UserError(path, "a number that is not finite", "finite numbers");
-        return matrix;
+        return {entry.name(), matrix};
       }
   } catch (const UserError&) {
     throw;
@@ -39,10 +47,32 @@ cv::Mat readMatrix(const std::string& path) {
   throw UserError(path, "holds no matrix", kMatrixFile);
 }
 
+/// Refuses matrices of descriptors, as vocabularies hold them, where counts of words are expected: negative numbers,
+/// fractions above 1, and names of vocabularies.
+void checkCounts(const NamedMatrix& bags, const std::string& path) {
+  constexpr const char* kCounts = "how often each word (column) was seen in each image (row), or shares up to 1";
+  std::string name = bags.name;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.find("vocab") != std::string::npos || name.find("descriptor") != std::string::npos)
+    throw UserError(path, "`" + bags.name + "` is a vocabulary (descriptors of words), not counts of words", kCounts);
+  for (int i = 0; i < bags.values.rows; ++i)
+    for (int q = 0; q < bags.values.cols; ++q) {
+      const double value = bags.values.at<double>(i, q);
+      if (value >= 0.0 && (value <= 1.0 || value == std::floor(value))) continue;
+      throw UserError(path,
+                      "row " + std::to_string(i) + ", word " + std::to_string(q) + " = " +
+                          urban_nav_core::printNumber(value) + ": descriptors, as of a vocabulary, not counts of words",
+                      kCounts);
+    }
+}
+
 }  // namespace
 
 WordSets readBagsOfWords(const std::string& path) {
-  const cv::Mat bags = readMatrix(path);
+  const NamedMatrix named = readMatrix(path);
+  checkCounts(named, path);
+  const cv::Mat& bags = named.values;
   WordSets sets;
   sets.vocabulary_size = static_cast<std::size_t>(bags.cols);
   for (int i = 0; i < bags.rows; ++i) {
@@ -55,7 +85,7 @@ WordSets readBagsOfWords(const std::string& path) {
 }
 
 ChowLiuTree readTree(const std::string& path) {
-  const cv::Mat rows = readMatrix(path);
+  const cv::Mat rows = readMatrix(path).values;
   if (rows.rows != 4) throw UserError(path, "a matrix of " + std::to_string(rows.rows) + " rows", "4, those of a tree");
   ChowLiuTree tree;
   for (int q = 0; q < rows.cols; ++q) {

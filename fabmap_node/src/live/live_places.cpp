@@ -15,8 +15,7 @@ using urban_nav_store::Session;
 namespace {
 
 std::string readNamedModel(const Parameters& parameters) {
-  return parameters.model == "default" ? std::string(defaultModelBytes())
-                                       : urban_nav_core::readTextFile(parameters.model);
+  return parameters.model == "default" ? std::string(defaultModelBytes()) : urban_nav_core::readBytes(parameters.model);
 }
 
 /// Numbers are published: new ones are appended.

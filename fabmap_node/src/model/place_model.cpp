@@ -9,6 +9,7 @@
 #include "fabmap_node/model/word_bytes.hpp"
 #include "model/number_bytes.hpp"
 #include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/io/file_kind.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -150,7 +151,10 @@ PlaceModel parseModel(std::string_view bytes, const std::string& name) {
   try {
     state = urban_nav_core::unseal(kModelName, kOldestVersion, kOpencvVersion, bytes);
   } catch (const urban_nav_core::Error& error) {
-    throw DataError(name, error.what(), "a whole model written by places train");
+    const std::string foreign = urban_nav_core::describeForeignContent(bytes);
+    throw DataError(name, foreign.empty() ? error.what() : foreign,
+                    foreign.empty() ? "a whole model written by places train"
+                                    : "`default`, or a model written by places train: it holds its own vocabulary");
   }
   if (state.version == kOpencvVersion)
     throw DataError(name, "a model of OpenCV's features (sift or orb)",
@@ -158,7 +162,7 @@ PlaceModel parseModel(std::string_view bytes, const std::string& name) {
   return parseVersion(state.content, state.version, name);
 }
 
-PlaceModel readModel(const std::string& path) { return parseModel(urban_nav_core::readTextFile(path), path); }
+PlaceModel readModel(const std::string& path) { return parseModel(urban_nav_core::readBytes(path), path); }
 
 std::string modelHash(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a

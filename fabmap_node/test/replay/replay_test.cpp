@@ -54,6 +54,23 @@ TEST_F(Replay, ReadsBagsAndGivesADistributionForEachQuery) {
   }
 }
 
+TEST_F(Replay, RefusesAVocabularyInPlaceOfCounts) {
+  const std::string head = "%YAML:1.0\n---\n",
+                    matrix = ": !!opencv-matrix\n   rows: 1\n   cols: 2\n   dt: f\n   data: ";
+  for (const std::string& text :
+       {head + "Vocabulary" + matrix + "[ 1., 2. ]\n", head + "words" + matrix + "[ 0.1, -0.2 ]\n",
+        head + "words" + matrix + "[ 0., 17.5 ]\n"}) {
+    try {
+      readBagsOfWords(write("bow.yml", text));
+      FAIL() << text;
+    } catch (const urban_nav_core::UserError& error) {
+      EXPECT_NE(std::string(error.what()).find("not counts of words"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(readBagsOfWords(write("bow.yml", head + "counts" + matrix + "[ 0., 17. ]\n")).observations.front(),
+            WordSet{1});
+}
+
 TEST_F(Replay, TreesSurviveTheFile) {
   const ChowLiuTree tree = learnChowLiuTree(readBagsOfWords(write("bow.yml", kBags)));
   for (const char* const name : {"tree.yml", "tree.yml.gz"}) {

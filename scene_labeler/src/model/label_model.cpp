@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/io/file_kind.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -85,13 +86,15 @@ LabelModel parseModel(std::string_view bytes, const std::string& name) {
     archive.finish();
     model.place_novelty = PlaceNovelty(model.features, model.bins, model.samples);
   } catch (const urban_nav_core::DataError& error) {
-    throw urban_nav_core::UserError(name, error.what(), "a model of `urban_nav labels train`");
+    const std::string foreign = urban_nav_core::describeForeignContent(bytes);
+    throw urban_nav_core::UserError(name, foreign.empty() ? error.what() : foreign,
+                                    "a model of `urban_nav labels train`");
   }
   return model;
 }
 
 LabelModel readModel(const std::string& path) {
-  return path == "default" ? defaultModel() : parseModel(urban_nav_core::readTextFile(path), path);
+  return path == "default" ? defaultModel() : parseModel(urban_nav_core::readBytes(path), path);
 }
 
 std::string modelDigest(std::string_view bytes) {

@@ -53,7 +53,7 @@ void feedRead(RowDecoder& decoder, ByteView bytes, TimeNs time, int chunk, std::
 
 DeviceCounters decodeFile(const DecodeJob& job, const Parameters& parameters) {
   rowColumns(job.kind);  // refuses an unknown kind before any file is read
-  const std::string text = urban_nav_core::readTextFile(job.input);
+  const std::string text = urban_nav_core::readBytes(job.input);
   const ByteView bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   std::vector<RecordedRead> reads;
   if (!job.arrivals.empty()) reads = readArrivals(job.arrivals);

@@ -34,8 +34,14 @@ Distortion Distortion::named(const std::string& model, const std::vector<double>
   if (!std::all_of(coefficients.begin(), coefficients.end(), [](double k) { return std::isfinite(k); })) {
     throw UserError(where, "a distortion coefficient that is no number", "finite coefficients");
   }
-  const bool plumb_bob = model == "plumb_bob" || model == "radial-tangential" || model == "radtan";
-  const bool rational = model == "rational_polynomial";
+  const std::size_t count = coefficients.size();
+  if (model.empty() && count != 5 && count != 8 && count != 14)
+    throw UserError(where, "distortion_model is empty, with " + std::to_string(count) + " coefficients",
+                    "plumb_bob, rational_polynomial or equidistant");
+  // Drivers that set no name: five coefficients are those of plumb_bob, more those of the rational polynomial.
+  const bool plumb_bob =
+      (model.empty() && count == 5) || model == "plumb_bob" || model == "radial-tangential" || model == "radtan";
+  const bool rational = (model.empty() && count > 5) || model == "rational_polynomial";
   if (!plumb_bob && !rational && !fisheye) {
     throw UserError(where, "distortion model " + model,
                     "plumb_bob, radial-tangential, rational_polynomial, equidistant (rectify others before)");

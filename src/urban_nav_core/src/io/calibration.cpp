@@ -45,7 +45,9 @@ Pose requireExtrinsics(const YamlNode& root, const std::string& file) {
   return Pose(Matrix3d(M.topLeftCorner<3, 3>()), Vector3d(M.topRightCorner<3, 1>()));
 }
 
-double requireNotNegative(const YamlNode& root, std::string_view key, const std::string& file) {
+/// Returns a number that no result needs; 0 without the key.
+double findNotNegative(const YamlNode& root, std::string_view key, const std::string& file) {
+  if (root.find(key) == nullptr) return 0.0;
   const double value = requireNumber(root, key, file);
   if (value < 0.0)
     throw UserError(atLine(file, require(root, key, file).line), std::string(key) + " = " + printNumber(value),
@@ -170,7 +172,7 @@ EurocCamera parseEurocCamera(std::string_view text, const std::string& name) {
   const YamlNode root = parseYaml(text, name);
   EurocCamera camera;
   camera.T_body_camera = requireExtrinsics(root, name);
-  camera.rate_hz = requireNotNegative(root, "rate_hz", name);
+  camera.rate_hz = findNotNegative(root, "rate_hz", name);
   const auto size = requireNumbers(root, "resolution", 2, name);
   camera.info.width = requireSize(require(root, "resolution", name), size[0], "resolution", name);
   camera.info.height = requireSize(require(root, "resolution", name), size[1], "resolution", name);
@@ -189,11 +191,11 @@ EurocImu parseEurocImu(std::string_view text, const std::string& name) {
   const YamlNode root = parseYaml(text, name);
   EurocImu imu;
   imu.T_body_imu = requireExtrinsics(root, name);
-  imu.rate_hz = requireNotNegative(root, "rate_hz", name);
-  imu.gyroscope_noise = requireNotNegative(root, "gyroscope_noise_density", name);
-  imu.gyroscope_walk = requireNotNegative(root, "gyroscope_random_walk", name);
-  imu.accelerometer_noise = requireNotNegative(root, "accelerometer_noise_density", name);
-  imu.accelerometer_walk = requireNotNegative(root, "accelerometer_random_walk", name);
+  imu.rate_hz = findNotNegative(root, "rate_hz", name);
+  imu.gyroscope_noise = findNotNegative(root, "gyroscope_noise_density", name);
+  imu.gyroscope_walk = findNotNegative(root, "gyroscope_random_walk", name);
+  imu.accelerometer_noise = findNotNegative(root, "accelerometer_noise_density", name);
+  imu.accelerometer_walk = findNotNegative(root, "accelerometer_random_walk", name);
   return imu;
 }
 

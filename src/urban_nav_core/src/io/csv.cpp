@@ -2,85 +2,46 @@
 #include "urban_nav_core/io/csv.hpp"
 
 #include <algorithm>
-#include <iterator>
 
+#include "urban_nav_core/io/column_names.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
-namespace {
-
-// One cell from `at` on; leaves `at` on the separator or the end.
-std::string takeCell(std::string_view line, std::size_t& at, const std::string& where) {
-  while (at < line.size() && line[at] == ' ') ++at;
-  if (at >= line.size() || line[at] != '"') {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    const std::string cell(trimmed(line.substr(at, end - at)));
-    at = end;
-    return cell;
-  }
-  std::string cell;
-  for (++at; at < line.size(); ++at) {
-    const bool quote = line[at] == '"';
-    if (quote && at + 1 < line.size() && line[at + 1] == '"') {
-      ++at;
-    } else if (quote) {
-      break;
-    }
-    cell += line[at];
-  }
-  if (at >= line.size()) throw UserError(where, "a quote that does not end", "");
-  for (++at; at < line.size() && line[at] != ','; ++at) {
-    if (line[at] != ' ') throw UserError(where, "text after a quote", "a comma");
-  }
-  return cell;
-}
-
-std::vector<std::string> splitLine(std::string_view line, const std::string& where) {
-  std::vector<std::string> cells;
-  std::size_t at = 0;
-  while (true) {
-    cells.push_back(takeCell(line, at, where));
-    if (at >= line.size()) return cells;
-    ++at;
-  }
-}
-
-}  // namespace
-
 CsvTable CsvTable::read(const std::string& path) { return parse(readTextFile(path), path); }
 
 CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
   CsvTable table;
   table.name_ = name;
-  forEachLine(text, [&table, &name](std::string_view line, int number) {
-    if (trimmed(line).empty()) return;
-    const std::string where = atLine(name, number);
-    if (table.header_.empty()) {
-      if (line.front() == '#') line.remove_prefix(1);
-      table.header_ = splitLine(line, where);
-      return;
-    }
-    std::vector<std::string> cells = splitLine(line, where);
-    if (cells.size() != table.header_.size()) {
-      throw UserError(where, std::to_string(cells.size()) + " cells",
-                      std::to_string(table.header_.size()) + ", as in the header");
-    }
-    std::move(cells.begin(), cells.end(), std::back_inserter(table.cells_));
-    table.lines_.push_back(number);
-  });
+  TextTable rows(text, name);
+  rows.requireHeader();
+  table.header_ = rows.header();
   if (table.header_.empty()) throw UserError(name, "is empty", "a header line and rows");
+  rows.forEachRow([&](const TableRow& row) {
+    if (row.cells.size() != table.header_.size())
+      throw UserError(rows.where(row), std::to_string(row.cells.size()) + " cells",
+                      std::to_string(table.header_.size()) + ", as in the header");
+    table.cells_.insert(table.cells_.end(), row.cells.begin(), row.cells.end());
+    table.lines_.push_back(row.line);
+  });
   return table;
 }
 
-bool CsvTable::has(std::string_view column) const {
-  return std::find(header_.begin(), header_.end(), column) != header_.end();
+std::optional<std::size_t> CsvTable::find(std::string_view name) const {
+  auto found = std::find(header_.begin(), header_.end(), name);
+  if (found == header_.end())
+    found = std::find_if(header_.begin(), header_.end(),
+                         [&](const std::string& each) { return plainName(each) == plainName(name); });
+  if (found == header_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - header_.begin());
 }
 
+bool CsvTable::has(std::string_view column) const { return find(column).has_value(); }
+
 std::size_t CsvTable::column(std::string_view name) const {
-  const auto found = std::find(header_.begin(), header_.end(), name);
-  if (found != header_.end()) return static_cast<std::size_t>(found - header_.begin());
+  if (const auto found = find(name)) return *found;
   std::string known;
   for (const std::string& each : header_) known += (known.empty() ? "" : ",") + each;
   throw UserError(name_, "has no column `" + std::string(name) + "`", "a header with it; found: " + known);
@@ -104,7 +65,9 @@ std::string printCsvRow(const std::vector<std::string>& cells) {
   std::string line;
   for (const std::string& cell : cells) {
     if (&cell != &cells.front()) line += ',';
-    const bool plain = cell.find_first_of(",\"\n") == std::string::npos && trimmed(cell).size() == cell.size();
+    const bool is_comment = &cell == &cells.front() && cell.find_first_of("#%/") == 0;
+    const bool plain =
+        !is_comment && cell.find_first_of(",\"\n") == std::string::npos && trimmed(cell).size() == cell.size();
     if (plain) {
       line += cell;
       continue;

@@ -2,11 +2,13 @@
 #include "urban_nav_core/io/kitti.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
@@ -58,10 +60,8 @@ void writeKitti(const std::string& path, const std::vector<Pose>& poses) { write
 
 std::vector<KittiMatrix> parseKittiMatrices(std::string_view text, const std::string& name) {
   std::vector<KittiMatrix> matrices;
-  forEachLine(text, [&](std::string_view line, int number) {
-    const auto words = splitBlanks(line);
-    if (!words.empty()) matrices.push_back(parseLine(words, atLine(name, number)));
-  });
+  const TextTable table(text, name);
+  table.forEachRow([&](const TableRow& row) { matrices.push_back(parseLine(row.cells, table.where(row))); });
   return matrices;
 }
 
@@ -84,17 +84,26 @@ std::optional<StampNs> parseTime(std::string_view word) {
 
 std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) {
   std::vector<StampNs> times;
-  forEachLine(text, [&](std::string_view line, int number) {
-    const std::string_view word = trimmed(line);
-    if (word.empty()) return;
-    const auto stamp = parseTime(word);
-    const std::string where = atLine(name, number);
-    if (!stamp) throw UserError(where, "`" + std::string(word) + "`", "seconds, one number a line");
-    if (!times.empty() && *stamp <= times.back())
+  forEachTime(text, name, [&times](std::string_view word, StampNs stamp, const std::string& where) {
+    if (!times.empty() && stamp <= times.back())
       throw UserError(where, std::string(word) + " is not later than the time before", "");
-    times.push_back(*stamp);
+    times.push_back(stamp);
   });
   return times;
+}
+
+void forEachTime(std::string_view text, const std::string& name,
+                 const std::function<void(std::string_view word, StampNs stamp, const std::string& where)>& time) {
+  forEachLine(text, [&](std::string_view line, int number) {
+    std::string word(trimmed(line));
+    if (word.empty() || word.front() == '#' || word.front() == '%') return;
+    if (word.find('.') == std::string::npos && std::count(word.begin(), word.end(), ',') == 1)
+      std::replace(word.begin(), word.end(), ',', '.');
+    const auto stamp = parseTime(word);
+    const std::string where = atLine(name, number);
+    if (!stamp) throw UserError(where, "`" + word + "`", "seconds, one number a line");
+    time(word, *stamp, where);
+  });
 }
 
 std::vector<StampNs> readTimes(const std::string& path) { return parseTimes(readTextFile(path), path); }

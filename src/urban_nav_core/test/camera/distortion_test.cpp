@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "urban_nav_core/types/error.hpp"
 
@@ -120,6 +121,24 @@ TEST(Distortion, Prints) {
   std::ostringstream text;
   text << Distortion() << "; " << kFolding;
   EXPECT_EQ(text.str(), "no distortion; k1 = -0.35, k2 = 0, p1 = 0, p2 = 0, k3 = 0");
+}
+
+TEST(Distortion, AnEmptyNameIsThatOfTheNumberOfCoefficients) {
+  const std::vector<double> five = {-0.2, 0.1, 0.001, 0.002, 0.03},
+                            eight = {-0.2, 0.1, 0.001, 0.002, 0.03, 0.1, 0.2, 0.3};
+  const Eigen::Vector2d p(0.3, -0.2);
+  for (const auto& [coefficients, name] :
+       {std::make_pair(five, "plumb_bob"), std::make_pair(eight, "rational_polynomial")}) {
+    const Distortion unnamed = Distortion::named("", coefficients, "c"),
+                     named = Distortion::named(name, coefficients, "c");
+    EXPECT_EQ(unnamed.distort(p).value(), named.distort(p).value()) << name;
+  }
+  try {
+    (void)Distortion::named("", {-0.2, 0.1, 0.001, 0.002}, "left.yaml");  // plumb_bob or a fisheye
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("distortion_model is empty"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

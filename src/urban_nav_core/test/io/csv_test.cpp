@@ -38,7 +38,7 @@ TEST(Csv, NamesFileLineAndColumn) {
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1\n", "t.csv"); }), "t.csv:2: 1 cells: allowed 2, as in the header");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\n", "t.csv"); }), "t.csv:2: a quote that does not end");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\"3\n", "t.csv"); }),
-            "t.csv:2: text after a quote: allowed a comma");
+            "t.csv:2: text after a quote: allowed a separator");
   EXPECT_EQ(catchError([] { CsvTable::parse("\n", "t.csv"); }), "t.csv: is empty: allowed a header line and rows");
 }
 
@@ -47,6 +47,7 @@ TEST(Csv, WhatIsPrintedReadsBack) {
   const CsvTable table = CsvTable::parse("a,b,c,d,e\n" + printCsvRow(cells), "t.csv");
   for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(table.text(0, i), cells[i]);
   EXPECT_EQ(printCsvRow({"1", "2"}), "1,2\n");
+  EXPECT_EQ(CsvTable::parse("a,b\n" + printCsvRow({"#1", "2"}), "t.csv").text(0, 0), "#1");  // no comment
 }
 
 TEST(Csv, Fuzzed) {

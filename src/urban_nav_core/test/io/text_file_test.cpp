@@ -25,6 +25,31 @@ TEST(TextFile, LinesCountFromOneWhateverTheirEnds) {
   EXPECT_EQ(toLines(""), Lines{});
 }
 
+TEST(TextFile, LinesOfOldMacintoshFilesEndInCarriageReturns) {
+  EXPECT_EQ(toLines("a\rb\r\rc"), (Lines{{"a", 1}, {"b", 2}, {"", 3}, {"c", 4}}));
+}
+
+std::string asUtf16(const std::u16string& text, bool is_big_endian, bool has_mark) {
+  std::string bytes;
+  for (const char16_t unit : (has_mark ? u"\uFEFF" : u"") + text) {
+    const char high = static_cast<char>(unit >> 8U), low = static_cast<char>(unit & 0xFFU);
+    bytes += {is_big_endian ? high : low, is_big_endian ? low : high};
+  }
+  return bytes;
+}
+
+TEST(TextFile, EveryEncodingGivesTheText) {
+  const std::string text = "x;\xC3\xA9;\xE2\x82\xAC;\xF0\x9F\x98\x80 and letters of ASCII\r\n1;2;3;4\r\n";
+  const std::u16string wide = u"x;\u00E9;\u20AC;\U0001F600 and letters of ASCII\r\n1;2;3;4\r\n";
+  EXPECT_EQ(decodeText(text), text);
+  EXPECT_EQ(decodeText("\xEF\xBB\xBF" + text), text);
+  for (const bool is_big_endian : {false, true})
+    for (const bool has_mark : {false, true}) EXPECT_EQ(decodeText(asUtf16(wide, is_big_endian, has_mark)), text);
+  EXPECT_EQ(decodeText(std::string("\0\0a\0b\0\0c", 8)), std::string("\0\0a\0b\0\0c", 8)) << "no text in UTF-16";
+  const std::string broken = asUtf16(u"half a pair \xD83D", false, true);
+  EXPECT_EQ(decodeText(broken), "half a pair \xEF\xBF\xBD");
+}
+
 TEST(TextFile, ReadsAllBytes) {
   const std::string path = (std::filesystem::temp_directory_path() / "urban_nav_text_file").string();
   for (const std::size_t size :
@@ -33,6 +58,7 @@ TEST(TextFile, ReadsAllBytes) {
     if (size > 1) content[size / 2] = '\0';
     writeAtomically(path, content);
     EXPECT_EQ(readTextFile(path), content) << size;
+    EXPECT_EQ(readBytes(path), content) << size;
   }
   std::filesystem::remove(path);
 }

@@ -62,10 +62,15 @@ TEST(Tum, PrintsItsLines) {
 TEST(Tum, NamesFileAndLine) {
   EXPECT_EQ(catchError([] { parseTum("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n", "t.tum"); }),
             "t.tum:2: 7 columns: allowed 8: stamp x y z qx qy qz qw");
-  EXPECT_EQ(catchError([] { parseTum("1 1 nan 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: `nan`: allowed a finite number");
+  EXPECT_EQ(catchError([] { parseTum("1 1 nan 3 0 0 0 1\n", "t.tum"); }),
+            "t.tum:1: a number that is missing or not finite, or a quaternion of zeros: allowed finite numbers");
   EXPECT_EQ(catchError([] { parseTum("x 1 1 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: stamp x: allowed seconds");
   EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 0\n", "t.tum"); }),
-            "t.tum:1: a quaternion of length 0: allowed length 1 (1 %)");
+            "t.tum:1: a number that is missing or not finite, or a quaternion of zeros: allowed finite numbers");
+  EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 2\n", "t.tum"); }),
+            "t.tum:1: a quaternion of length 2: allowed length 1 (1 %)");
+  EXPECT_EQ(catchError([] { parseTum("time,x,y,z\n1,2,3,4\n", "t.tum"); }),
+            "t.tum:1: no column qx in the header time, x, y, z: allowed stamp x y z qx qy qz qw");
   EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 1\n1 1 1 3 0 0 0 1\n", "t.tum"); }),
             "t.tum:2: stamp 1.000000000 is not later than the one before");
   EXPECT_NE(catchError([] { readTum("/nowhere.tum"); }), "");
@@ -87,6 +92,58 @@ TEST(Tum, RepairsAreCounted) {
     EXPECT_NEAR(static_cast<double>(trajectory[0].stamp - 1403715273262142976), 0.0, 1000.0);
     EXPECT_EQ(repairs.unit, unit);
   }
+}
+
+/// Variants of the two poses that other programs write.
+const std::vector<std::string> kVariants = {
+    "1.5 1 2 3 0 0 0 1\n2.5 4 5 6 0 0 1 0\n",
+    "\n# a comment of nine words that names no columns\n1.5\t1\t2\t3\t0\t0\t0\t1\n2.5\t4\t5\t6\t0\t0\t1\t0\n",
+    "# timestamp tx ty tz qx qy qz qw\n1.5 1 2 3 0 0 0 1\n2.5 4 5 6 0 0 1 0\n",
+    "stamp,x,y,z,qx,qy,qz,qw\n1.5,1,2,3,0,0,0,1\n2.5,4,5,6,0,0,1,0\n",
+    "timestamp, qw, qx, qy, qz, px, py, pz\n1.5, 1, 0, 0, 0, 1, 2, 3\n2.5, 0, 0, 0, 1, 4, 5, 6\n",
+    "1,5;1;2;3;0;0;0;1\n2,5;4;5;6;0;0;1;0\n",
+    "1,5 1,0 2,0 3,0 0,0 0,0 0,0 1,0\r\n2,5 4,0 5,0 6,0 0,0 0,0 1,0 0,0\r\n",
+    "sep=;\n1,5;1;2;3;0;0;0;1\n2,5;4;5;6;0;0;1;0\n",
+    "1.5,1,2,3,0,0,0,1,\r2.5,4,5,6,0,0,1,0,\r",
+    "\"time\",\"x\",\"y\",\"z\",\"qx\",\"qy\",\"qz\",\"qw\"\n\"1.5\",1,2,3,0,0,0,1\n2.5,4,5,6,0,0,1,0\n",
+    "%time,field.header.seq,field.header.stamp,field.pose.position.x,field.pose.position.y,field.pose.position.z,"
+    "field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z,field.pose.orientation.w\n"
+    "9,1,1.5,1,2,3,0,0,0,1\n10,2,2.5,4,5,6,0,0,1,0\n",
+    "#timestamp [s], p_RS_R_x [mm], p_RS_R_y [cm], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], "
+    "v_RS_R_x [m s^-1]\n1.5,1000,200,3,1,0,0,0,7\n2.5,4000,500,6,0,0,0,1,7\n",
+    "stamp,x,y,z,qx,qy,qz,qw\n1.5,1,2,3,0,0,0,1\n2,nan,nan,nan,nan,nan,nan,nan\n2.1,,,,,,,\n2.2,0,0,0,0,0,0,0\n"
+    "2.5,4,5,6,0,0,1,0\n"};
+
+TEST(Tum, VariantsOfOneTableGiveEqualPoses) {
+  for (const std::string& text : kVariants) {
+    TumRepairs repairs;
+    const Trajectory trajectory = parseTum(text, "t", &repairs);
+    ASSERT_EQ(trajectory.size(), 2U) << text;
+    EXPECT_EQ(trajectory[0].stamp, 1500000000) << text;
+    EXPECT_EQ(trajectory[1].stamp, 2500000000) << text;
+    EXPECT_TRUE(isApprox(trajectory[0].pose, Pose(Quaterniond::Identity(), {1, 2, 3}), 1e-12)) << text;
+    EXPECT_TRUE(isApprox(trajectory[1].pose, Pose(Quaterniond(0, 0, 0, 1), {4, 5, 6}), 1e-12)) << text;
+    EXPECT_EQ(repairs.not_finite, text == kVariants.back() ? 3U : 0U);
+  }
+}
+
+TEST(Tum, EurocsOrderIsThatOfItsFormat) {
+  TumRepairs repairs;
+  const Trajectory trajectory =
+      parseTum("1500000000,1,2,3,1,0,0,0,9,9,9\n2500000000,4,5,6,0,0,0,1,9,9,9\n", "t", &repairs, PoseOrder::Euroc);
+  ASSERT_EQ(trajectory.size(), 2U);
+  EXPECT_EQ(trajectory[1].stamp, 2500000000);
+  EXPECT_EQ(trajectory[1].pose.q().z(), 1.0);
+  EXPECT_EQ(trajectory[1].pose.t().z(), 6.0);
+}
+
+TEST(Tum, VariantsSurviveDamage) {
+  expectSurvives(testing::fuzzText(kVariants, [](const std::string& text) {
+    TumRepairs repairs;
+    for (const StampedPose& each : parseTum(text, "t", &repairs)) {
+      if (!each.pose.isFinite()) throw std::runtime_error("a pose that is not finite");
+    }
+  }));
 }
 
 TEST(Tum, Fuzzed) {

@@ -2,16 +2,50 @@
 #include "folder/euroc_table.hpp"
 
 #include <algorithm>
-#include <string_view>
+#include <cmath>
+#include <optional>
 #include <utility>
 
+#include "urban_nav_core/io/column_names.hpp"
+#include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_input {
 
 using urban_nav_core::UserError;
+
+namespace {
+
+constexpr double kLargestSeconds = 1e11;  // a stamp in s is smaller, in ns larger than 1e17 since 1973
+
+/// Returns the size in s of the unit of stamps: as the header states, else by their size. Seconds have decimals, or
+/// lie below the number of ns in three minutes.
+double guessUnitOfAll(const std::vector<std::string>& header, const std::vector<EurocRow>& rows) {
+  if (!header.empty())
+    if (const auto stated = urban_nav_core::readUnit(header.front())) return *stated;
+  double largest = 0.0;
+  bool has_decimals = false;
+  for (const EurocRow& row : rows) {
+    largest = std::max(largest, std::abs(urban_nav_core::parseNumber(row.cells.front()).value_or(0.0)));
+    has_decimals = has_decimals || row.cells.front().find('.') != std::string::npos;
+  }
+  return has_decimals && largest < kLargestSeconds ? 1.0 : 1e-9;
+}
+
+/// Returns a stamp in ns; nullopt for other text.
+std::optional<urban_nav_core::StampNs> parseStampIn(double unit, const std::string& text) {
+  if (unit == 1.0) return urban_nav_core::parseTime(text);
+  if (unit == 1e-9)
+    if (const auto whole = urban_nav_core::parseInteger(text)) return whole;
+  const auto number = urban_nav_core::parseNumber(text);
+  if (!number || std::abs(unit * *number) > 9.2e9) return std::nullopt;
+  return static_cast<urban_nav_core::StampNs>(std::llround(unit * 1e9 * *number));
+}
+
+}  // namespace
 
 double EurocRow::number(std::size_t cell) const {
   const auto value = urban_nav_core::parseNumber(cells[cell]);
@@ -22,23 +56,28 @@ double EurocRow::number(std::size_t cell) const {
 EurocTable readEurocTable(const std::string& path, std::size_t columns, const std::string& meaning) {
   EurocTable table;
   std::vector<EurocRow> rows;
-  bool header_allowed = true;
-  urban_nav_core::forEachLine(urban_nav_core::readTextFile(path), [&](std::string_view line, int number) {
-    const std::string_view text = urban_nav_core::trimmed(line);
-    if (text.empty() || text.front() == '#') return;
+  const std::string text = urban_nav_core::readTextFile(path);
+  const urban_nav_core::TextTable lines(text, path);
+  bool has_header = false;
+  lines.forEachRow([&](const urban_nav_core::TableRow& line) {
     EurocRow row;
-    row.where = urban_nav_core::atLine(path, number);
-    for (const std::string_view cell : urban_nav_core::splitAt(text, ','))
-      row.cells.emplace_back(urban_nav_core::trimmed(cell));
-    const auto stamp = urban_nav_core::parseInteger(row.cells.front());
-    if (!stamp && std::exchange(header_allowed, false)) return;
-    if (!stamp) throw UserError(row.where, "stamp `" + row.cells.front() + "`", "a whole number of ns");
-    if (row.cells.size() < columns) throw UserError(row.where, std::to_string(row.cells.size()) + " columns", meaning);
-    header_allowed = false;
-    row.stamp = *stamp;
-    if (!rows.empty() && row.stamp < rows.back().stamp) ++table.out_of_order;
+    row.where = lines.where(line);
+    row.cells.assign(line.cells.begin(), line.cells.end());
+    const bool is_header = !urban_nav_core::parseNumber(row.cells.front()) && rows.empty() && lines.header().empty();
+    if (is_header && !std::exchange(has_header, true)) return;  // whose width differs from the rows'
     rows.push_back(std::move(row));
   });
+  table.unit = guessUnitOfAll(lines.header(), rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EurocRow& row = rows[i];
+    const auto stamp = parseStampIn(table.unit, row.cells.front());
+    if (!stamp)
+      throw UserError(row.where, "stamp `" + row.cells.front() + "`",
+                      table.unit == 1.0 ? "seconds, as in other rows" : "a whole number of ns");
+    if (row.cells.size() < columns) throw UserError(row.where, std::to_string(row.cells.size()) + " columns", meaning);
+    row.stamp = *stamp;
+    if (i > 0 && row.stamp < rows[i - 1].stamp) ++table.out_of_order;
+  }
   std::stable_sort(rows.begin(), rows.end(), [](const EurocRow& a, const EurocRow& b) { return a.stamp < b.stamp; });
   for (EurocRow& row : rows) {
     if (!table.rows.empty() && table.rows.back().stamp == row.stamp) ++table.repeated;

@@ -22,9 +22,11 @@ struct EurocTable {
   std::vector<EurocRow> rows;    ///< in order of stamps, each later than the one before
   std::size_t repeated = 0;      ///< rows left out: an earlier one has their stamp
   std::size_t out_of_order = 0;  ///< rows that were sorted
+  double unit = 1e-9;            ///< s: of the stamps in the file
 };
 
-/// Reads a data.csv: with or without a header line, with comments (#), in any order. `meaning`: of the first `columns`
+/// Reads a data.csv in every form that TextTable reads: with or without a header line, in any order, with stamps in ns
+/// or, where they have decimals or the header states so, in s. `meaning`: of the first `columns`
 /// columns, for errors. Throws UserError with file and line.
 EurocTable readEurocTable(const std::string& path, std::size_t columns, const std::string& meaning);
 

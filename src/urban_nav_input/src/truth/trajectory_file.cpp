@@ -4,10 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "folder/text_lines.hpp"
-#include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
-#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -19,28 +18,20 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// EuRoC's ground truth as the lines of a TUM file, so that one reader judges stamps and order.
-std::string eurocLinesAsTum(const std::string& path) {
-  const urban_nav_core::CsvTable table = urban_nav_core::CsvTable::read(path);
-  if (table.header().size() < 8)
-    throw UserError(path, std::to_string(table.header().size()) + " columns",
-                    "EuRoC's: stamp in ns, position, quaternion w x y z");
-  std::string text;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (const std::size_t column : {0, 1, 2, 3, 5, 6, 7, 4}) text += table.text(row, column) + " ";
-    text += "\n";
-  }
-  return text;
-}
+constexpr std::size_t kKittiColumns = 12;
 
-void note(const urban_nav_core::TumRepairs& repairs, TrajectoryFile& file) {
+/// `is_stated`: the format or its header states the unit of the stamps.
+void note(const urban_nav_core::TumRepairs& repairs, bool is_stated, TrajectoryFile& file) {
   if (repairs.repeated > 0)
     file.notes.push_back(file.path + ": " + std::to_string(repairs.repeated) +
                          " poses left out: an earlier line has their stamp");
+  if (repairs.not_finite > 0)
+    file.notes.push_back(file.path + ": " + std::to_string(repairs.not_finite) +
+                         " lines left out: a number is missing or not finite (NaN), or the quaternion is zero");
   if (repairs.out_of_order > 0)
     file.notes.push_back(file.path + ": " + std::to_string(repairs.out_of_order) +
                          " lines are earlier than the one before: sorted by stamp");
-  if (repairs.unit < 1.0)
+  if (repairs.unit < 1.0 && !is_stated)
     file.notes.push_back(file.path + ": its stamps are taken as " +
                          (repairs.unit < 2e-9   ? "ns"
                           : repairs.unit < 2e-6 ? "us"
@@ -64,15 +55,15 @@ TrajectoryFile readTrajectory(const std::string& path) {
     throw UserError(path, "extension \"" + extension + "\"", allowed);
   file.stamped = extension == ".tum" || extension == ".csv";
   if (extension == ".txt") {
-    const std::vector<TextLine> lines = readLines(path);
-    file.stamped = !lines.empty() && urban_nav_core::splitBlanks(lines.front().text).size() == 8;
+    const std::string text = urban_nav_core::readTextFile(path);
+    file.stamped = urban_nav_core::TextTable(text, path).width() != kKittiColumns;
   }
   if (file.stamped) {
     urban_nav_core::TumRepairs repairs;
-    file.trajectory = extension == ".csv" ? urban_nav_core::parseTum(eurocLinesAsTum(path), path, &repairs)
-                                          : urban_nav_core::readTum(path, &repairs);
-    if (extension == ".csv") repairs.unit = 1.0;  // ns is the unit of that format
-    note(repairs, file);
+    const bool is_euroc = extension == ".csv";
+    file.trajectory = urban_nav_core::readTum(
+        path, &repairs, is_euroc ? urban_nav_core::PoseOrder::Euroc : urban_nav_core::PoseOrder::Tum);
+    note(repairs, is_euroc && repairs.unit == 1e-9, file);
     for (const urban_nav_core::StampedPose& pose : file.trajectory) file.poses.push_back(pose.pose);
   } else {
     for (const Pose& camera : urban_nav_core::readKitti(path)) file.poses.push_back(opticalToBody(camera));

@@ -52,14 +52,36 @@ TEST(ForeignInput, StoresCompressedBagsAndFoldersOfBagsAreNamed) {
   EXPECT_NE(refusal(folder.file("bags")).find("one.bag"), std::string::npos);
 }
 
-TEST(ForeignInput, AnEmptyOrUnknownFileIsNotMisnamed) {
+TEST(ForeignInput, FilesAreNamedByTheirContent) {
   const TemporaryFolder folder;
-  writeBytes(folder.file("empty"), "");
+  const std::string ros1("\x89MCAP0\r\n\x01\x10\0\0\0\0\0\0\0\x04\0\0\0ros1\x04\0\0\0test", 33);
+  writeBytes(folder.file("a.bag"), "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n");
+  writeBytes(folder.file("b.bag"), "");
+  writeBytes(folder.file("c.bag"),
+             std::string("SQLite format 3\0", 16) + "CREATE TABLE topics(id) CREATE TABLE messages(id)");
+  writeBytes(folder.file("d.bag"), ros1);
+  for (const auto& [name, words] : {std::make_pair("a.bag", "Git LFS"), std::make_pair("b.bag", "is empty"),
+                                    std::make_pair("c.bag", "ROS 2 bag"), std::make_pair("d.bag", "ROS 1 messages")})
+    EXPECT_NE(refusal(folder.file(name)).find(words), std::string::npos) << refusal(folder.file(name));
+  EXPECT_EQ(refusal(folder.file("d.bag")).find("ROS 2"), std::string::npos);
+}
+
+TEST(ForeignInput, FoldersOfRosbag2NameTheFileThatCannotBeRead) {
+  const TemporaryFolder folder;
+  const std::string head = "rosbag2_bagfile_information:\n  relative_file_paths:\n    - ";
+  for (const char* name : {"missing", "packed"}) std::filesystem::create_directory(folder.file(name));
+  writeBytes(folder.file("missing/metadata.yaml"), head + "run_0.db3\n  compression_mode: \"\"\n");
+  writeBytes(folder.file("packed/metadata.yaml"), head + "run_0.db3.zstd\n");
+  writeBytes(folder.file("packed/run_0.db3.zstd"), "bytes");
+  EXPECT_NE(refusal(folder.file("missing")).find("run_0.db3, which is not there"), std::string::npos);
+  EXPECT_NE(refusal(folder.file("packed")).find("compressed by zstd"), std::string::npos);
+}
+
+TEST(ForeignInput, AnUnknownFileIsNotMisnamed) {
+  const TemporaryFolder folder;
   writeBytes(folder.file("text"), "hello");
-  for (const char* name : {"empty", "text"}) {
-    EXPECT_FALSE(recogniseForeignInput(folder.file(name)));
-    EXPECT_NE(refusal(folder.file(name)).find("is no bag"), std::string::npos);
-  }
+  EXPECT_FALSE(recogniseForeignInput(folder.file("text")));
+  EXPECT_NE(refusal(folder.file("text")).find("is no bag"), std::string::npos);
 }
 
 }  // namespace

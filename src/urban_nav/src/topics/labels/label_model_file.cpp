@@ -8,7 +8,7 @@ namespace urban_nav {
 NamedLabelModel readLabelModel(const std::string& path) {
   if (path == "default")
     return {scene_labeler::defaultModel(), scene_labeler::modelDigest(scene_labeler::defaultModelBytes())};
-  const std::string bytes = urban_nav_core::readTextFile(path);
+  const std::string bytes = urban_nav_core::readBytes(path);
   return {scene_labeler::parseModel(bytes, path), scene_labeler::modelDigest(bytes)};
 }
 

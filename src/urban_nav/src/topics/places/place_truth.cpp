@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "urban_nav_core/io/column_names.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -25,9 +27,10 @@ constexpr double kCertain = 0.99, kNearlyCertain = 0.9;
 constexpr double kNearMetres = 2.0, kNearImages = 1.0;  // between a pose and an announced closure
 constexpr std::array<double, 12> kClaimLimits = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99, 1.0};
 
-bool isPositionTable(const std::string& text) {
-  const std::string header = text.substr(0, text.find('\n'));
-  return header.find(',') != std::string::npos && header.find("position") != std::string::npos;
+bool isPositionTable(const std::string& text, const std::string& path) {
+  const urban_nav_core::TextTable table(text, path);
+  return std::any_of(table.header().begin(), table.header().end(),
+                     [](const std::string& name) { return urban_nav_core::plainName(name) == "position"; });
 }
 
 PlaceTruth truthOfPositions(const std::string& text, const std::string& path, const PlaceQuery& query) {
@@ -108,7 +111,7 @@ void finishBins(PlaceScore& score) {
 PlaceTruth readPlaceTruth(const std::string& path, const PlaceQuery& query, const std::optional<double>& radius) {
   const std::string text = urban_nav_core::readTextFile(path);
   PlaceTruth truth;
-  if (isPositionTable(text)) {
+  if (isPositionTable(text, path)) {
     truth = truthOfPositions(text, path, query);
   } else {
     const urban_nav_core::Trajectory trajectory = urban_nav_core::parseTum(text, path);

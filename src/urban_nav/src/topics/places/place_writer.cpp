@@ -35,7 +35,7 @@ std::shared_ptr<const LoadedPlaceModel> loadPlaceModel(const fabmap_node::Parame
   auto loaded = std::make_shared<LoadedPlaceModel>();
   const bool is_default = parameters.model == "default";
   loaded->bytes =
-      is_default ? std::string(fabmap_node::defaultModelBytes()) : urban_nav_core::readTextFile(parameters.model);
+      is_default ? std::string(fabmap_node::defaultModelBytes()) : urban_nav_core::readBytes(parameters.model);
   loaded->hash = fabmap_node::modelHash(loaded->bytes);
   loaded->model = fabmap_node::parseModel(loaded->bytes, parameters.model);
   return loaded;

@@ -30,13 +30,13 @@ std::string printCameraInfo(const CameraInfo& info, const std::string& camera_na
 /// EuRoC's cam0/sensor.yaml: where the camera is on the body, and its raw calibration.
 struct EurocCamera {
   Pose T_body_camera;
-  double rate_hz = 0.0;
-  CameraInfo info;  ///< R is the identity, P is K: the pair is rectified later
+  double rate_hz = 0.0;  ///< 0 where the file does not state it
+  CameraInfo info;       ///< R is the identity, P is K: the pair is rectified later
 };
 EurocCamera readEurocCamera(const std::string& path);
 EurocCamera parseEurocCamera(std::string_view text, const std::string& name);
 
-/// EuRoC's imu0/sensor.yaml; noise densities in continuous time.
+/// EuRoC's imu0/sensor.yaml; noise densities in continuous time, 0 where the file does not state them.
 struct EurocImu {
   Pose T_body_imu;
   double rate_hz = 0.0;

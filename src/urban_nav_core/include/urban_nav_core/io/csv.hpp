@@ -2,15 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace urban_nav_core {
 
-/// A table of text with one header line, comma separated; cells may stand in double quotes ("" is a quote), over one
-/// line. Lines that are empty are skipped; a header that begins with # is taken without it (EuRoC). Every row has as
-/// many cells as the header.
+/// A table of text with one header line, in every form that TextTable reads. Every row has as many cells as the header.
+/// Columns are found by their exact name, else by its letters alone (plainName()).
 class CsvTable {
  public:
   /// Throw UserError with file and line.
@@ -31,6 +31,8 @@ class CsvTable {
   std::string where(std::size_t row) const;
 
  private:
+  std::optional<std::size_t> find(std::string_view column) const;
+
   std::string name_;
   std::vector<std::string> header_;
   std::vector<std::string> cells_;

@@ -13,4 +13,7 @@ std::string joined(const std::vector<std::string>& words);
 /// Returns whether the last characters of `text` are those of `end`.
 bool endsWith(std::string_view text, std::string_view end);
 
+/// Returns whether `a` comes before `b` in name order with the numbers in them by value: 2 before 10, 02 before 2.
+bool isNaturallyLess(std::string_view a, std::string_view b);
+
 }  // namespace urban_nav_core

@@ -7,12 +7,19 @@
 
 namespace urban_nav_core {
 
-/// The whole file, without a byte order mark. Throws UserError naming the path if it is missing, a folder, or cannot be
-/// read to its end.
+/// Returns the bytes of a file. Throws UserError naming the path if it is missing, a folder, or cannot be read to its
+/// end.
+std::string readBytes(const std::string& path);
+
+/// Returns the text of a file in UTF-8, whatever its encoding (decodeText()). Throws UserError as readBytes() does.
 std::string readTextFile(const std::string& path);
 
-/// Calls `line(text, number)` for every line, counted from 1, without its end (\n or \r\n); a last line without an end
-/// counts too.
+/// Returns bytes of UTF-8 or UTF-16 (of either byte order, with or without a byte order mark) as UTF-8 without the
+/// mark. Bytes that are neither, such as Latin-1, are returned unchanged.
+std::string decodeText(std::string bytes);
+
+/// Calls `line(text, number)` for every line, counted from 1, without its end: \n, \r\n, or \r in a text without \n.
+/// A last line without an end counts too.
 void forEachLine(std::string_view text, const std::function<void(std::string_view line, int number)>& line);
 
 }  // namespace urban_nav_core

@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "formats.hpp"
-#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/column_names.hpp"
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
@@ -13,52 +14,51 @@ namespace {
 
 constexpr std::size_t kLargestTable = std::size_t{4} << 30U;  // bytes, unpacked
 
-/// Columns of a CSV file whose first line that is not empty is the header.
-class CsvColumns {
- public:
-  CsvColumns(std::string name, const std::vector<std::string>& wanted)
-      : name_(std::move(name)), wanted_(wanted), columns_(wanted.size()), places_(wanted.size()) {}
+/// Axes are found in all spellings of x, y, z; other columns by their names.
+std::optional<std::size_t> findWanted(const std::vector<std::string>& header, const std::string& wanted) {
+  const auto exact = std::find(header.begin(), header.end(), wanted);
+  if (exact != header.end()) return static_cast<std::size_t>(exact - header.begin());
+  const auto quantity = wanted.size() == 1 ? readQuantity(wanted) : std::nullopt;
+  if (quantity) return findColumn(header, *quantity);
+  const auto found = std::find_if(header.begin(), header.end(),
+                                  [&](const std::string& name) { return plainName(name) == plainName(wanted); });
+  if (found == header.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - header.begin());
+}
 
-  void addLine(std::string_view line, int number) {
-    if (trimmed(line).empty()) return;
-    const std::vector<std::string_view> cells = splitAt(line, ',');
-    if (width_ == 0) return addHeader(cells);
-    if (cells.size() != width_)
-      throw UserError(atLine(name_, number), std::to_string(cells.size()) + " cells",
-                      std::to_string(width_) + ", as many as the header has");
-    for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      if (!columns_[i]) continue;
-      const auto value = cloud_formats::parseCoordinate(cells[places_[i]]);
-      if (!value)
-        throw UserError(atLine(name_, number), wanted_[i] + " = `" + std::string(cells[places_[i]].substr(0, 40)) + "`",
-                        "a number");
-      columns_[i]->push_back(*value);
-    }
+NumberColumns parseTextColumns(std::string_view content, const std::string& name,
+                               const std::vector<std::string>& wanted) {
+  TextTable table(content, name);
+  table.requireHeader();
+  NumberColumns columns(wanted.size());
+  std::vector<std::size_t> places(wanted.size());
+  std::vector<double> units(wanted.size(), 1.0);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto found = findWanted(table.header(), wanted[i]);
+    if (!found) continue;
+    places[i] = *found;
+    units[i] = readUnit(table.header()[*found]).value_or(1.0);
+    columns[i].emplace();
   }
-  NumberColumns take() { return std::move(columns_); }
-
- private:
-  void addHeader(const std::vector<std::string_view>& cells) {
-    width_ = cells.size();
-    for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      const auto found = std::find(cells.begin(), cells.end(), wanted_[i]);
-      if (found == cells.end()) continue;
-      places_[i] = static_cast<std::size_t>(found - cells.begin());
-      columns_[i].emplace();
+  table.forEachRow([&](const TableRow& row) {
+    if (row.cells.size() != table.header().size())
+      throw UserError(table.where(row), std::to_string(row.cells.size()) + " cells",
+                      std::to_string(table.header().size()) + ", as many as the header has");
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!columns[i]) continue;
+      const std::string_view cell = row.cells[places[i]];
+      const auto value = parseCell(cell);
+      if (!value) throw UserError(table.where(row), wanted[i] + " = " + quotedCell(cell), "a number");
+      columns[i]->push_back(units[i] * *value);
     }
-  }
-
-  std::string name_;
-  const std::vector<std::string>& wanted_;
-  NumberColumns columns_;
-  std::vector<std::size_t> places_;
-  std::size_t width_ = 0;
-};
+  });
+  return columns;
+}
 
 }  // namespace
 
 NumberColumns readCloudColumns(const std::string& path, const std::vector<std::string>& wanted) {
-  return parseCloudColumns(readTextFile(path), path, wanted);
+  return parseCloudColumns(readBytes(path), path, wanted);
 }
 
 NumberColumns parseCloudColumns(std::string_view content, const std::string& name,
@@ -68,11 +68,11 @@ NumberColumns parseCloudColumns(std::string_view content, const std::string& nam
     plain = cloud_formats::gunzip(content, name, kLargestTable);
     content = plain;
   }
+  const std::string text = cloud_formats::decodeContent(content);
+  if (!text.empty()) content = text;
   if (content.substr(0, 4) == "ply\n" || content.substr(0, 4) == "ply\r")
     return cloud_formats::parsePlyColumns(content, name, wanted);
-  CsvColumns columns(name, wanted);
-  forEachLine(content, [&columns](std::string_view line, int number) { columns.addLine(line, number); });
-  return columns.take();
+  return parseTextColumns(content, name, wanted);
 }
 
 }  // namespace urban_nav_core

@@ -18,10 +18,6 @@ constexpr double kFarAway = 1000.0;                      // m: there a float is 
 
 bool beginsWith(std::string_view content, std::string_view word) { return content.substr(0, word.size()) == word; }
 
-std::string_view withoutMark(std::string_view content) {
-  return beginsWith(content, "\xEF\xBB\xBF") ? content.substr(3) : content;
-}
-
 /// Whether the first line that is no comment is one of a PCD header: VERSION may be missing, as PCL allows.
 bool isPcd(std::string_view content) {
   if (beginsWith(content, "# .PCD")) return true;
@@ -36,7 +32,8 @@ bool isPcd(std::string_view content) {
 
 cloud_formats::Vertices parseVertices(std::string_view content, const std::string& name) {
   if (beginsWith(content, "LASF")) return cloud_formats::parseLas(content, name);
-  content = withoutMark(content);
+  const std::string text = cloud_formats::decodeContent(content);
+  if (!text.empty()) content = text;
   if (beginsWith(content, "ply\n") || beginsWith(content, "ply\r")) return cloud_formats::parsePly(content, name);
   return isPcd(content) ? cloud_formats::parsePcd(content, name) : cloud_formats::parsePoints(content, name);
 }
@@ -73,7 +70,7 @@ Eigen::Vector3d medianPoint(const Points& points) {
 
 }  // namespace
 
-CloudFile readCloud(const std::string& path) { return parseCloud(readTextFile(path), path); }
+CloudFile readCloud(const std::string& path) { return parseCloud(readBytes(path), path); }
 
 CloudFile parseCloud(std::string_view content, const std::string& name) {
   if (cloud_formats::isGzip(content)) {

@@ -36,9 +36,8 @@ std::string gunzip(std::string_view content, const std::string& name, std::size_
 /// how far back it begins, less one. Empty where the input is damaged or does not give `size` bytes.
 std::optional<std::string> decompressLzf(std::string_view packed, std::size_t size);
 
-/// A number of these formats; unlike parseNumber it takes "nan", "inf" and their like, which a cloud may hold. Empty
-/// for anything else.
-std::optional<double> parseCoordinate(std::string_view text);
+/// Returns a text in UTF-16, or with a byte order mark, as UTF-8; empty for content that can be read as it is.
+std::string decodeContent(std::string_view content);
 
 /// The bytes of a number in a binary file.
 struct BinaryNumber {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
-#include <limits>
 
 #include "formats.hpp"
-#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
 
 namespace urban_nav_core::cloud_formats {
 namespace {
@@ -20,15 +18,12 @@ double as(const std::array<char, 8>& bytes) {
 
 }  // namespace
 
-std::optional<double> parseCoordinate(std::string_view text) {
-  if (const auto number = parseNumber(text)) return number;
-  std::string word(text);
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.erase(0, 1);
-  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
-  if (word == "inf" || word == "infinity") return std::numeric_limits<double>::infinity();
-  return std::nullopt;
+std::string decodeContent(std::string_view content) {
+  for (const std::string_view magic : {"ply\n", "ply\r", "LASF", "# .PCD"})
+    if (content.substr(0, magic.size()) == magic) return {};
+  // A mark of four bytes at most, or UTF-16 without one, shows at the beginning.
+  const std::string head(content.substr(0, 512));
+  return decodeText(head) == head ? std::string() : decodeText(std::string(content));
 }
 
 double readBinary(const char* bytes, BinaryNumber number, bool swap) {

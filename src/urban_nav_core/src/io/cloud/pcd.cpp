@@ -5,6 +5,7 @@
 
 #include "formats.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core::cloud_formats {
@@ -136,7 +137,7 @@ Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::str
       throw UserError(where, std::to_string(words.size()) + " numbers", std::to_string(row_words));
     Eigen::Vector3d point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto value = parseCoordinate(words[words_before[axis]]);
+      const auto value = parseCell(words[words_before[axis]]);
       if (!value) throw UserError(where, "`" + std::string(words[words_before[axis]].substr(0, 40)) + "`", "a number");
       point[static_cast<Eigen::Index>(axis)] = *value;
     }

@@ -5,6 +5,7 @@
 
 #include "formats.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core::cloud_formats {
@@ -142,7 +143,7 @@ class AsciiNumbers {
   std::optional<double> next(BinaryNumber) {
     const auto word = nextWord();
     if (!word) return std::nullopt;
-    const auto value = parseCoordinate(*word);
+    const auto value = parseCell(*word);
     if (!value)
       throw UserError(atLine(name_, lines_.number()), "`" + std::string(word->substr(0, 40)) + "`", "a number");
     return value;

@@ -1,50 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <array>
-#include <cctype>
+#include <limits>
 #include <vector>
 
 #include "formats.hpp"
+#include "urban_nav_core/io/column_names.hpp"
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/text.hpp"
+#include "urban_nav_core/io/text_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core::cloud_formats {
 namespace {
 
-std::vector<std::string_view> splitCells(std::string_view line) {
-  for (const char separator : {',', ';'})
-    if (line.find(separator) != std::string_view::npos) return splitAt(line, separator);
-  return splitBlanks(line);
-}
+/// Columns of x, y, z, and their units in m.
+struct Axes {
+  std::array<std::size_t, 3> columns = {0, 1, 2};
+  std::array<double, 3> units = {1.0, 1.0, 1.0};
+};
 
-std::string lower(std::string_view text) {
-  std::string word(text);
-  word.erase(std::remove(word.begin(), word.end(), '"'), word.end());
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return word;
-}
-
-std::array<std::size_t, 3> findColumns(const std::vector<std::string_view>& header, const std::string& where) {
-  std::array<std::size_t, 3> columns{};
-  const std::array<std::string, 3> names = {"x", "y", "z"};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto found =
-        std::find_if(header.begin(), header.end(), [&](std::string_view cell) { return lower(cell) == names[axis]; });
-    if (found == header.end())
-      throw UserError(where, "no column " + names[axis], "PLY, PCD, or CSV with the columns x, y, z");
-    columns[axis] = static_cast<std::size_t>(found - header.begin());
+Axes findAxes(const TextTable& table) {
+  const std::vector<std::string>& header = table.header();
+  Axes axes;
+  if (header.empty()) return axes;
+  constexpr std::array<Quantity, 3> kQuantities = {Quantity::X, Quantity::Y, Quantity::Z};
+  for (std::size_t i = 0; i < kQuantities.size(); ++i) {
+    const auto found = findColumn(header, kQuantities[i]);
+    if (!found && table.headerIsComment()) return {};
+    if (!found)
+      throw UserError(table.whereHeader(), std::string("no column ") + "xyz"[i] + " in the header " + joined(header),
+                      "PLY, PCD, or CSV with the columns x, y, z");
+    axes.columns[i] = *found;
+    axes.units[i] = readUnit(header[*found]).value_or(1.0);
   }
-  return columns;
-}
-
-/// Text that a person can read in an error.
-std::string quoted(std::string_view text) {
-  std::string shown(text.substr(0, 40));
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return std::isprint(c) == 0; }, '?');
-  return "`" + shown + "`";
+  return axes;
 }
 
 [[noreturn]] void refuseCount(const std::string& name, std::size_t promised, std::size_t found) {
@@ -55,33 +44,28 @@ std::string quoted(std::string_view text) {
 }  // namespace
 
 Vertices parsePoints(std::string_view content, const std::string& name) {
+  const TextTable table(content, name);
+  const Axes axes = findAxes(table);
   Vertices cloud;
-  std::optional<std::array<std::size_t, 3>> columns;
   std::size_t promised = 0;  // by the counts that some programs write above their points
-  forEachLine(content, [&](std::string_view line, int number) {
-    std::string_view text = trimmed(line);
-    while (!text.empty() && text.front() == '/') text = trimmed(text.substr(1));  // CloudCompare: //X,Y,Z
-    if (text.empty() || text.front() == '#') return;
-    const std::vector<std::string_view> cells = splitCells(text);
-    if (const auto count = cells.size() == 1 ? parseInteger(cells.front()) : std::nullopt; count && *count >= 0) {
+  table.forEachRow([&](const TableRow& row) {
+    if (const auto count = row.cells.size() == 1 ? parseInteger(row.cells.front()) : std::nullopt;
+        count && *count >= 0) {
       if (promised > cloud.points.size()) return refuseCount(name, promised, cloud.points.size());
       promised = cloud.points.size() + static_cast<std::size_t>(*count);
       return;
     }
-    if (!columns) {
-      const bool numbers = parseCoordinate(cells.front()).has_value();
-      columns = numbers ? std::array<std::size_t, 3>{0, 1, 2} : findColumns(cells, atLine(name, number));
-      if (!numbers) return;
-    }
     Eigen::Vector3d point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t column = (*columns)[axis];
-      if (column >= cells.size())
-        throw UserError(atLine(name, number), std::to_string(cells.size()) + " columns",
+      const std::size_t column = axes.columns[axis];
+      if (column >= row.cells.size())
+        throw UserError(table.where(row), std::to_string(row.cells.size()) + " columns",
                         "at least " + std::to_string(column + 1));
-      const auto value = parseCoordinate(cells[column]);
-      if (!value) throw UserError(atLine(name, number), quoted(cells[column]), "a number");
-      point[static_cast<Eigen::Index>(axis)] = *value;
+      const std::string_view cell = row.cells[column];
+      const bool is_left_empty = cell.empty() && row.cells.size() == table.width();  // NaN, as some programs write it
+      const auto value = is_left_empty ? std::numeric_limits<double>::quiet_NaN() : parseCell(cell);
+      if (!value) throw UserError(table.where(row), quotedCell(cell), "a number");
+      point[static_cast<Eigen::Index>(axis)] = axes.units[axis] * *value;
     }
     cloud.points.push_back(point);
   });

@@ -131,7 +131,9 @@ std::string refusal(const std::string& content) {
 TEST(CloudFile, EveryFormatGivesThePoints) {
   for (const std::string& content :
        {plyAscii(), plyBinary(false), plyBinary(true), pcdAscii(), pcdBinary(), pcdCompressed(), asText(","),
-        asText(" ; "), asText("\t"), "x, y ,\"Z\"\n" + asText(","), "# of a laser\n" + asText("  ")}) {
+        asText(" ; "), asText("\t"), "x, y ,\"Z\"\n" + asText(","), "# of a laser\n" + asText("  "),
+        "\"Points:0\",\"Points:1\",\"Points:2\"\n" + asText(","), "//X Y Z\n" + asText(" "),
+        "\xEF\xBB\xBFx;y;z\n" + asText(";"), "sep=;\n" + asText(";")}) {
     expectPoints(parseCloud(content, "c"));
     expectPoints(parseCloud(gzipped(content), "c.gz"));
   }
@@ -249,7 +251,8 @@ TEST(CloudFile, AnEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").clo
 TEST(CloudFile, MistakesAreNamedWithTheirLine) {
   EXPECT_EQ(refusal("1,2,3\n1,2\n"), "c:2: 2 columns: allowed at least 3");
   EXPECT_EQ(refusal("1,2,3\n1,b,3\n"), "c:2: `b`: allowed a number");
-  EXPECT_EQ(refusal("a,b,c\n1,2,3\n"), "c:1: no column x: allowed PLY, PCD, or CSV with the columns x, y, z");
+  EXPECT_EQ(refusal("a,b,c\n1,2,3\n"),
+            "c:1: no column x in the header a, b, c: allowed PLY, PCD, or CSV with the columns x, y, z");
   EXPECT_EQ(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
             "c:4: property type real: allowed a type of PLY, such as float");
   EXPECT_EQ(refusal(plyAscii().substr(0, plyAscii().size() - 12)),

@@ -9,8 +9,9 @@
 
 namespace urban_nav_input {
 
-/// Left and right camera of --calibration: KITTI's calib.txt (whose size of image is that of the images, `width` x
-/// `height`; `pair`: whose rows of it), or `LEFT.yaml,RIGHT.yaml` as ROS's camera_info. UserError where it is neither.
+/// Returns the left and right camera of --calibration: KITTI's calib.txt (whose size of image is that of the images,
+/// `width` x `height`; `pair`: whose rows of it), a file with both cameras or one for each (parseStereoCalibration()).
+/// Throws UserError for others.
 std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibration(
     const std::string& files, int width, int height, urban_nav_core::KittiPair pair = urban_nav_core::KittiPair::Grey);
 
