@@ -1,63 +1,135 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/axes.hpp"
 
-#include <algorithm>
+#include <Eigen/LU>
+#include <array>
+#include <vector>
 
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
-#include "urban_nav_input/truth/trajectory_file.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::Matched;
+using urban_nav_core::Matrix3d;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 
 namespace {
 
-double errorWith(Axes axes, Matched matched) {
-  applyAxes(axes, matched);
+constexpr double kExact = 1e-9;
+
+Matrix3d opticalInBody() { return urban_nav_ros::opticalInBody().q().toRotationMatrix(); }
+
+bool isSame(const Matrix3d& a, const Matrix3d& b) { return (a - b).cwiseAbs().maxCoeff() < kExact; }
+
+/// The 24 proper rotations whose matrices hold 0, 1 and -1 alone.
+std::vector<Matrix3d> axisRotations() {
+  std::vector<Matrix3d> rotations;
+  for (int x = 0; x < 6; ++x) {
+    for (int y = 0; y < 6; ++y) {
+      if (x % 3 == y % 3) continue;
+      Matrix3d R;
+      R.col(0) = (x < 3 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(x % 3);
+      R.col(1) = (y < 3 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(y % 3);
+      R.col(2) = R.col(0).cross(R.col(1));
+      rotations.push_back(R);
+    }
+  }
+  return rotations;
+}
+
+AxesMatch toMatch(const Matrix3d& R) {
+  const Matrix3d ned = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  if (isSame(R, Matrix3d::Identity())) return {Axes::Same, R};
+  if (isSame(R, opticalInBody())) return {Axes::EstimateOptical, R};
+  if (isSame(R, opticalInBody().transpose())) return {Axes::TruthOptical, R};
+  return {isSame(R, ned) ? Axes::NedEnu : Axes::Turned, R};
+}
+
+double errorWith(const AxesMatch& match, Matched matched) {
+  applyAxes(match, matched);
   return urban_nav_core::absoluteError(matched.truth, matched.estimate, urban_nav_core::TrajectoryAlignment::First)
       .rmse;
 }
 
+/// "x = -y, y = x, z = z": the axes of the estimate by those of the truth.
+std::string axesText(const Matrix3d& R) {
+  std::vector<std::string> parts;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Index of_truth = 0;
+    R.col(axis).cwiseAbs().maxCoeff(&of_truth);
+    parts.push_back(std::string(1, "xyz"[axis]) + " = " + (R(of_truth, axis) < 0.0 ? "-" : "") + "xyz"[of_truth]);
+  }
+  return urban_nav_core::joined(parts);
+}
+
 }  // namespace
 
-Axes detectAxes(const Matched& matched) {
+AxesMatch detectAxes(const Matched& matched) {
   constexpr double kBetter = 0.1, kOfPath = 0.2;
-  if (matched.truth.size() < 2) return Axes::Same;
-  const double length = urban_nav_core::pathLength(matched.truth), same = errorWith(Axes::Same, matched);
-  if (same <= kOfPath * kBetter * length) return Axes::Same;
-  const double estimate = errorWith(Axes::EstimateOptical, matched), truth = errorWith(Axes::TruthOptical, matched);
-  const double best = std::min(estimate, truth);
-  if (!(best < kBetter * same && best < kOfPath * length)) return Axes::Same;
-  return estimate <= truth ? Axes::EstimateOptical : Axes::TruthOptical;
+  if (matched.truth.size() < 2) return {};
+  const double length = urban_nav_core::pathLength(matched.truth), same = errorWith({}, matched);
+  if (same <= kOfPath * kBetter * length) return {};
+  AxesMatch best;
+  double least = same;
+  for (const Matrix3d& R : axisRotations()) {
+    const AxesMatch match = toMatch(R);
+    const double error = errorWith(match, matched);
+    // A straight path leaves open what is turned about it: known conventions take precedence.
+    const bool is_tied = error < least + kExact * length && best.axes == Axes::Turned && match.axes != Axes::Turned;
+    if (error < least - kExact * length || is_tied) {
+      best = match;
+      least = error;
+    }
+  }
+  return least < kBetter * same && least < kOfPath * length ? best : AxesMatch{};
 }
 
-void applyAxes(Axes axes, Matched& matched) {
-  if (axes == Axes::Same) return;
-  for (Pose& pose : axes == Axes::EstimateOptical ? matched.estimate : matched.truth)
-    pose = urban_nav_input::opticalToBody(pose);
+void applyAxes(const AxesMatch& match, Matched& matched) {
+  if (match.axes == Axes::Same) return;
+  const bool of_truth = match.axes == Axes::TruthOptical;
+  const Matrix3d R = of_truth ? Matrix3d(match.R_truth_estimate.transpose()) : match.R_truth_estimate;
+  const Pose turn(R, Eigen::Vector3d::Zero());
+  for (Pose& pose : of_truth ? matched.truth : matched.estimate) pose = turn * pose * turn.inverse();
 }
 
-Matrix6d applyAxes(Axes axes, const Matrix6d& covariance) {
-  if (axes != Axes::EstimateOptical) return covariance;
+Matrix6d applyAxes(const AxesMatch& match, const Matrix6d& covariance) {
+  if (match.axes == Axes::Same || match.axes == Axes::TruthOptical) return covariance;
   Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = urban_nav_ros::opticalInBody().q().toRotationMatrix();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = match.R_truth_estimate;
   return turn * covariance * turn.transpose();
 }
 
-const char* describe(Axes axes) {
-  switch (axes) {
+std::string describe(const AxesMatch& match) {
+  switch (match.axes) {
     case Axes::EstimateOptical:
       return "the estimate has the axes of a camera (z forward), the truth those of a body (x forward): the estimate "
              "is turned";
     case Axes::TruthOptical:
       return "the truth has the axes of a camera (z forward), the estimate those of a body (x forward): the truth is "
              "turned";
+    case Axes::NedEnu:
+      return "one file is in NED (body: x forward, y right, z down), the other in ENU (x forward, y left, z up): the "
+             "estimate is turned by 180 deg about x";
+    case Axes::Turned:
+      return "the axes of the two files differ (the estimate's by the truth's: " + axesText(match.R_truth_estimate) +
+             "): the estimate is turned";
     case Axes::Same: break;
   }
   return "";
+}
+
+std::string axesKey(const AxesMatch& match) {
+  switch (match.axes) {
+    case Axes::EstimateOptical: return "estimate_optical";
+    case Axes::TruthOptical: return "truth_optical";
+    case Axes::NedEnu: return "ned_enu";
+    case Axes::Turned: return axesText(match.R_truth_estimate);
+    case Axes::Same: break;
+  }
+  return "same";
 }
 
 }  // namespace urban_nav

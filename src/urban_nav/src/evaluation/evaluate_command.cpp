@@ -55,7 +55,7 @@ void warnAboutFiles(const urban_nav_input::TrajectoryFile& truth, const urban_na
                     const Evaluation& evaluation, Console& console) {
   for (const urban_nav_input::TrajectoryFile* file : {&truth, &estimate})
     for (const std::string& note : file->notes) console.warn(note);
-  if (evaluation.axes != Axes::Same) console.warn(describe(evaluation.axes));
+  if (evaluation.axes.axes != Axes::Same) console.warn(describe(evaluation.axes));
   const std::size_t matched = evaluation.matched.truth.size();
   if (matched < std::min(truth.poses.size(), estimate.poses.size()))
     console.warn(std::to_string(estimate.poses.size() - matched) + " of " + std::to_string(estimate.poses.size()) +

@@ -155,8 +155,7 @@ void addToJson(const Evaluation& evaluation, Json& json) {
     json["offset_s"] = 1e-9 * static_cast<double>(evaluation.offset->offset);
     json["offset_applied"] = evaluation.offset_applied;
   }
-  if (evaluation.axes != Axes::Same)
-    json["axes"] = evaluation.axes == Axes::EstimateOptical ? "estimate_optical" : "truth_optical";
+  if (evaluation.axes.axes != Axes::Same) json["axes"] = axesKey(evaluation.axes);
   Json& spans = json["spans"] = Json::object();
   for (const SpanError& each : evaluation.spans) {
     Json& entry = spans[printSpan(each.span)] = Json::object();

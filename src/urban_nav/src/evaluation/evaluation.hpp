@@ -27,7 +27,7 @@ struct Evaluation {
   urban_nav_core::Matched matched;
   std::optional<urban_nav_core::TimeOffset> offset;  ///< that was applied, or would help where few stamps match
   bool offset_applied = false;
-  Axes axes = Axes::Same;                            ///< how the files differed; both are in the axes of base_link here
+  AxesMatch axes;                                    ///< how the files differed; both are in the axes of base_link here
   double length_m = 0.0;                             ///< of the true path
   urban_nav_core::ErrorStatistics first, se3, sim3;  ///< absolute errors by alignment
   std::optional<urban_nav_core::RelativeError> ten_frames;

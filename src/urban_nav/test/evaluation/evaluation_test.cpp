@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <random>
+#include <tuple>
 
 #include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/io/kitti.hpp"
@@ -69,13 +70,48 @@ TEST(Evaluation, TurnsAnEstimateOfOpticalAxes) {
   for (const urban_nav_core::StampedPose& each : optical)
     rows.push_back({each.stamp, urban_nav_core::Health::Ok, covariance});
   const Evaluation turned = evaluate(body, other, rows, {});
-  EXPECT_EQ(turned.axes, Axes::EstimateOptical);
+  EXPECT_EQ(turned.axes.axes, Axes::EstimateOptical);
   EXPECT_LT(turned.first.rmse, 1e-9);
   EXPECT_NEAR(turned.covariances.back()(0, 0), 9.0, 1e-9);
-  EXPECT_EQ(evaluate(kitti, other, {}, {}).axes, Axes::EstimateOptical);
-  EXPECT_EQ(evaluate(other, body, {}, {}).axes, Axes::TruthOptical);
-  EXPECT_EQ(evaluate(kitti, body, {}, {}).axes, Axes::Same);
-  EXPECT_EQ(evaluate(body, body, {}, {}).axes, Axes::Same);
+  EXPECT_EQ(evaluate(kitti, other, {}, {}).axes.axes, Axes::EstimateOptical);
+  EXPECT_EQ(evaluate(other, body, {}, {}).axes.axes, Axes::TruthOptical);
+  EXPECT_EQ(evaluate(kitti, body, {}, {}).axes.axes, Axes::Same);
+  EXPECT_EQ(evaluate(body, body, {}, {}).axes.axes, Axes::Same);
+}
+
+TEST(Evaluation, RecognisesEveryExchangeOfAxes) {
+  urban_nav_input::TrajectoryFile truth;
+  truth.path = "truth.tum";
+  for (int i = 0; i < 60; ++i) {
+    const double t = 0.1 * i;
+    const Pose pose(urban_nav_core::expSo3({0.05 * t, -0.08 * t, 0.4 * t}), {3.0 * t, t * t, 0.2 * t});
+    truth.trajectory.append(urban_nav_core::StampNs{i} * 100'000'000, pose);
+    truth.poses.push_back(pose);
+  }
+  const auto turned = [&truth](const urban_nav_core::Matrix3d& world, const urban_nav_core::Matrix3d& body) {
+    const Pose W(world, {5.0, 6.0, 7.0}), B(body, {0.0, 0.0, 0.0});
+    urban_nav_input::TrajectoryFile file;
+    file.path = "estimate.tum";
+    for (const urban_nav_core::StampedPose& each : truth.trajectory) {
+      file.trajectory.append(each.stamp, W * each.pose * B);
+      file.poses.push_back(W * each.pose * B);
+    }
+    return file;
+  };
+  using urban_nav_core::Matrix3d;
+  const Matrix3d ned = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  Matrix3d quarter = Matrix3d::Zero();
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  for (const auto& [body, axes, word] :
+       {std::make_tuple(ned, Axes::NedEnu, "NED"), std::make_tuple(quarter, Axes::Turned, "x = y, y = -x, z = z"),
+        std::make_tuple(Matrix3d(ned * quarter), Axes::Turned, "x = -y, y = -x, z = -z")}) {
+    const Evaluation evaluation = evaluate(truth, turned(ned * quarter, body), {}, {});
+    EXPECT_EQ(evaluation.axes.axes, axes) << word;
+    EXPECT_NE(describe(evaluation.axes).find(word), std::string::npos) << describe(evaluation.axes);
+    EXPECT_LT(evaluation.first.rmse, 1e-9);
+    EXPECT_LT(evaluation.ten_frames->deg_per_m, 1e-6);
+  }
+  EXPECT_EQ(evaluate(truth, turned(quarter, Matrix3d::Identity()), {}, {}).axes.axes, Axes::Same);
 }
 
 TEST(Evaluation, NeesAllowsForTheTruthsOwnError) {

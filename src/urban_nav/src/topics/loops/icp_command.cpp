@@ -6,6 +6,7 @@
 #include "base/json.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
+#include "topics/loops/cloud_units.hpp"
 #include "topics/loops/loops.hpp"
 #include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -161,8 +162,10 @@ int runIcp(const Arguments& arguments, Console& console) {
       source.cloud, target.cloud, parameters.get(urban_nav_registration::table()), near_guess,
       arguments.has("global") ? urban_nav_registration::SearchMode::AtOnce
                               : urban_nav_registration::SearchMode::IfRejected);
-  const Alignment alignment = urban_nav_registration::toFileFrames(about_middles, offsets);
+  Alignment alignment = urban_nav_registration::toFileFrames(about_middles, offsets);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  if (alignment.verdict == urban_nav_core::ClosureVerdict::Rejected)
+    if (const std::string units = describeUnits(source, target); !units.empty()) alignment.sentence += "; " + units;
   console.print(toText(alignment, ms));
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(alignment, ms).print());
   if (arguments.has("picture")) {
