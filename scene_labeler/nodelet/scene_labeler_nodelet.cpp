@@ -246,11 +246,12 @@ void SceneLabelerStage::addScan(const sensor_msgs::LaserScan& message) {
 
 void SceneLabelerStage::addClasses(const sensor_msgs::Image& message) {
   const auto frame = std::find(camera_frames_.begin(), camera_frames_.end(), message.header.frame_id);
-  if (frame == camera_frames_.end() || (message.encoding != "mono8" && message.encoding != "8UC1"))
+  if (frame == camera_frames_.end() || (message.encoding != "mono8" && message.encoding != "8UC1" &&
+                                        message.encoding != "mono16" && message.encoding != "16UC1"))
     return node_.gate().countInvalid();
   labels_->addClasses(static_cast<std::size_t>(frame - camera_frames_.begin()),
                       urban_nav_ros::toStampNs(message.header.stamp),
-                      toClassImage(urban_nav_ros::toGrey(message).pixels, class_map_));
+                      toClassImage(urban_nav_ros::toGrey(message, urban_nav_ros::kPixelsAsStored).pixels, class_map_));
 }
 
 void SceneLabelerStage::calibrate(const CameraCalibration& calibration) {

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
 
 namespace urban_nav_ros {
 
@@ -97,54 +100,91 @@ GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
   return {shared, {}};
 }
 
-cv::Mat highestEight(const cv::Mat& deep, int bits) {
-  const int shift = std::clamp(bits, 8, 16) - 8;
-  cv::Mat grey(deep.size(), CV_8UC1);
-  for (int v = 0; v < deep.rows; ++v) {
-    const auto* from = deep.ptr<std::uint16_t>(v);
-    auto* to = grey.ptr<std::uint8_t>(v);
-    for (int u = 0; u < deep.cols; ++u) to[u] = static_cast<std::uint8_t>(std::min(from[u] >> shift, 255));
-  }
-  return grey;
+constexpr std::size_t kPngDepthAt = 24;  // PNG keeps the depth in its 25th byte
+
+/// Returns the Bayer layout of pixels that were compressed as a mosaic ("bayer_rggb8; png compressed"); nullptr for
+/// decoded images that hold grey or colour already ("bayer_rggb8; jpeg compressed bgr8").
+const Layout* mosaicLayout(const std::string& format, const cv::Mat& decoded) {
+  if (format.compare(0, 6, "bayer_") != 0 || decoded.channels() != 1) return nullptr;
+  const std::size_t end = format.find_first_of("; ");
+  const std::size_t compressed = format.find("compressed");
+  const std::size_t target =
+      compressed == std::string::npos ? compressed : format.find_first_not_of(' ', compressed + 10);
+  if (target != std::string::npos && format.compare(target, 6, "bayer_") != 0) return nullptr;
+  return findLayout(format.substr(0, end));
 }
 
-int toBits(const cv::Mat& deep) {
-  double highest = 0.0;
-  cv::minMaxLoc(deep, nullptr, &highest);
-  int bits = 8;
-  while (bits < 16 && highest >= static_cast<double>(1 << bits)) bits += 2;
-  return bits;
-}
-
-}  // namespace
-
-GreyImage toGrey(const sensor_msgs::Image& message, int bits) {
-  const Layout* layout = nullptr;
-  GreyImage image = toPixels(message, layout);
-  if (image.pixels.empty()) return image;
-  cv::Mat grey;
-  if (layout->to_grey == kAsItIs) grey = image.pixels;
-  else cv::cvtColor(image.pixels, grey, layout->to_grey);  // never into the message's own bytes
-  if (grey.depth() == CV_16U) return {highestEight(grey, bits), {}};
-  return {grey, {}};
-}
-
-GreyImage toGrey(const sensor_msgs::CompressedImage& message, int bits) {
+GreyImage decode(const sensor_msgs::CompressedImage& message) {
   if (message.data.empty()) return {{}, "no bytes"};
   try {
-    const cv::Mat decoded = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    cv::Mat decoded = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (decoded.empty())
       return {
           {},
           "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode"};
-    return toGrey(decoded, bits);
+    return {decoded, {}};
   } catch (const cv::Exception& error) {
     return {{}, "format \"" + message.format + "\": " + error.err};
   }
 }
 
-GreyImage toGrey(const cv::Mat& pixels, int bits) {
+/// The scale of an image by itself.
+GreyScale ownScale(const cv::Mat& grey) {
+  GreyRange range;
+  range.add(grey);
+  return range.scale();
+}
+
+GreyImage withScale(GreyImage deep, const GreyScale& scale) {
+  if (!deep.pixels.empty() && deep.pixels.depth() == CV_16U) deep.pixels = toEightBits(deep.pixels, scale);
+  return deep;
+}
+
+GreyImage withOwnScale(GreyImage deep) {
+  if (deep.pixels.empty() || deep.pixels.depth() != CV_16U) return deep;
+  const GreyScale scale = ownScale(deep.pixels);
+  return withScale(std::move(deep), scale);
+}
+
+}  // namespace
+
+cv::Mat toEightBits(const cv::Mat& deep, const GreyScale& scale) {
+  CV_Assert(deep.depth() == CV_16U);
+  std::vector<std::uint8_t> table(65536);
+  for (std::size_t value = 0; value < table.size(); ++value)
+    table[value] = static_cast<std::uint8_t>(
+        std::clamp(std::floor((static_cast<double>(value) - scale.offset) / scale.step), 0.0, 255.0));
+  cv::Mat grey(deep.size(), CV_MAKETYPE(CV_8U, deep.channels()));
+  for (int v = 0; v < deep.rows; ++v) {
+    const auto* from = deep.ptr<std::uint16_t>(v);
+    auto* to = grey.ptr<std::uint8_t>(v);
+    for (int u = 0; u < deep.cols * deep.channels(); ++u) to[u] = table[from[u]];
+  }
+  return grey;
+}
+
+GreyImage toDeepGrey(const sensor_msgs::Image& message) {
+  const Layout* layout = nullptr;
+  GreyImage image = toPixels(message, layout);
+  if (image.pixels.empty() || layout->to_grey == kAsItIs) return image;
+  cv::Mat grey;
+  cv::cvtColor(image.pixels, grey, layout->to_grey);  // never into the message's own bytes
+  return {grey, {}};
+}
+
+GreyImage toDeepGrey(const sensor_msgs::CompressedImage& message) {
+  const GreyImage image = decode(message);
+  if (image.pixels.empty()) return image;
+  const Layout* layout = mosaicLayout(message.format, image.pixels);
+  if (layout == nullptr) return toDeepGrey(image.pixels);
+  cv::Mat grey;
+  cv::cvtColor(image.pixels, grey, layout->to_grey);
+  return {grey, {}};
+}
+
+GreyImage toDeepGrey(const cv::Mat& pixels) {
   if (pixels.empty()) return {{}, "no pixels"};
+  if (pixels.depth() != CV_8U && pixels.depth() != CV_16U) return {{}, "pixels are neither 8 nor 16 bits wide"};
   cv::Mat grey = pixels;
   if (pixels.channels() == 3) {
     cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);
@@ -153,33 +193,47 @@ GreyImage toGrey(const cv::Mat& pixels, int bits) {
   } else if (pixels.channels() != 1) {
     return {{}, std::to_string(pixels.channels()) + " channels: 1, 3 or 4 are known"};
   }
-  if (grey.depth() == CV_16U) return {highestEight(grey, bits), {}};
-  if (grey.depth() != CV_8U) return {{}, "pixels are neither 8 nor 16 bits wide"};
   return {grey, {}};
 }
 
-int significantBits(const sensor_msgs::Image& message) {
-  const Layout* layout = nullptr;
-  const GreyImage image = toPixels(message, layout);
-  return image.pixels.empty() ? 8 : significantBits(image.pixels);
+bool isDeep(const sensor_msgs::Image& message) {
+  const Layout* layout = findLayout(message.encoding);
+  return layout != nullptr && CV_MAT_DEPTH(layout->type) == CV_16U;
 }
 
-int significantBits(const sensor_msgs::CompressedImage& message) {
-  // PNG keeps the depth in its 25th byte; the usual 8 bits need no decoding.
-  constexpr std::size_t kDepthAt = 24;
+bool isDeep(const sensor_msgs::CompressedImage& message) {
   const std::vector<std::uint8_t>& bytes = message.data;
-  const bool png = bytes.size() > kDepthAt && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G';
-  if (!png || bytes[kDepthAt] != 16) return 8;
-  try {
-    return significantBits(cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR));
-  } catch (const cv::Exception&) {
-    return 8;  // decoding says what is wrong
-  }
+  if (bytes.size() <= kPngDepthAt) return false;
+  if (bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G') return bytes[kPngDepthAt] == 16;
+  return (bytes[0] == 'I' && bytes[1] == 'I') || (bytes[0] == 'M' && bytes[1] == 'M');  // TIFF: perhaps
 }
 
-int significantBits(const cv::Mat& pixels) {
-  if (pixels.empty() || pixels.depth() != CV_16U) return 8;
-  return toBits(pixels.channels() == 1 ? pixels : pixels.reshape(1));
+GreyImage toGrey(const sensor_msgs::Image& message, const GreyScale& scale) {
+  return withScale(toDeepGrey(message), scale);
+}
+GreyImage toGrey(const sensor_msgs::CompressedImage& message, const GreyScale& scale) {
+  return withScale(toDeepGrey(message), scale);
+}
+GreyImage toGrey(const cv::Mat& pixels, const GreyScale& scale) { return withScale(toDeepGrey(pixels), scale); }
+
+GreyImage toGrey(const sensor_msgs::Image& message) { return withOwnScale(toDeepGrey(message)); }
+GreyImage toGrey(const sensor_msgs::CompressedImage& message) { return withOwnScale(toDeepGrey(message)); }
+GreyImage toGrey(const cv::Mat& pixels) { return withOwnScale(toDeepGrey(pixels)); }
+
+GreyImage toColour(const sensor_msgs::CompressedImage& message) {
+  GreyImage image = decode(message);
+  if (image.pixels.empty()) return image;
+  if (const Layout* layout = mosaicLayout(message.format, image.pixels)) {
+    // Codes of conversion to colour and to grey have one order: rggb, gbrg, bggr, grbg.
+    cv::Mat colour;
+    cv::cvtColor(image.pixels, colour, layout->to_grey - cv::COLOR_BayerBG2GRAY + cv::COLOR_BayerBG2BGR);
+    image.pixels = colour;
+  }
+  if (image.pixels.channels() == 1) cv::cvtColor(image.pixels, image.pixels, cv::COLOR_GRAY2BGR);
+  if (image.pixels.channels() == 4) cv::cvtColor(image.pixels, image.pixels, cv::COLOR_BGRA2BGR);
+  if (image.pixels.depth() == CV_16U)
+    image.pixels = toEightBits(image.pixels, ownScale(toDeepGrey(image.pixels).pixels));
+  return image;
 }
 
 sensor_msgs::Image toImageMessage(const cv::Mat& grey) {

@@ -56,16 +56,8 @@ ColourImage toColourImage(const sensor_msgs::Image& message) {
 }
 
 ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
-  if (message.data.empty()) return {{}, "no bytes"};
-  try {
-    ColourImage colour{cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), {}};
-    if (colour.pixels.empty())
-      colour.fault =
-          "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode";
-    return colour;
-  } catch (const cv::Exception& error) {
-    return {{}, "format \"" + message.format + "\": " + error.err};
-  }
+  const GreyImage image = toColour(message);
+  return {image.pixels, image.fault};
 }
 
 }  // namespace

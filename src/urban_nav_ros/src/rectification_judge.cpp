@@ -17,12 +17,8 @@ namespace {
 
 constexpr std::size_t kMostImages = 40;
 
-int bitsOf(const ImageInput& image) {
-  return std::visit([](const auto& message) { return significantBits(*message); }, image.message);
-}
-
-cv::Mat decode(const ImageInput& image, int bits) {
-  return std::visit([bits](const auto& message) { return toGrey(*message, bits).pixels; }, image.message);
+cv::Mat decode(const ImageInput& image, const GreyScale& scale) {
+  return std::visit([&scale](const auto& message) { return toGrey(*message, scale).pixels; }, image.message);
 }
 
 }  // namespace
@@ -39,14 +35,15 @@ void RectificationJudge::add(const ImageInput& image) {
 }
 
 std::vector<ImagePair> RectificationJudge::decodePairs() const {
-  int bits = 8;
-  for (const ImageInput& image : seen_) bits = std::max(bits, bitsOf(image));
+  GreyRange range;
+  for (const ImageInput& image : seen_)
+    std::visit([&range](const auto& message) { range.add(*message); }, image.message);
   std::vector<ImagePair> pairs;
   for (const ImageInput& left : seen_) {
     if (left.side != Side::Left || pairs.size() >= static_cast<std::size_t>(kJudgedPairs)) continue;
     for (const ImageInput& right : seen_) {
       if (right.side != Side::Right || std::abs(right.stamp - left.stamp) > sync_tolerance_) continue;
-      ImagePair pair{decode(left, bits), decode(right, bits)};
+      ImagePair pair{decode(left, range.scale()), decode(right, range.scale())};
       if (!pair.first.empty() && pair.second.size() == pair.first.size()) pairs.push_back(std::move(pair));
       break;
     }

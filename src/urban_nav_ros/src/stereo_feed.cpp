@@ -26,7 +26,6 @@ struct Pixels {
 };
 
 constexpr int kMotionStream = 0;
-constexpr int kMostBits = 16;
 
 std::string toSize(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -61,13 +60,14 @@ void StereoFeed::finish() {
 void StereoFeed::widen(const Input& input) {
   const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input);
   const auto* packed = std::get_if<sensor_msgs::CompressedImageConstPtr>(&input);
-  if (raw != nullptr) bits_ = std::max(bits_, significantBits(**raw));
-  if (packed != nullptr) bits_ = std::max(bits_, significantBits(**packed));
+  if (raw != nullptr) range_.add(**raw);
+  if (packed != nullptr) range_.add(**packed);
 }
 
-/// The depth of 16-bit pixels is one for both cameras: before an image is decoded, its partner is looked at too.
+/// The range of 16-bit pixels is one for both cameras: before an image is decoded, its partner is taken into account
+/// too.
 void StereoFeed::widenByPair(StampNs stamp, const Input& input) {
-  if (bits_ >= kMostBits) return;
+  if (range_.isSettled()) return;
   widen(input);
   queue_.forEachUntil(stamp + pairing_tolerance_, [this](const Input& waiting) { widen(waiting); });
 }
@@ -78,9 +78,13 @@ OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
   GreyImage image;
   if (const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) {
     pixels->message = *raw;
-    image = toGrey(**raw, bits_);
+    image = toDeepGrey(**raw);
   } else {
-    image = toGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(input), bits_);
+    image = toDeepGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(input));
+  }
+  if (!image.pixels.empty() && image.pixels.depth() == CV_16U) {
+    if (range_.isSettled()) range_.add(image.pixels);
+    image.pixels = toEightBits(image.pixels, range_.scale());
   }
   const char* name = side == Side::Left ? "left image: " : "right image: ";
   if (!image.fault.empty()) {
@@ -142,7 +146,8 @@ void StereoFeed::archive(urban_nav_core::Archive& archive) {
     if (auto* packed = std::get_if<sensor_msgs::CompressedImageConstPtr>(&input)) archiveMessage(items, *packed);
     if (auto* motion = std::get_if<MotionInput>(&input)) items(*motion);
   });
-  archive(assembler_, bits_, faults_, finished_, drained_);
+  archive(assembler_, faults_, finished_, drained_);
+  range_.archive(archive);
 }
 
 }  // namespace urban_nav_ros

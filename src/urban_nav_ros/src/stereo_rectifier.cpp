@@ -91,7 +91,7 @@ void StereoRectifier::reset() {
   forgetStream();
 }
 
-void StereoRectifier::forgetStream() { bits_ = 8; }
+void StereoRectifier::forgetStream() { range_ = GreyRange(); }
 
 void StereoRectifier::process(const ImageInput& image) {
   std::string fault;
@@ -108,12 +108,12 @@ sensor_msgs::ImageConstPtr StereoRectifier::convert(const ImageInput& image, std
   GreyImage grey;
   const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&image.message);
   if (raw != nullptr) {
-    bits_ = std::max(bits_, significantBits(**raw));
-    grey = toGrey(**raw, bits_);
+    range_.add(**raw);
+    grey = toGrey(**raw, range_.scale());
   } else {
     const auto& packed = *std::get<sensor_msgs::CompressedImageConstPtr>(image.message);
-    bits_ = std::max(bits_, significantBits(packed));
-    grey = toGrey(packed, bits_);
+    range_.add(packed);
+    grey = toGrey(packed, range_.scale());
   }
   fault = grey.fault;
   if (!fault.empty()) return nullptr;

@@ -51,17 +51,16 @@ TEST(ToGrey, KnowsWhichPixelOfAMosaicIsRed) {
   EXPECT_NEAR(toGrey(message("bayer_gbrg8", 16, 16, mosaic(0, 1))).pixels.at<std::uint8_t>(8, 8), 60, 1);
 }
 
-TEST(ToGrey, KeepsTheHighestEightOfTheBitsInUse) {
+TEST(ToGrey, TakesDeepPixelsByTheGivenScale) {
   sensor_msgs::Image image = message("mono16", 2, 1, {0xff, 0x0f, 0x00, 0x01});  // 4095 and 256
-  EXPECT_EQ(significantBits(image), 12);
-  EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
-  EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 1), 16);
-  EXPECT_EQ(toGrey(image).pixels.at<std::uint8_t>(0, 0), 15);
-  EXPECT_EQ(toGrey(image, 8).pixels.at<std::uint8_t>(0, 1), 255)
-      << "brighter than the first image: saturated, not wrapped";
+  EXPECT_EQ(toGrey(image, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 0), 255);
+  EXPECT_EQ(toGrey(image, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 1), 16);
+  EXPECT_EQ(toGrey(image, {256.0, 100.0}).pixels.at<std::uint8_t>(0, 1), 0);
+  EXPECT_EQ(toGrey(image, kPixelsAsStored).pixels.at<std::uint8_t>(0, 1), 255) << "saturated, not wrapped";
   image = message("mono16", 2, 1, {0x0f, 0xff, 0x01, 0x00});
   image.is_bigendian = 1;
-  EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
+  EXPECT_EQ(toGrey(image, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 0), 255);
+  EXPECT_EQ(toGrey(image).pixels.at<std::uint8_t>(0, 1), 16) << "by its own range";
 }
 
 TEST(ToGrey, TakesTheBrightnessOfYuv) {
@@ -76,11 +75,10 @@ TEST(ToGrey, TakesTheBrightnessOfYuv) {
 TEST(ToGrey, ReadsDeepColour) {
   // Red, little-endian, 12 of 16 bits.
   const sensor_msgs::Image red = message("rgb16", 1, 1, {0xff, 0x0f, 0, 0, 0, 0});
-  EXPECT_EQ(significantBits(red), 12);
-  EXPECT_NEAR(toGrey(red, 12).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
+  EXPECT_NEAR(toGrey(red, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
   sensor_msgs::Image big = message("bgr16", 1, 1, {0, 0, 0, 0, 0x0f, 0xff});
   big.is_bigendian = 1;
-  EXPECT_NEAR(toGrey(big, 12).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
+  EXPECT_NEAR(toGrey(big, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
 }
 
 TEST(ToGrey, SaysWhatIsWrong) {
@@ -105,6 +103,25 @@ TEST(ToGrey, DecodesWhatIsCompressed) {
   EXPECT_FALSE(toGrey(compressed).fault.empty());
   compressed.data.clear();
   EXPECT_FALSE(toGrey(compressed).fault.empty());
+}
+
+TEST(ToGrey, DemosaicsWhatWasCompressedAsAMosaic) {
+  cv::Mat mosaic(16, 16, CV_8UC1, cv::Scalar(0));  // red light alone
+  for (int v = 0; v < 16; v += 2)
+    for (int u = 0; u < 16; u += 2) mosaic.at<std::uint8_t>(v, u) = 200;
+  sensor_msgs::CompressedImage compressed;
+  cv::imencode(".png", mosaic, compressed.data);
+  for (const char* format :
+       {"bayer_rggb8; png compressed", "bayer_rggb8; png compressed ", "bayer_rggb8; png compressed bayer_rggb8"}) {
+    compressed.format = format;
+    EXPECT_NEAR(toGrey(compressed).pixels.at<std::uint8_t>(8, 8), 60, 1) << format;
+    const cv::Vec3b colour = toColour(compressed).pixels.at<cv::Vec3b>(8, 8);
+    EXPECT_EQ(colour, cv::Vec3b(0, 0, 200)) << format;
+  }
+  for (const char* format : {"mono8; png compressed", "png", "bayer_rggb8; jpeg compressed mono8"}) {
+    compressed.format = format;
+    EXPECT_EQ(toGrey(compressed).pixels.at<std::uint8_t>(8, 8), 200) << format;
+  }
 }
 
 TEST(ToImageMessage, ComesBackTheSame) {

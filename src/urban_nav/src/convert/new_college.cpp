@@ -151,7 +151,7 @@ class NewCollege {
 
   static cv::Mat read(const std::string& path, const urban_nav_core::Pinhole& size) {
     if (path.empty()) return {};
-    const urban_nav_ros::GreyImage image = urban_nav_input::readGrey(path);
+    const urban_nav_ros::GreyImage image = urban_nav_input::readGrey(path, {});
     if (image.pixels.empty()) throw DataError("", image.fault, "");
     if (image.pixels.cols != size.width || image.pixels.rows != size.height) {
       throw DataError(path, std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels",

@@ -7,8 +7,12 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "recording/bag_order.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
@@ -56,6 +60,60 @@ class Counter {
   StampNs newest_ = 0;
 };
 
+/// Counts a topic by the stamps of its headers, and by receipt where they are not set or do not change.
+class TopicCounter {
+ public:
+  explicit TopicCounter(const rosbag::ConnectionInfo& connection)
+      : has_header_(beginsWithHeader(connection.msg_def)),
+        stamps_(connection.topic, connection.datatype),
+        receipts_(connection.topic, connection.datatype) {}
+
+  void add(const rosbag::MessageInstance& message) {
+    receipts_.add(urban_nav_ros::toStampNs(message.getTime()));
+    if (has_header_) stamps_.add(readHeaderStamp(message));
+  }
+
+  StreamInfo info() const { return hasStamps() ? stamps_.info() : receipts_.info(); }
+
+  /// Returns what a user should know of the stamps, mostly nothing.
+  std::string note() const {
+    constexpr double kApart = 1.0;  // s
+    const StreamInfo stamps = stamps_.info(), receipts = receipts_.info();
+    if (!has_header_ || stamps.messages == 0) return {};
+    if (!hasStamps())
+      return stamps.name + ": stamps are " + (stamps.last == 0 ? "not set" : "all equal") +
+             ", so rate and times are those of receipt";
+    const double begin = urban_nav_core::secondsBetween(stamps.first, receipts.first),
+                 length = urban_nav_core::secondsBetween(receipts.first, receipts.last) -
+                          urban_nav_core::secondsBetween(stamps.first, stamps.last);
+    if (std::abs(begin) < kApart && std::abs(length) < kApart) return {};
+    return stamps.name + ": received from " + urban_nav_core::printStamp(receipts.first) + " to " +
+           urban_nav_core::printStamp(receipts.last) + " s, which differs from its stamps; the stamps count";
+  }
+
+ private:
+  /// Whether a definition begins with a field of type Header.
+  static bool beginsWithHeader(const std::string& definition) {
+    bool has_header = false, has_ended = false;
+    urban_nav_core::forEachLine(definition, [&](std::string_view line, int) {
+      const std::string_view text = urban_nav_core::trimmed(line.substr(0, line.find('#')));
+      if (has_ended || text.empty()) return;
+      const std::string_view type = text.substr(0, text.find_first_of(" \t"));
+      has_header = type == "Header" || type == "std_msgs/Header";
+      has_ended = true;
+    });
+    return has_header;
+  }
+
+  bool hasStamps() const {
+    const StreamInfo stamps = stamps_.info();
+    return has_header_ && stamps.last > 0 && (stamps.messages < 2 || stamps.last > stamps.first);
+  }
+
+  bool has_header_;
+  Counter stamps_, receipts_;
+};
+
 template <typename Stamps>
 StreamInfo toStream(const std::string& name, const std::string& type, const Stamps& stamps) {
   Counter counter(name, type);
@@ -66,25 +124,29 @@ StreamInfo toStream(const std::string& name, const std::string& type, const Stam
 void lookIntoBag(const std::string& path, InputInfo& info) {
   rosbag::Bag bag(path, rosbag::bagmode::Read);
   rosbag::View view(bag);
-  std::map<std::string, Counter> counters;
+  std::map<std::string, TopicCounter> counters;
   for (const rosbag::ConnectionInfo* connection : view.getConnections())
-    counters.emplace(connection->topic, Counter(connection->topic, connection->datatype));
-  std::map<std::string, std::vector<Vector3d>> ways;
+    counters.emplace(connection->topic, TopicCounter(*connection));
+  std::map<std::string, std::vector<Vector3d>> positions_by_topic;
   for (const rosbag::MessageInstance& instance : view) {
-    counters.at(instance.getTopic()).add(urban_nav_ros::toStampNs(instance.getTime()));
+    counters.at(instance.getTopic()).add(instance);
     std::optional<urban_nav_core::Pose> pose;
     if (const auto odometry = instance.instantiate<nav_msgs::Odometry>())
       pose = urban_nav_ros::toPose(odometry->pose.pose);
     if (const auto stamped = instance.instantiate<geometry_msgs::PoseStamped>())
       pose = urban_nav_ros::toPose(stamped->pose);
-    if (pose) ways[instance.getTopic()].push_back(pose->t());
+    if (pose) positions_by_topic[instance.getTopic()].push_back(pose->t());
   }
-  for (const auto& [topic, counter] : counters) info.streams.push_back(counter.info());
-  if (ways.empty()) return;
-  const auto truth = std::find_if(ways.begin(), ways.end(),
-                                  [](const auto& way) { return way.first.find("truth") != std::string::npos; });
-  const auto& [topic, way] = truth != ways.end() ? *truth : *ways.begin();
-  info.distance_m = urban_nav_core::travelledLength(way);
+  for (const auto& [topic, counter] : counters) {
+    info.streams.push_back(counter.info());
+    if (std::string note = counter.note(); !note.empty()) info.notes.push_back(std::move(note));
+  }
+  if (positions_by_topic.empty()) return;
+  const auto truth = std::find_if(positions_by_topic.begin(), positions_by_topic.end(), [](const auto& positions) {
+    return positions.first.find("truth") != std::string::npos;
+  });
+  const auto& [topic, positions] = truth != positions_by_topic.end() ? *truth : *positions_by_topic.begin();
+  info.distance_m = urban_nav_core::travelledLength(positions);
   info.distance_of = topic;
 }
 
@@ -106,14 +168,14 @@ void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
     if (!stamps.empty()) info.streams.push_back(toStream("imu0", "rates and accelerations", stamps));
   }
   if (const std::optional<TrajectoryFile> truth = findTruth({{path}}, source->info(), options)) {
-    std::vector<Vector3d> way;
+    std::vector<Vector3d> positions;
     stamps.clear();
     for (const urban_nav_core::StampedPose& pose : truth->trajectory) {
-      way.push_back(pose.pose.t());
+      positions.push_back(pose.pose.t());
       stamps.push_back(pose.stamp);
     }
     info.streams.push_back(toStream("truth", "poses", stamps));
-    info.distance_m = urban_nav_core::travelledLength(way);
+    info.distance_m = urban_nav_core::travelledLength(positions);
     info.distance_of = truth->path;
   }
 }
@@ -130,18 +192,18 @@ void lookIntoNewCollege(const std::string& path, InputInfo& info) {
   info.streams.push_back(toStream("ladybug", "panoramas", stamps));
   if (files.alog.empty()) return;
   Counter left("laser_left", "scans"), right("laser_right", "scans"), odometry("wheel_odom", "poses");
-  std::vector<Vector3d> way;
+  std::vector<Vector3d> positions;
   NewCollegeLog log(files.alog);
   while (const std::optional<NewCollegeEvent> event = log.next()) {
     if (const auto* scan = std::get_if<NewCollegeScan>(&*event))
       (scan->side == Side::Left ? left : right).add(scan->stamp);
     if (const auto* pose = std::get_if<NewCollegeOdometry>(&*event)) {
       odometry.add(pose->stamp);
-      way.push_back(pose->T_odom_base.t());
+      positions.push_back(pose->T_odom_base.t());
     }
   }
   for (const Counter* counter : {&left, &right, &odometry}) info.streams.push_back(counter->info());
-  info.distance_m = urban_nav_core::travelledLength(way);
+  info.distance_m = urban_nav_core::travelledLength(positions);
   info.distance_of = "wheel_odom";
 }
 

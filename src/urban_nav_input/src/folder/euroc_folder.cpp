@@ -18,7 +18,7 @@ class EurocFolder : public Source {
  public:
   EurocFolder(const std::string& folder, const SourceOptions& options)
       : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_, &info_.notes)) {
-    bits_ = eurocBits(pairs_);
+    scale_ = eurocScale(pairs_);
     if (pairs_.empty()) throw UserError(mav0_, "lists no images", "cam0/data.csv and cam1/data.csv");
     info_.name = folder;
     info_.kind = "EuRoC folder";
@@ -47,9 +47,9 @@ class EurocFolder : public Source {
     SourceItem input;
     input.assembled.pair.stamp = pair.stamp;
     std::tie(input.assembled.pair.left, input.assembled.left_owner) =
-        sharedView(read(pair.left, "left", pair.stamp, rig_.left_map, bits_, input.faults));
+        sharedView(read(pair.left, "left", pair.stamp, rig_.left_map, scale_, input.faults));
     std::tie(input.assembled.pair.right, input.assembled.right_owner) =
-        sharedView(read(pair.right, "right", pair.stamp, rig_.right_map, bits_, input.faults));
+        sharedView(read(pair.right, "right", pair.stamp, rig_.right_map, scale_, input.faults));
     for (; next_motion_ < motion_.size() && motion_[next_motion_].to <= pair.stamp; ++next_motion_)
       input.assembled.inputs.push_back(motion_[next_motion_]);
     return input;
@@ -76,12 +76,13 @@ class EurocFolder : public Source {
   }
 
   static cv::Mat read(const std::string& path, const char* side, urban_nav_core::StampNs stamp,
-                      const urban_nav_core::RectifyMap& map, int bits, std::vector<std::string>& faults) {
+                      const urban_nav_core::RectifyMap& map, const urban_nav_ros::GreyScale& scale,
+                      std::vector<std::string>& faults) {
     if (path.empty()) {
       faults.push_back(std::string(side) + " image of " + std::to_string(stamp) + " ns is missing");
       return {};
     }
-    const GreyImage image = readRectified(path, map, bits);
+    const GreyImage image = readRectified(path, map, scale);
     if (!image.fault.empty()) faults.push_back(image.fault);
     return image.pixels;
   }
@@ -90,7 +91,7 @@ class EurocFolder : public Source {
   EurocRig rig_;
   SourceInfo info_;
   std::vector<EurocPair> pairs_;
-  int bits_ = 8;
+  urban_nav_ros::GreyScale scale_;
   std::vector<urban_nav_core::MotionInput> motion_;
   std::vector<urban_nav_core::SpecificForce> forces_;
   std::size_t position_ = 0, next_motion_ = 0;

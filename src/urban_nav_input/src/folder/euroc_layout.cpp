@@ -34,14 +34,17 @@ std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camer
   const EurocTable table = readEurocTable(path, 2, "stamp in ns, file name");
   if (notes != nullptr && table.out_of_order > 0)
     notes->push_back(path + ": " + std::to_string(table.out_of_order) + " rows out of order, sorted by stamp");
+  if (notes != nullptr && table.unit == 1.0) notes->push_back(path + ": its stamps are in seconds, not ns");
   if (notes != nullptr && table.repeated > 0)
     notes->push_back(path + ": " + std::to_string(table.repeated) + " rows left out: an earlier one has their stamp");
   std::vector<std::pair<StampNs, std::string>> images;
   for (const EurocRow& row : table.rows) {
     const fs::path name(row.cells[1]);
-    if (name.has_parent_path())
-      throw UserError(row.where, "file name \"" + name.string() + "\"", "a name without folders");
-    images.emplace_back(row.stamp, (fs::path(camera) / "data" / name).string());
+    const fs::path folder = name.parent_path();
+    if (!folder.empty() && folder != "data" && folder != "./data" && folder != ".")
+      throw UserError(row.where, "file name \"" + name.string() + "\"",
+                      "a name without folders, or data/NAME: images lie in " + (fs::path(camera) / "data").string());
+    images.emplace_back(row.stamp, (fs::path(camera) / "data" / name.filename()).string());
   }
   return images;
 }
@@ -128,17 +131,18 @@ std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0
   return trajectory;
 }
 
-int eurocBits(const std::vector<EurocPair>& pairs) {
-  constexpr std::size_t kLookedAt = 10;  // pairs at the beginning, until the exposure has settled
-  int bits = 8;
-  for (std::size_t i = 0; i < std::min(kLookedAt, pairs.size()); ++i)
+urban_nav_ros::GreyScale eurocScale(const std::vector<EurocPair>& pairs) {
+  constexpr std::size_t kSampledImages = 20;  // pairs at the beginning, until the exposure has settled
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; i < std::min(kSampledImages, pairs.size()); ++i)
     for (const std::string& path : {pairs[i].left, pairs[i].right})
-      if (!path.empty()) bits = std::max(bits, urban_nav_ros::significantBits(readPixels(path).pixels));
-  return bits;
+      if (!path.empty()) paths.push_back(path);
+  return sampleGreyScale(paths);
 }
 
-urban_nav_ros::GreyImage readRectified(const std::string& path, const RectifyMap& map, int bits) {
-  urban_nav_ros::GreyImage raw = readGrey(path, bits);
+urban_nav_ros::GreyImage readRectified(const std::string& path, const RectifyMap& map,
+                                       const urban_nav_ros::GreyScale& scale) {
+  urban_nav_ros::GreyImage raw = readGrey(path, scale);
   if (raw.pixels.empty()) return raw;
   std::vector<std::uint8_t> bytes;
   const urban_nav_core::ImageView view = map.remap(urban_nav_ros::toView(raw.pixels), bytes);

@@ -50,10 +50,22 @@ GreyImage readPixels(const std::string& path) {
   }
 }
 
-GreyImage readGrey(const std::string& path, int bits) {
+urban_nav_ros::GreyScale sampleGreyScale(const std::vector<std::string>& paths) {
+  constexpr std::size_t kSampled = 40;
+  urban_nav_ros::GreyRange range;
+  for (std::size_t i = 0; i < std::min(kSampled, paths.size()); ++i) {
+    const GreyImage image = readPixels(paths[i]);
+    if (image.pixels.empty()) continue;
+    if (image.pixels.depth() != CV_16U) break;  // nor are the others, as a rule
+    range.add(urban_nav_ros::toDeepGrey(image.pixels).pixels);
+  }
+  return range.scale();
+}
+
+GreyImage readGrey(const std::string& path, const urban_nav_ros::GreyScale& scale) {
   GreyImage image = readPixels(path);
   if (image.pixels.empty()) return image;
-  GreyImage grey = urban_nav_ros::toGrey(image.pixels, bits);
+  GreyImage grey = urban_nav_ros::toGrey(image.pixels, scale);
   if (!grey.fault.empty()) grey.fault = path + ": " + grey.fault;
   return grey;
 }

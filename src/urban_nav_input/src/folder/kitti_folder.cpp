@@ -84,15 +84,16 @@ class KittiFolder : public Source {
     throw urban_nav_core::DataError(info_.name, "no image can be read, the first: " + fault, "");
   }
 
-  /// One depth for both cameras, from the first images of each.
+  /// One range of grey values for both cameras, from the first images of each.
   void lookAtDepth() {
-    constexpr int kLookedAt = 10;
-    bits_ = 8;
+    constexpr std::size_t kSampledImages = 20;
+    std::vector<std::string> paths;
     for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {
-      int seen = 0;
-      for (auto image = side->begin(); image != side->end() && seen < kLookedAt; ++image, ++seen)
-        bits_ = std::max(bits_, urban_nav_ros::significantBits(urban_nav_input::readPixels(image->second).pixels));
+      std::size_t seen = 0;
+      for (auto image = side->begin(); image != side->end() && seen < kSampledImages; ++image, ++seen)
+        paths.push_back(image->second);
     }
+    scale_ = sampleGreyScale(paths);
   }
 
   /// By the user's files where there are any, else by the folder's.
@@ -122,7 +123,7 @@ class KittiFolder : public Source {
                        std::to_string(number) + " is missing");
       return {};
     }
-    const GreyImage image = readGrey(file->second, bits_);
+    const GreyImage image = readGrey(file->second, scale_);
     if (!image.fault.empty()) faults.push_back(image.fault);
     if (image.pixels.empty()) return {};
     if (image.pixels.size() != size_) {
@@ -141,7 +142,7 @@ class KittiFolder : public Source {
   SourceInfo info_;
   std::optional<urban_nav_ros::StereoCalibration> calibration_;  // where the user gave one
   cv::Size size_;                                                // of the images in the folder
-  int bits_ = 16;
+  urban_nav_ros::GreyScale scale_;
   std::size_t position_ = 0;
 };
 

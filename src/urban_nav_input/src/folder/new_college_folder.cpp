@@ -78,7 +78,7 @@ class NewCollegeFolder : public Source {
       faults.push_back("one image of " + urban_nav_core::printStamp(stamp) + " s is missing");
       return {};
     }
-    const urban_nav_ros::GreyImage image = readGrey(path);
+    const urban_nav_ros::GreyImage image = readGrey(path, {});
     if (!image.fault.empty()) faults.push_back(image.fault);
     if (image.pixels.empty()) return {};
     if (image.pixels.cols != info_.camera.left.width || image.pixels.rows != info_.camera.left.height) {

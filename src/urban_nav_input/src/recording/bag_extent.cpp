@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/bag_extent.hpp"
 
+#include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <string>
 
 #include "recording/bag_order.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -43,7 +46,8 @@ bool useImages(rosbag::Bag& bag, BagExtent& extent, const SpanOf& span_of) {
     rosbag::View view(bag, rosbag::TopicQuery(connection->topic));
     if (view.size() == 0) continue;
     const BagExtent::Span span = span_of(view);
-    if (span.first == 0 || span.second < span.first) return false;
+    const bool is_constant = view.size() > 1 && span.second == span.first;
+    if (span.first == 0 || span.second < span.first || is_constant) return false;
     extent.images[connection->topic] = span;
   }
   return !extent.images.empty();
@@ -57,6 +61,7 @@ BagExtent computeExtent(const std::string& path) {
     BagExtent extent;
     extent.path = path;
     extent.receipts = readReceipts(view);
+    extent.messages = view.size();
     extent.by_stamps = useImages(bag, extent, readStamps);
     return extent;
   } catch (const rosbag::BagUnindexedException&) {
@@ -73,15 +78,39 @@ bool overlap(const BagExtent::Span& a, const BagExtent::Span& b) {
   return std::min(a.second, b.second) - std::max(a.first, b.first) > std::min(kMostTwice, shorter / 2);
 }
 
-/// Whether both hold images of one topic at the same time. Stamps alone may overlap because a clock was set.
+/// Whether both hold images of one topic with stamps of the same time: two robots, two runs of a simulation or of a
+/// board whose clock starts anew, or a recording whose clock was set. Times of receipt do not count: they may be those
+/// of a conversion.
 bool areSimultaneous(const BagExtent& a, const BagExtent& b) {
-  return overlap(a.receipts, b.receipts) && std::any_of(a.images.begin(), a.images.end(), [&](const auto& topic) {
-           const auto other = b.images.find(topic.first);
-           return other != b.images.end() && overlap(topic.second, other->second);
-         });
+  return std::any_of(a.images.begin(), a.images.end(), [&](const auto& topic) {
+    const auto other = b.images.find(topic.first);
+    return other != b.images.end() && overlap(topic.second, other->second);
+  });
+}
+
+/// Returns the bytes of the first and the last image of a topic.
+std::pair<std::string, std::string> readEnds(rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  const auto toBytes = [](const rosbag::MessageInstance& message) {
+    std::string bytes(message.size(), '\0');
+    ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()), message.size());
+    message.write(stream);
+    return bytes;
+  };
+  if (view.size() == 0) return {};
+  auto last = view.begin();
+  for (auto each = view.begin(); each != view.end(); ++each) last = each;
+  return {toBytes(*view.begin()), toBytes(*last)};
 }
 
 }  // namespace
+
+bool isSameRecording(const BagExtent& a, const BagExtent& b) {
+  if (a.receipts != b.receipts || a.images != b.images || a.messages != b.messages || a.images.empty()) return false;
+  rosbag::Bag first(a.path, rosbag::bagmode::Read), second(b.path, rosbag::bagmode::Read);
+  return std::all_of(a.images.begin(), a.images.end(),
+                     [&](const auto& topic) { return readEnds(first, topic.first) == readEnds(second, topic.first); });
+}
 
 std::vector<BagExtent> findExtents(const std::vector<std::string>& paths) {
   std::vector<BagExtent> bags;

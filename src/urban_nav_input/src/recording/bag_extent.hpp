@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -19,7 +20,12 @@ struct BagExtent {
   Span span = {};                      ///< by the stamps of the images, else of receipt
   std::map<std::string, Span> images;  ///< of each topic of images, as `span`
   bool by_stamps = false;
+  std::size_t messages = 0;
 };
+
+/// Returns whether two bags hold the same messages, as a bag and its copy (also one that is compressed otherwise) do:
+/// as many, of the same times, with the same bytes of the first and last image of each topic.
+bool isSameRecording(const BagExtent& a, const BagExtent& b);
 
 /// The extents of bags in the order of their begin. Stamps tell what belongs together also where bags were converted or
 /// written anew, all at the same time; where the images of one bag have none, or it has no images, all are placed by

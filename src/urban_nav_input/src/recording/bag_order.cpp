@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "urban_nav_ros/stamp.hpp"
 
@@ -39,6 +41,17 @@ std::vector<Sample> drawSamples(std::list<rosbag::Bag>& bags, const std::vector<
   return samples;
 }
 
+/// Whether each topic has several samples, of one stamp.
+bool areConstant(const std::vector<Sample>& samples) {
+  std::map<std::string, std::pair<StampNs, std::size_t>> topics;
+  for (const Sample& sample : samples) {
+    auto& [stamp, count] = topics.emplace(sample.topic, std::make_pair(sample.stamp, std::size_t{0})).first->second;
+    if (stamp != sample.stamp) return false;
+    ++count;
+  }
+  return std::all_of(topics.begin(), topics.end(), [](const auto& topic) { return topic.second.second > 1; });
+}
+
 }  // namespace
 
 StampNs readHeaderStamp(const rosbag::MessageInstance& message) {
@@ -54,6 +67,20 @@ StampNs readHeaderStamp(const rosbag::MessageInstance& message) {
   return static_cast<StampNs>(seconds) * 1'000'000'000 + nanoseconds;
 }
 
+std::pair<StampNs, StampNs> findStampSpan(rosbag::View& view) {
+  constexpr std::size_t kEnds = 20;  // messages at either end, of several topics
+  std::pair<StampNs, StampNs> span(std::numeric_limits<StampNs>::max(), 0);
+  std::size_t i = 0;
+  for (const rosbag::MessageInstance& message : view) {
+    const bool is_at_end = i < kEnds || i + kEnds >= view.size();
+    ++i;
+    if (!is_at_end) continue;
+    const StampNs stamp = readHeaderStamp(message);
+    span = {std::min(span.first, stamp), std::max(span.second, stamp)};
+  }
+  return span;
+}
+
 StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
                          const ReceiptRange& range) {
   StampSurvey survey;
@@ -61,6 +88,8 @@ StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::st
   if (samples.empty()) return survey;
   survey.unset = std::all_of(samples.begin(), samples.end(), [](const Sample& sample) { return sample.stamp == 0; });
   if (survey.unset) return survey;
+  survey.constant = areConstant(samples);
+  if (survey.constant) return survey;
   std::map<std::string, StampNs> latest;
   std::vector<StampNs> delays;
   for (const Sample& sample : samples) {

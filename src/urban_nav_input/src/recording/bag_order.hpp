@@ -23,12 +23,17 @@ struct StampSurvey {
   bool needs_sorting = false;
   /// No header has a stamp.
   bool unset = false;
+  /// All stamps of each topic are equal, as from a driver that stamps with the time of its start.
+  bool constant = false;
   /// ns; by how much the stamps of a topic step back at most while times of receipt ascend: a clock was set.
   urban_nav_core::StampNs back = 0;
 };
 
 /// Returns the stamp (ns) of a message that begins with a std_msgs/Header.
 urban_nav_core::StampNs readHeaderStamp(const rosbag::MessageInstance& message);
+
+/// Returns the smallest and the largest header stamp of the first and last messages of a view: about its span.
+std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs> findStampSpan(rosbag::View& view);
 
 /// Looks at a few hundred messages of the topics, evenly distributed over the part of the bags within `range`.
 StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,

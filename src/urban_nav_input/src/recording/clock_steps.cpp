@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "recording/bag_order.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -14,9 +15,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr std::size_t kProbes = 400;              // of a topic
-constexpr StampNs kSmallestStep = 1'000'000'000;  // ns
-constexpr StampNs kSameStep = 1'000'000'000;      // ns between the receipts of two topics
+constexpr std::size_t kProbes = 400;          // of a topic
+constexpr std::size_t kPersistence = 5;       // messages after a step that have the clock of after it
+constexpr StampNs kSameStep = 1'000'000'000;  // ns between the receipts of two topics
 
 /// Messages of one topic in the order of receipt; headers are read on demand.
 class TopicStamps {
@@ -41,17 +42,39 @@ class TopicStamps {
   std::map<std::size_t, StampNs> stamps_;  // read so far
 };
 
+/// Returns the usual interval between the stamps of a topic, ns: the median over the probes.
+StampNs usualInterval(TopicStamps& topic, std::size_t stride) {
+  std::vector<StampNs> intervals;
+  for (std::size_t i = 0; i + stride < topic.size(); i += stride)
+    if (const StampNs step = topic.stamp(i + stride) - topic.stamp(i); step > 0)
+      intervals.push_back(step / static_cast<StampNs>(stride));
+  if (intervals.empty()) return 0;
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+/// Whether the messages from `after` on keep their distance to the clock of before: one message out of order does not.
+bool isPersistent(TopicStamps& topic, std::size_t after, StampNs low, StampNs least) {
+  const std::size_t end = std::min(topic.size(), after + kPersistence);
+  for (std::size_t i = after; i < end; ++i)
+    if (topic.delay(i) - low < least) return false;
+  return true;
+}
+
 /// Returns the step between two messages, by bisection on the delay from stamp to receipt, which a step back increases.
-std::optional<ClockStep> findStepBetween(TopicStamps& topic, std::size_t before, std::size_t after) {
+/// `interval`: between the stamps; smaller steps cannot be distinguished from jitter.
+std::optional<ClockStep> findStepBetween(TopicStamps& topic, std::size_t before, std::size_t after, StampNs interval) {
   const StampNs low = topic.delay(before), high = topic.delay(after);
-  if (high - low < kSmallestStep) return std::nullopt;
+  if (high - low < interval) return std::nullopt;
   while (after - before > 1) {
     const std::size_t middle = before + (after - before) / 2;
     (topic.delay(middle) - low < high - topic.delay(middle) ? before : after) = middle;
   }
   const StampNs back = topic.stamp(before) - topic.stamp(after);
-  if (back <= kSmallestStep) return std::nullopt;  // a slow link delays stamps that ascend
-  return ClockStep{topic.receipt(after), back};
+  // A slow link delays stamps that ascend. The clock went back by an interval more than the stamps show.
+  if (back <= 0 || !isPersistent(topic, after, topic.delay(before), (back + interval) / 2)) return std::nullopt;
+  return ClockStep{topic.receipt(after), back + interval};
 }
 
 }  // namespace
@@ -73,10 +96,12 @@ std::vector<ClockStep> findClockSteps(std::list<rosbag::Bag>& bags, const std::v
     TopicStamps topic(bags, name);
     if (topic.size() < 2) continue;
     const std::size_t stride = std::max<std::size_t>(1, topic.size() / kProbes);
+    const StampNs interval = usualInterval(topic, stride);
+    if (interval == 0) continue;
     for (std::size_t i = 0; i + 1 < topic.size(); i += stride) {
       const std::size_t next = std::min(i + stride, topic.size() - 1);
       if (topic.stamp(i) == 0 || topic.stamp(next) == 0) continue;
-      if (const std::optional<ClockStep> step = findStepBetween(topic, i, next)) found.push_back(*step);
+      if (const std::optional<ClockStep> step = findStepBetween(topic, i, next, interval)) found.push_back(*step);
     }
   }
   std::sort(found.begin(), found.end(), [](const ClockStep& a, const ClockStep& b) { return a.receipt < b.receipt; });

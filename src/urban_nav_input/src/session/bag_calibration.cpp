@@ -19,25 +19,69 @@ using urban_nav_ros::ImagePair;
 namespace {
 
 constexpr StampNs kPartner = 5'000'000;          // ns, between the stamps of a pair
-constexpr StampNs kNearReceipt = 1'000'000'000;  // ns, in which the partner is looked for
+constexpr StampNs kReceiptPartner = 25'000'000;  // ns, between the times of receipt of a pair without stamps
 
+/// Returns grey values in the depth of the image.
 cv::Mat decodeGrey(const rosbag::MessageInstance& message) {
-  if (const auto image = message.instantiate<sensor_msgs::Image>()) return urban_nav_ros::toGrey(*image).pixels.clone();
+  if (const auto image = message.instantiate<sensor_msgs::Image>())
+    return urban_nav_ros::toDeepGrey(*image).pixels.clone();
   if (const auto packed = message.instantiate<sensor_msgs::CompressedImage>())
-    return urban_nav_ros::toGrey(*packed).pixels.clone();
+    return urban_nav_ros::toDeepGrey(*packed).pixels.clone();
   return {};
 }
 
-/// Returns the right image that belongs to a stamp, received at about the same time.
-cv::Mat findPartner(std::list<rosbag::Bag>& bags, const std::string& topic, StampNs stamp, StampNs receipt) {
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view;
-    addToView(view, bag, {topic}, {std::max<StampNs>(receipt - kNearReceipt, 1), receipt + kNearReceipt});
-    for (const rosbag::MessageInstance& message : view)
-      if (std::abs(readHeaderStamp(message) - stamp) <= kPartner) return decodeGrey(message);
-  }
-  return {};
+/// Converts all images to 8 bits by their common range.
+void toEightBits(std::vector<ImagePair>& pairs) {
+  urban_nav_ros::GreyRange range;
+  for (const ImagePair& pair : pairs)
+    for (const cv::Mat* image : {&pair.first, &pair.second}) range.add(*image);
+  for (ImagePair& pair : pairs)
+    for (cv::Mat* image : {&pair.first, &pair.second})
+      if (image->depth() == CV_16U) *image = urban_nav_ros::toEightBits(*image, range.scale());
 }
+
+/// Messages of a topic in the order of their receipt, found by their stamps.
+class StampedMessages {
+ public:
+  /// `by_receipt`: stamps are not set, and times of receipt replace them.
+  StampedMessages(std::list<rosbag::Bag>& bags, const std::string& topic, const ReceiptRange& part, bool by_receipt)
+      : by_receipt_(by_receipt) {
+    for (rosbag::Bag& bag : bags) addToView(view_, bag, {topic}, part);
+    for (const rosbag::MessageInstance& message : view_) messages_.push_back(message);
+  }
+
+  std::size_t size() const { return messages_.size(); }
+  const rosbag::MessageInstance& operator[](std::size_t i) const { return messages_[i]; }
+  StampNs stamp(std::size_t i) const {
+    return by_receipt_ ? urban_nav_ros::toStampNs(messages_[i].getTime()) : readHeaderStamp(messages_[i]);
+  }
+
+  /// Returns the message whose stamp is nearest to `stamp`, if within the tolerance of a pair: by bisection, since
+  /// stamps mostly ascend, then among the neighbours.
+  const rosbag::MessageInstance* find(StampNs stamp) const {
+    constexpr std::size_t kNeighbours = 8;
+    std::size_t low = 0, high = messages_.size();
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (this->stamp(middle) < stamp) low = middle + 1;
+      else high = middle;
+    }
+    const rosbag::MessageInstance* found = nullptr;
+    StampNs least = by_receipt_ ? kReceiptPartner : kPartner;
+    for (std::size_t i = low > kNeighbours ? low - kNeighbours : 0; i < std::min(size(), low + kNeighbours); ++i) {
+      const StampNs apart = std::abs(this->stamp(i) - stamp);
+      if (apart > least) continue;
+      found = &messages_[i];
+      least = apart;
+    }
+    return found;
+  }
+
+ private:
+  bool by_receipt_;
+  rosbag::View view_;
+  std::vector<rosbag::MessageInstance> messages_;
+};
 
 /// Returns the indices of about `count` of `size` images, one from each part of the recording but at no fixed interval,
 /// so that nothing periodic is met at one phase.
@@ -55,18 +99,17 @@ std::vector<std::size_t> drawIndices(std::size_t size, int count) {
 /// Returns at most `count` decoded pairs of a recording; fewer where partners are not found by their stamps.
 std::vector<ImagePair> samplePairs(std::list<rosbag::Bag>& bags, const StereoTopics& topics, const ReceiptRange& part,
                                    int count) {
-  rosbag::View left;
-  for (rosbag::Bag& bag : bags) addToView(left, bag, {topics.left}, part);
-  const std::vector<std::size_t> indices = drawIndices(left.size(), count);
+  const StampSurvey survey = surveyStamps(bags, {topics.left, topics.right}, part);
+  const bool by_receipt = survey.unset || survey.constant;
+  const StampedMessages left(bags, topics.left, part, by_receipt), right(bags, topics.right, part, by_receipt);
   std::vector<ImagePair> pairs;
-  std::size_t i = 0;
-  for (const rosbag::MessageInstance& message : left) {
-    if (!std::binary_search(indices.begin(), indices.end(), i++)) continue;
-    const StampNs stamp = readHeaderStamp(message) + topics.right_delay;
-    ImagePair pair{decodeGrey(message),
-                   findPartner(bags, topics.right, stamp, urban_nav_ros::toStampNs(message.getTime()))};
+  for (const std::size_t i : drawIndices(left.size(), count)) {
+    const rosbag::MessageInstance* partner = right.find(left.stamp(i) + topics.right_delay);
+    if (partner == nullptr) continue;
+    ImagePair pair{decodeGrey(left[i]), decodeGrey(*partner)};
     if (!pair.first.empty() && pair.second.size() == pair.first.size()) pairs.push_back(std::move(pair));
   }
+  toEightBits(pairs);
   return pairs;
 }
 

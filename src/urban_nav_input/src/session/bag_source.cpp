@@ -2,11 +2,13 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <list>
 #include <set>
+#include <tuple>
 
 #include "recording/bag_contents.hpp"
 #include "recording/bag_groups.hpp"
@@ -45,7 +47,7 @@ constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, w
 constexpr urban_nav_core::StampNs kClockStep = 1'000'000'000;  // ns
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 4;
+constexpr std::uint32_t kBagStateVersion = 5;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                            // ns: images of a pair are received one after another
 constexpr std::size_t kDepthSamples = 20;  // images at the beginning of each side
@@ -181,6 +183,9 @@ class BagSource : public Source {
     const auto [left_info, right_info] =
         given ? readCalibration(options_.calibration, seen.width, seen.height) : makeInfos();
     if (camera_frame_.empty()) camera_frame_ = seen.frame;
+    if (left_info.distortion_model.empty() && urban_nav_core::needsRectification(left_info))
+      info_.notes.push_back("distortion_model is empty: coefficients are read as those of " +
+                            std::string(left_info.D.size() > 5 ? "rational_polynomial" : "plumb_bob"));
     const std::string where = given
                                   ? options_.calibration
                                   : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
@@ -248,11 +253,12 @@ class BagSource : public Source {
       feed.motion = true;
     }
     const StampSurvey survey = surveyStamps(bags_, images, part_);
-    stamps_are_receipts_ = survey.unset;
+    stamps_are_receipts_ = survey.unset || survey.constant;
     is_sorted_ = survey.needs_sorting;
     if (stamps_are_receipts_) {
       feed.pairing_tolerance = kReceiptTolerance;
-      info_.notes.push_back("no header has a stamp: the times at which messages were received are used instead");
+      info_.notes.push_back(std::string(survey.unset ? "no header has a stamp" : "all stamps of a topic are equal") +
+                            ": the times at which messages were received are used instead");
     }
     if (is_sorted_) info_.notes.push_back("messages lie in another order than their stamps: sorted by stamp");
     if (survey.back > kClockStep)
@@ -273,9 +279,13 @@ class BagSource : public Source {
       addToView(stereo, bag, images, part_);
     }
     if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
-    info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
-    info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
-    expectBits(images);
+    if (stamps_are_receipts_) {
+      info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
+      info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
+    } else {
+      std::tie(info_.first, info_.last) = findStampSpan(stereo);
+    }
+    expectRange(images);
   }
 
   void noteUnused() {
@@ -287,21 +297,22 @@ class BagSource : public Source {
       info_.notes.push_back(std::move(sentence));
   }
 
-  /// The depth of 16-bit images is known before the first of them is decoded.
-  void expectBits(const std::vector<std::string>& topics) {
+  /// The range of 16-bit images is known before the first of them is decoded.
+  void expectRange(const std::vector<std::string>& topics) {
+    urban_nav_ros::GreyRange range;
     for (const std::string& topic : topics) {
       std::size_t seen = 0;
       for (rosbag::Bag& bag : bags_) {
         rosbag::View view(bag, rosbag::TopicQuery(topic));
         for (auto message = view.begin(); message != view.end() && seen < kDepthSamples; ++message, ++seen) {
-          if (const auto image = message->instantiate<sensor_msgs::Image>())
-            feed_->expectBits(urban_nav_ros::significantBits(*image));
-          else if (const auto packed = message->instantiate<sensor_msgs::CompressedImage>())
-            feed_->expectBits(urban_nav_ros::significantBits(*packed));
+          if (const auto image = message->instantiate<sensor_msgs::Image>()) range.add(*image);
+          else if (const auto packed = message->instantiate<sensor_msgs::CompressedImage>()) range.add(*packed);
         }
         if (seen >= kDepthSamples) break;
       }
     }
+    range.settle();
+    feed_->expectRange(range);
   }
 
   /// The messages of the next group, if there is one.

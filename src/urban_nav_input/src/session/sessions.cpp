@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <list>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -72,6 +73,23 @@ void appendSessions(const std::vector<BagExtent>& bags, const std::vector<std::s
   }
 }
 
+/// Returns the bags without copies of others; `copies`: a sentence by the path of the bag that stays.
+std::vector<BagExtent> takeOnce(const std::vector<BagExtent>& bags, std::map<std::string, std::string>& copies) {
+  std::vector<BagExtent> kept;
+  for (const BagExtent& bag : bags) {
+    const auto same =
+        std::find_if(kept.begin(), kept.end(), [&](const BagExtent& other) { return isSameRecording(other, bag); });
+    if (same == kept.end()) {
+      kept.push_back(bag);
+      continue;
+    }
+    std::string& sentence = copies[same->path];
+    sentence += (sentence.empty() ? "" : "; ") + bag.path + " holds the same messages as " + same->path +
+                ": given twice, and used once";
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics) {
@@ -82,7 +100,8 @@ std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, c
     else sessions.push_back({{input}, 0});
   }
   std::vector<BagExtent> earlier;
-  for (const std::vector<BagExtent>& recording : separateRecordings(findExtents(paths))) {
+  std::map<std::string, std::string> copies;
+  for (const std::vector<BagExtent>& recording : separateRecordings(takeOnce(findExtents(paths), copies))) {
     const std::size_t first = sessions.size();
     appendSessions(recording, topics, sessions);
     const auto simultaneous = std::find_if(earlier.begin(), earlier.end(), [&](const BagExtent& bag) {
@@ -91,6 +110,9 @@ std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, c
     if (simultaneous != earlier.end())
       sessions[first].note =
           "holds images of the same topics at the same time as " + simultaneous->path + ": a session of its own";
+    for (const BagExtent& bag : recording)
+      if (const auto copy = copies.find(bag.path); copy != copies.end())
+        sessions[first].note += (sessions[first].note.empty() ? "" : "; ") + copy->second;
     earlier.insert(earlier.end(), recording.begin(), recording.end());
   }
   return sessions;

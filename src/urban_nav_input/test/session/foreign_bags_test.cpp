@@ -6,10 +6,12 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include <filesystem>
 #include <functional>
 #include <map>
 
 #include "session/pair_delay.hpp"
+#include "urban_nav_input/examination/input_info.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_input/session/sessions.hpp"
 
@@ -166,10 +168,17 @@ TEST(ForeignBags, PairsAreOfOneHead) {
 
 TEST(ForeignBags, DeepImagesHaveOneScaleForBothCameras) {
   const TemporaryFolder folder;
-  writeBag(folder.file("a.bag"), {});  // 900: ten bits, 1100: eleven
-  const Reading reading = readBag(folder.file("a.bag"));
-  EXPECT_EQ(reading.left_grey, 900 >> 4);
-  EXPECT_EQ(reading.right_grey, 1100 >> 4);
+  writeBag(folder.file("a.bag"), {});  // 900 and 1100: a narrow range of twelve bits, stretched
+  const Reading narrow = readBag(folder.file("a.bag"));
+  EXPECT_EQ(narrow.left_grey, 0);
+  EXPECT_GE(narrow.right_grey, 250);
+  Recipe recipe;
+  recipe.left_grey = 900;
+  recipe.right_grey = 3900;
+  writeBag(folder.file("b.bag"), recipe);
+  const Reading wide = readBag(folder.file("b.bag"));
+  EXPECT_EQ(wide.left_grey, 900 >> 4);
+  EXPECT_EQ(wide.right_grey, 3900 >> 4);
 }
 
 TEST(ForeignBags, OfTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
@@ -180,6 +189,68 @@ TEST(ForeignBags, OfTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
     writeBag(folder.file("day" + std::to_string(day) + ".bag"), recipe, kBegin + 86400.0 * day);
   }
   EXPECT_EQ(findSessions({folder.file("day0.bag"), folder.file("day1.bag")}).size(), 2U);
+}
+
+TEST(ForeignBags, RunsWhoseClockStartsAnewAreTwoSessions) {
+  const TemporaryFolder folder;
+  for (const int day : {0, 1}) {
+    Recipe recipe;
+    recipe.receipt = [day](int, int, double stamp) { return stamp + 86400.0 * day; };
+    writeBag(folder.file("run" + std::to_string(day) + ".bag"), recipe);
+  }
+  EXPECT_EQ(findSessions({folder.file("run0.bag"), folder.file("run1.bag")}).size(), 2U);
+}
+
+TEST(ForeignBags, ABagAndItsCopyCountOnce) {
+  const TemporaryFolder folder;
+  writeBag(folder.file("a.bag"), {});
+  std::filesystem::copy_file(folder.file("a.bag"), folder.file("copy.bag"));
+  for (const char* second : {"copy.bag", "a.bag"}) {
+    const std::vector<InputSession> sessions = findSessions({folder.file("a.bag"), folder.file(second)});
+    ASSERT_EQ(sessions.size(), 1U);
+    EXPECT_EQ(sessions[0].paths, std::vector<std::string>{folder.file("a.bag")});
+    EXPECT_NE(sessions[0].note.find("given twice"), std::string::npos) << sessions[0].note;
+  }
+  Recipe other;
+  other.left_grey = 901;  // another run of the same simulation
+  writeBag(folder.file("other.bag"), other);
+  EXPECT_EQ(findSessions({folder.file("a.bag"), folder.file("other.bag")}).size(), 2U);
+}
+
+TEST(ForeignBags, StampsThatDoNotChangeGiveWayToTimesOfReceipt) {
+  const TemporaryFolder folder;
+  {
+    rosbag::Bag bag(folder.file("a.bag"), rosbag::bagmode::Write);
+    for (int i = 0; i < kPairs; ++i) {
+      const ros::Time at(kBegin + 5.0 + kPeriod * i);
+      bag.write("/stereo/left/image_raw", at, image(kBegin, 900));
+      bag.write("/stereo/right/image_raw", at + ros::Duration(0.004), image(kBegin, 3900));
+      bag.write("/stereo/left/camera_info", at, cameraInfo(kBegin, 0.0));
+      bag.write("/stereo/right/camera_info", at, cameraInfo(kBegin, 0.2));
+    }
+  }
+  const Reading reading = readBag(folder.file("a.bag"));
+  EXPECT_EQ(reading.whole, kPairs);
+  EXPECT_NEAR(1e-9 * static_cast<double>(reading.stamps.front()), kBegin + 5.0, 0.01);
+  EXPECT_NE(reading.notes.find("equal: the times at which messages were received"), std::string::npos) << reading.notes;
+  const InputInfo info = lookInto(folder.file("a.bag"));
+  ASSERT_EQ(info.streams.size(), 4U);
+  EXPECT_NEAR(info.streams[1].rate_hz, 1.0 / kPeriod, 0.1);
+}
+
+TEST(ForeignBags, InfoCountsByTheStampsOfHeaders) {
+  const TemporaryFolder folder;
+  Recipe recipe;
+  recipe.receipt = [](int topic, int i, double) { return 1.7e9 + topic + 0.001 * i; };
+  writeBag(folder.file("a.bag"), recipe);
+  const InputInfo info = lookInto(folder.file("a.bag"));
+  ASSERT_EQ(info.streams.size(), 4U);
+  for (const StreamInfo& stream : info.streams) {
+    EXPECT_NEAR(stream.rate_hz, 1.0 / kPeriod, 0.1) << stream.name;
+    EXPECT_NEAR(1e-9 * static_cast<double>(stream.first), kBegin, 1e-6) << stream.name;
+  }
+  ASSERT_EQ(info.notes.size(), 4U);
+  EXPECT_NE(info.notes.front().find("received from 170000000"), std::string::npos) << info.notes.front();
 }
 
 TEST(ForeignBags, SimultaneousImagesOfTheSameTopicsAreTwoSessions) {
@@ -235,7 +306,7 @@ void writeBagWithStep(const std::string& path, double back) {
 
 TEST(ForeignBags, AClockThatIsSetBackBeginsASession) {
   const TemporaryFolder folder;
-  for (const double back : {1.5, 3600.0}) {
+  for (const double back : {0.07, 0.25, 1.5, 3600.0}) {  // from one interval of the images on
     const std::string path = folder.file("step.bag");
     writeBagWithStep(path, back);
     const std::vector<InputSession> sessions = findSessions({path});
@@ -279,6 +350,14 @@ TEST(ForeignBags, TopicsThatAreNotUsedAreNamedAndCounted) {
   }
   const std::string notes = readBag(folder.file("a.bag")).notes;
   EXPECT_NE(notes.find("not used: /depth (sensor_msgs/CameraInfo, 3 messages)\n"), std::string::npos) << notes;
+}
+
+TEST(ForeignBags, OneImageOutOfOrderIsNoClockStep) {
+  const TemporaryFolder folder;
+  Recipe recipe;
+  recipe.receipt = [](int, int i, double stamp) { return stamp + 0.01 + (i == kPairs / 2 ? 0.06 : 0.0); };
+  writeBag(folder.file("a.bag"), recipe);
+  EXPECT_EQ(findSessions({folder.file("a.bag")}).size(), 1U);
 }
 
 TEST(ForeignBags, ASlowLinkIsNoClockStep) {

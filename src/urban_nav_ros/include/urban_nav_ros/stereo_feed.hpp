@@ -16,6 +16,7 @@
 
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_core/sequence/time_ordered_queue.hpp"
+#include "urban_nav_ros/grey_range.hpp"
 #include "urban_nav_ros/motion.hpp"
 #include "urban_nav_ros/stereo_calibration.hpp"
 
@@ -44,8 +45,8 @@ class StereoFeed {
   void add(Side side, const sensor_msgs::ImageConstPtr& image);
   void add(Side side, const sensor_msgs::CompressedImageConstPtr& image);
   void add(const urban_nav_core::MotionInput& input);
-  /// States the depth of 16-bit pixels (8...16) as far as it is known in advance; deeper images raise it.
-  void expectBits(int bits) { bits_ = std::max(bits_, bits); }
+  /// States the range of 16-bit pixels as far as it is known in advance.
+  void expectRange(const GreyRange& range) { range_ = range; }
   /// Nothing more will come: all that waits may leave.
   void finish();
 
@@ -79,7 +80,7 @@ class StereoFeed {
   urban_nav_core::TimeOrderedQueue<Input> queue_;
   urban_nav_core::StereoAssembler assembler_;
   urban_nav_core::StampNs pairing_tolerance_;
-  int bits_ = 8;  // depth of the 16-bit pixels of both cameras: the largest so far
+  GreyRange range_;  // for the 16-bit pixels of both cameras
   std::vector<std::string> faults_;
   bool finished_ = false, drained_ = false;
   std::int64_t rectified_ = 0;  // images; no part of the archived state

@@ -13,6 +13,7 @@
 
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_ros/grey_range.hpp"
 #include "urban_nav_ros/rectification_judge.hpp"
 #include "urban_nav_ros/stereo_input.hpp"
 
@@ -66,7 +67,7 @@ class StereoRectifier {
   std::optional<StereoCalibration> calibration_;
   std::deque<ImageInput> waiting_;  // for the calibration
   urban_nav_live::TimeJumpDetector images_;
-  int bits_ = 8;       // depth of the 16-bit pixels of both cameras: the largest so far
+  GreyRange range_;    // for the 16-bit pixels of both cameras
   std::string fault_;  // of the calibration
   Counts counts_;
 };

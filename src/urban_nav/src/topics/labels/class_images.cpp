@@ -3,6 +3,9 @@
 
 #include <sensor_msgs/Image.h>
 
+#include <algorithm>
+#include <array>
+
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -27,8 +30,9 @@ cv::Mat ClassImages::at(const std::string& frame, urban_nav_core::StampNs stamp)
   const auto place = places_.find({frame, stamp});
   if (place == places_.end()) return {};
   const auto image = place->second.as<sensor_msgs::Image>();
-  if (!image || (image->encoding != "mono8" && image->encoding != "8UC1")) return {};
-  return scene_labeler::toClassImage(urban_nav_ros::toGrey(*image).pixels, map_);
+  constexpr std::array<const char*, 4> kEncodings = {"mono8", "8UC1", "mono16", "16UC1"};
+  if (!image || std::find(kEncodings.begin(), kEncodings.end(), image->encoding) == kEncodings.end()) return {};
+  return scene_labeler::toClassImage(urban_nav_ros::toGrey(*image, urban_nav_ros::kPixelsAsStored).pixels, map_);
 }
 
 }  // namespace urban_nav

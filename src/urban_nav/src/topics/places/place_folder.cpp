@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 
 #include "topics/places/place_source.hpp"
-#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
@@ -26,24 +26,20 @@ std::vector<std::string> imagesIn(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (urban_nav_input::isImageName(entry.path().filename().string())) paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
+  std::sort(paths.begin(), paths.end(), [](const std::string& a, const std::string& b) {
+    return urban_nav_core::isNaturallyLess(fs::path(a).filename().string(), fs::path(b).filename().string());
+  });
   return paths;
 }
 
 std::vector<StampNs> readTimes(const std::string& path, std::size_t images) {
   std::vector<StampNs> stamps;
-  const std::string text = urban_nav_core::readTextFile(path);
-  urban_nav_core::forEachLine(text, [&](std::string_view line, int number) {
-    const std::string_view word = urban_nav_core::trimmed(line);
-    if (word.empty()) return;
-    const auto seconds = urban_nav_core::parseNumber(word);
-    if (!seconds || std::abs(*seconds) > 9e9)
-      throw UserError(urban_nav_core::atLine(path, number), "\"" + std::string(word) + "\"", "a time in seconds");
-    stamps.push_back(static_cast<StampNs>(std::llround(*seconds * 1e9)));
-    if (stamps.size() > 1 && stamps.back() < stamps[stamps.size() - 2])
-      throw UserError(urban_nav_core::atLine(path, number), "a time before the previous one",
-                      "times in ascending order");
-  });
+  urban_nav_core::forEachTime(urban_nav_core::readTextFile(path), path,
+                              [&stamps](std::string_view, StampNs stamp, const std::string& where) {
+                                if (!stamps.empty() && stamp < stamps.back())
+                                  throw UserError(where, "a time before the previous one", "times in ascending order");
+                                stamps.push_back(stamp);
+                              });
   if (stamps.size() != images)
     throw UserError(path, std::to_string(stamps.size()) + " times", std::to_string(images) + ", one for each image");
   return stamps;
@@ -61,6 +57,7 @@ class PlaceFolder : public PlaceSource {
     if (images_.empty())
       throw UserError(path, "no images",
                       "a folder of images (png, jpg, pgm, ppm, bmp, tif), a stereo folder, or a bag");
+    scale_ = urban_nav_input::sampleGreyScale(images_);
     if (fs::exists(times)) stamps_ = readTimes(times.string(), images_.size());
     for (std::size_t i = stamps_.size(); i < images_.size(); ++i)
       stamps_.push_back(static_cast<StampNs>(i) * 1'000'000'000);
@@ -72,7 +69,7 @@ class PlaceFolder : public PlaceSource {
 
   std::optional<PlaceImages> next() override {
     if (at_ == images_.size()) return std::nullopt;
-    urban_nav_ros::GreyImage image = urban_nav_input::readGrey(images_[at_]);
+    urban_nav_ros::GreyImage image = urban_nav_input::readGrey(images_[at_], scale_);
     if (!image.fault.empty()) notes_.push_back(image.fault);
     return PlaceImages{stamps_[at_++], {std::move(image.pixels)}};
   }
@@ -82,6 +79,7 @@ class PlaceFolder : public PlaceSource {
   std::vector<std::string> images_;
   std::vector<StampNs> stamps_;
   std::vector<std::string> notes_;
+  urban_nav_ros::GreyScale scale_;
   std::size_t at_ = 0;
 };
 

@@ -30,9 +30,9 @@ namespace {
 
 using DisparityClock = std::chrono::steady_clock;
 
-cv::Mat readImage(const std::string& path) {
+cv::Mat readImage(const std::string& path, const urban_nav_ros::GreyScale& scale) {
   if (!std::filesystem::exists(path)) throw UserError(path, "does not exist", "an image file");
-  urban_nav_ros::GreyImage image = urban_nav_input::readGrey(path);
+  urban_nav_ros::GreyImage image = urban_nav_input::readGrey(path, scale);
   if (!image.fault.empty()) throw DataError(image.fault, "", "");
   return image.pixels;
 }
@@ -47,8 +47,9 @@ struct RectifiedImages {
 
 void readPair(const Arguments& arguments, RectifiedImages& images) {
   const std::string left = arguments.get("LEFT"), right = arguments.get("RIGHT"), files = arguments.get("calibration");
-  images.raw_left = readImage(left);
-  images.raw_right = readImage(right);
+  const urban_nav_ros::GreyScale scale = urban_nav_input::sampleGreyScale({left, right});
+  images.raw_left = readImage(left, scale);
+  images.raw_right = readImage(right, scale);
   const cv::Size size = images.raw_left.size(), other = images.raw_right.size();
   if (size != other)
     throw UserError(right, std::to_string(other.width) + "x" + std::to_string(other.height) + " px",

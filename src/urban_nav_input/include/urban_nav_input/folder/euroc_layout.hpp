@@ -44,7 +44,7 @@ std::string eurocFolder(const std::string& path);
 /// in the lists of images, for the user.
 std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes = nullptr);
 /// Returns the depth of 16-bit images, 8...16, from the first ones of both cameras; 8 for 8-bit images.
-int eurocBits(const std::vector<EurocPair>& pairs);
+urban_nav_ros::GreyScale eurocScale(const std::vector<EurocPair>& pairs);
 EurocRig readEurocRig(const std::string& mav0);
 /// Empty where the folder has none.
 std::vector<EurocImu> readEurocImu(const std::string& mav0);
@@ -55,6 +55,7 @@ std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0
                                                          const urban_nav_core::Pose& T_base_body);
 
 /// A raw image, rectified; or a fault that names it.
-urban_nav_ros::GreyImage readRectified(const std::string& path, const urban_nav_core::RectifyMap& map, int bits);
+urban_nav_ros::GreyImage readRectified(const std::string& path, const urban_nav_core::RectifyMap& map,
+                                       const urban_nav_ros::GreyScale& scale);
 
 }  // namespace urban_nav_input

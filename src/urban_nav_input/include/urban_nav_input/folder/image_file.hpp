@@ -16,8 +16,12 @@ namespace urban_nav_input {
 /// names the file. A file that ends early is a fault: decoders would fill the rest with grey.
 urban_nav_ros::GreyImage readPixels(const std::string& path);
 
-/// The same as 8-bit grey; `bits` as in urban_nav_ros::toGrey.
-urban_nav_ros::GreyImage readGrey(const std::string& path, int bits = 16);
+/// Returns the scale of the 16-bit pixels of image files that belong together, from the first of `paths`; files that
+/// are missing or damaged are passed over.
+urban_nav_ros::GreyScale sampleGreyScale(const std::vector<std::string>& paths);
+
+/// Reads an image file as 8-bit grey values.
+urban_nav_ros::GreyImage readGrey(const std::string& path, const urban_nav_ros::GreyScale& scale);
 
 /// Returns a view of grey pixels and an owner that keeps them alive; both empty for no pixels.
 std::pair<urban_nav_core::ImageView, std::shared_ptr<const void>> sharedView(const cv::Mat& grey);
