@@ -21,18 +21,17 @@ namespace {
 
 constexpr double kLargestSeconds = 1e11;  // a stamp in s is smaller, in ns larger than 1e17 since 1973
 
-/// Returns the size in s of the unit of stamps: as the header states, else by their size. Seconds have decimals, or
-/// lie below the number of ns in three minutes.
+/// Returns the size in s of the unit of stamps: seconds where they have decimals and the size of seconds, else what the
+/// header states, else ns.
 double guessUnitOfAll(const std::vector<std::string>& header, const std::vector<EurocRow>& rows) {
-  if (!header.empty())
-    if (const auto stated = urban_nav_core::readUnit(header.front())) return *stated;
   double largest = 0.0;
   bool has_decimals = false;
   for (const EurocRow& row : rows) {
     largest = std::max(largest, std::abs(urban_nav_core::parseNumber(row.cells.front()).value_or(0.0)));
     has_decimals = has_decimals || row.cells.front().find('.') != std::string::npos;
   }
-  return has_decimals && largest < kLargestSeconds ? 1.0 : 1e-9;
+  if (has_decimals && largest < kLargestSeconds) return 1.0;  // whatever a header of EuRoC's format states
+  return header.empty() ? 1e-9 : urban_nav_core::readUnit(header.front()).value_or(1e-9);
 }
 
 /// Returns a stamp in ns; nullopt for other text.

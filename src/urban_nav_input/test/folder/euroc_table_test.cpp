@@ -36,6 +36,15 @@ TEST(EurocTable, IsSortedAndCounted) {
   EXPECT_EQ(table.repeated, 1U);
 }
 
+TEST(EurocTable, SecondsAreRecognisedWhateverTheHeaderStates) {
+  for (const char* const header : {"", "#timestamp [ns],filename\n", "#timestamp [s],filename\n"}) {
+    const EurocTable table = read(std::string(header) + "1500000000.000000000,a.png\n1500000000.100000000,b.png\n");
+    ASSERT_EQ(table.rows.size(), 2U) << header;
+    EXPECT_EQ(table.rows[1].stamp, 1500000000100000000);
+    EXPECT_EQ(table.unit, 1.0);
+  }
+}
+
 TEST(EurocTable, NamesWhatIsWrong) {
   EXPECT_THROW(read("10,a\nx,b\n"), urban_nav_core::UserError);
   EXPECT_THROW(read("10\n"), urban_nav_core::UserError);
