@@ -36,6 +36,12 @@ std::optional<StampNs> parseStampIn(double unit, std::string_view text) {
   return static_cast<StampNs>(std::llround(unit * *number * 1e9));
 }
 
+/// Whether a stamp is in seconds although a header may state ns: it has decimals and the size of seconds.
+bool isInSeconds(std::string_view stamp) {
+  constexpr double kLargestSeconds = 1e11;
+  return stamp.find('.') != std::string_view::npos && std::abs(parseNumber(stamp).value_or(0.0)) < kLargestSeconds;
+}
+
 /// s: the unit in which a stamp is one of the years 1971 to 2255; 1 where it is no number.
 double guessUnit(std::string_view stamp) {
   const double number = std::abs(parseNumber(stamp).value_or(0.0));
@@ -133,6 +139,9 @@ Trajectory parseTum(std::string_view text, const std::string& name, TumRepairs* 
   counts.unit = columns.seconds.value_or(1.0);
   table.forEachRow([&](const TableRow& row) {
     const std::string where = table.where(row);
+    if (columns.seconds == 1e-9 && poses.empty() && columns.columns.front() < row.cells.size() &&
+        isInSeconds(row.cells[columns.columns.front()]))
+      counts.unit = 1.0;
     if (repairs != nullptr && !columns.seconds && poses.empty() && columns.columns.front() < row.cells.size())
       counts.unit = guessUnit(row.cells[columns.columns.front()]);
     const std::optional<StampedPose> pose = parseRow(row, columns, counts.unit, where);
