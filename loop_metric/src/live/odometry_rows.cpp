@@ -30,6 +30,7 @@ bool OdometryRows::write(const SessionId& session, const RelativePose& step, std
   node.T_odom_base = newest_->T_odom_base * step.T_from_to;
   node.covariance = step.covariance;
   node.drift_covariance = step.drift_covariance;
+  node.constants = step.constants;
   node.status = step.status.health;
   nodes.push_back(node);
   newest_ = node;

@@ -37,6 +37,26 @@ void fill(const Pose& pose, Translation& t, Rotation& q) {
   q.w = pose.q().w();
 }
 
+// Returns nullopt if the arrays do not match or a number is not finite.
+std::optional<std::vector<urban_nav_core::ConsideredConstant>> toConstants(
+    const urban_nav_msgs::RelativePose& message) {
+  const std::size_t size = message.constants.size();
+  if (message.constant_used.size() != size || message.constant_mean.size() != size ||
+      message.constant_sigma.size() != size || message.sensitivity.size() != 6 * size)
+    return std::nullopt;
+  std::vector<urban_nav_core::ConsideredConstant> constants;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Eigen::Map<const urban_nav_core::Vector6d> sensitivity(&message.sensitivity[6 * i]);
+    urban_nav_core::ConsideredConstant constant{message.constants[i], message.constant_used[i],
+                                                message.constant_mean[i], message.constant_sigma[i], sensitivity};
+    if (!constant.sensitivity.allFinite() || !std::isfinite(constant.used) || !std::isfinite(constant.mean) ||
+        !std::isfinite(constant.sigma))
+      return std::nullopt;
+    constants.push_back(std::move(constant));
+  }
+  return constants;
+}
+
 }  // namespace
 
 std::optional<Pose> toPose(const geometry_msgs::Pose& message) { return toPose(message.position, message.orientation); }
@@ -99,6 +119,13 @@ urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::Relativ
   message.T_from_to = toPoseMessage(relative.T_from_to);
   message.covariance = toArray36(relative.covariance);
   message.drift_covariance = toArray36(relative.drift_covariance);
+  for (const urban_nav_core::ConsideredConstant& constant : relative.constants) {
+    message.constants.push_back(constant.name);
+    message.constant_used.push_back(constant.used);
+    message.constant_mean.push_back(constant.mean);
+    message.constant_sigma.push_back(constant.sigma);
+    for (int i = 0; i < 6; ++i) message.sensitivity.push_back(constant.sensitivity[i]);
+  }
   message.status = toMessage(relative.status.health);
   message.source = relative.source;
   return message;
@@ -115,6 +142,9 @@ std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs:
   relative.covariance = toMatrix6(message.covariance);
   relative.drift_covariance = toMatrix6(message.drift_covariance);
   if (!relative.covariance.allFinite() || !relative.drift_covariance.allFinite()) return std::nullopt;
+  std::optional<std::vector<urban_nav_core::ConsideredConstant>> constants = toConstants(message);
+  if (!constants) return std::nullopt;
+  relative.constants = std::move(*constants);
   relative.status.health = *health;
   relative.source = message.source;
   return relative;

@@ -56,6 +56,25 @@ TEST(RelativePoseMessage, ComesBackTheSame) {
   EXPECT_EQ(back->source, "swf_vo");
 }
 
+TEST(RelativePoseMessage, CarriesConstantsOfTheRig) {
+  urban_nav_core::RelativePose relative;
+  relative.to = 1;
+  const urban_nav_core::Vector6d sensitivity = (urban_nav_core::Vector6d() << 1, 2, 3, 4, 5, 6).finished();
+  relative.constants = {{"disparity", 0.1, 0.2, 0.3, sensitivity}, {"scale", 0.0, 0.0, 5e-4, 2.0 * sensitivity}};
+  urban_nav_msgs::RelativePose message = toRelativePoseMessage(relative, "base_link");
+  EXPECT_EQ(message.sensitivity.size(), 12U);
+  const auto back = toRelativePose(message);
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->constants.size(), 2U);
+  EXPECT_TRUE(isApprox(*back, relative, 0.0));
+  relative.constants[1].sensitivity[5] = 13.0;
+  EXPECT_FALSE(isApprox(*back, relative, 0.0));
+  message.sensitivity.pop_back();
+  EXPECT_FALSE(toRelativePose(message));
+  message.sensitivity.push_back(std::nan(""));
+  EXPECT_FALSE(toRelativePose(message));
+}
+
 TEST(HealthMessage, KnowsFourStates) {
   for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered})
     EXPECT_EQ(toHealth(toMessage(health)), health);

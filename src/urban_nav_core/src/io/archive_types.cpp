@@ -10,6 +10,10 @@ void archive(Archive& archive, Status& status) {
 
 void archive(Archive& archive, PoseWithCovariance& value) { archive(value.pose, value.covariance); }
 
+void archive(Archive& archive, ConsideredConstant& value) {
+  archive(value.name, value.used, value.mean, value.sigma, value.sensitivity);
+}
+
 void archive(Archive& archive, RelativePose& value) {
   archive(value.from, value.to, value.T_from_to, value.covariance, value.drift_covariance, value.status, value.source);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 
 namespace urban_nav_core {
@@ -23,10 +25,18 @@ bool isApprox(const PoseWithCovariance& a, const PoseWithCovariance& b, double t
   return isApprox(a.pose, b.pose, tolerance) && closeTo(a.covariance, b.covariance, tolerance);
 }
 
+bool isApprox(const ConsideredConstant& a, const ConsideredConstant& b, double tolerance) {
+  return a.name == b.name && std::abs(a.used - b.used) <= tolerance && std::abs(a.mean - b.mean) <= tolerance &&
+         std::abs(a.sigma - b.sigma) <= tolerance &&
+         ((a.sensitivity - b.sensitivity).array().abs() <= tolerance).all();
+}
+
 bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance) {
   return a.from == b.from && a.to == b.to && a.status == b.status && a.source == b.source &&
          isApprox(a.T_from_to, b.T_from_to, tolerance) && closeTo(a.covariance, b.covariance, tolerance) &&
-         closeTo(a.drift_covariance, b.drift_covariance, tolerance);
+         closeTo(a.drift_covariance, b.drift_covariance, tolerance) &&
+         std::equal(a.constants.begin(), a.constants.end(), b.constants.begin(), b.constants.end(),
+                    [&](const auto& one, const auto& other) { return isApprox(one, other, tolerance); });
 }
 
 bool isApprox(const Constraint& a, const Constraint& b, double tolerance) {

@@ -51,6 +51,7 @@ SessionOdometry readOdometry(urban_nav_store::Store& store, const SessionId& ses
                            : last->T_odom_base.inverse() * node.T_odom_base;
       step.covariance = node.covariance;
       step.drift_covariance = node.drift_covariance;
+      step.constants = node.constants;
       odometry.add(step);
     }
     last = node;

@@ -6,8 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_store {
 
@@ -46,6 +47,9 @@ class Columns {
   /// A blob of little-endian numbers, row by row: 36, or the 21 of the upper triangle if the matrix is symmetric to the
   /// last bit.
   void matrix6(const char* name, urban_nav_core::Matrix6d& value);
+  /// A blob, empty without any: their number (eight bytes), then for each the name (length in eight bytes, text) and
+  /// nine doubles: used, mean, sigma and the sensitivity.
+  void constants(const char* name, std::vector<urban_nav_core::ConsideredConstant>& values);
   /// An enumerator as the word of its toString().
   template <typename Word>
   void word(const char* name, Word& value, std::optional<Word> (*parse)(std::string_view)) {

@@ -24,6 +24,8 @@ struct Node {
   /// The part of the covariance that is independent of the neighbouring steps, and hence accumulates along the path.
   urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Health status = urban_nav_core::Health::Ok;
+  /// Sensitivity of the motion since the previous node to constants of the rig (RelativePose::constants).
+  std::vector<urban_nav_core::ConsideredConstant> constants{};
 };
 
 /// Optimised pose of a node.

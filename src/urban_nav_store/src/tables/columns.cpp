@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_store/columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "blocks/matrix_bytes.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_store {
 
+using urban_nav_core::Archive;
+using urban_nav_core::ConsideredConstant;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+
+namespace {
+
+bool isInvalid(const ConsideredConstant& constant) {
+  return !constant.sensitivity.allFinite() || !std::isfinite(constant.used) || !std::isfinite(constant.mean) ||
+         !std::isfinite(constant.sigma);
+}
+
+}  // namespace
 
 void Columns::refuse(const std::string& what) const { throw std::logic_error("not validated: " + what); }
 
@@ -38,6 +52,28 @@ void Columns::matrix6(const char* name, Matrix6d& value) {
   if (!isReading()) bytes = matrixBytes(value);
   blob(name, bytes);
   if (isReading() && !parseMatrix(bytes, value)) refuse(std::string(name) + " is not a matrix of finite numbers");
+}
+
+void Columns::constants(const char* name, std::vector<ConsideredConstant>& values) {
+  std::string& bytes = scratch();
+  if (isValidating() && !isReading() && std::any_of(values.begin(), values.end(), isInvalid))
+    refuse(std::string(name) + " are not finite");
+  if (!isReading() && !values.empty()) {
+    Archive writer;
+    writer(values);
+    bytes = writer.take();
+  }
+  blob(name, bytes);
+  if (!isReading()) return;
+  values.clear();
+  if (bytes.empty()) return;
+  try {
+    Archive reader(bytes, name);
+    reader(values);
+    reader.finish();
+  } catch (const urban_nav_core::DataError&) {
+    refuse(std::string(name) + " cannot be read");
+  }
 }
 
 }  // namespace urban_nav_store

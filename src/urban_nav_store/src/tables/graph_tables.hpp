@@ -17,6 +17,8 @@ struct NodeRow {
     columns.word("status", node.status, urban_nav_core::parseHealth);
     columns.matrix6("covariance", node.covariance);
     columns.matrix6("drift", node.drift_covariance);
+    columns.since(6);
+    columns.constants("constants", node.constants);
   }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "schema/schema.hpp"
 #include "support/folder.hpp"
+#include "support/older_store.hpp"
 #include "urban_nav_store/store.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_fix.hpp"
@@ -39,12 +39,7 @@ TEST_F(StoredFixes, AStoreOfSchema3GetsTheTable) {
     store.sessions().put(Session{"s", "quad", "", "", 1, true});
     store.commit();
   }
-  {
-    Connection connection(path, Connection::Mode::Write);
-    for (const Table* table : schema::tables())
-      if (table->since > 3) connection.execute("DROP TABLE " + table->name);
-    connection.execute("PRAGMA user_version=3");
-  }
+  testing::makeOlder(path, folder, 3);
   {
     Store store(path, Access::Read);
     EXPECT_EQ(store.sessions().all().size(), 1U);

@@ -33,6 +33,21 @@ bool sameBits(const urban_nav_core::Pose& a, const urban_nav_core::Pose& b) {
   return a.t() == b.t() && a.q().coeffs() == b.q().coeffs();
 }
 
+TEST_F(GraphRows, NodesKeepConstantsOfTheRig) {
+  Node node = drawn.node(7), plain = drawn.node(8);
+  node.constants = {{"disparity", 0.1, -0.2, 0.3, urban_nav_core::Vector6d::LinSpaced(1.0 / 3.0, 2.0)},
+                    {"scale", 0.0, 0.0, 5e-4, urban_nav_core::Vector6d::Unit(1)}};
+  graph.put("a", node);
+  graph.put("a", plain);
+  store.commit();
+  const Node found = graph.node({"a", 7}).value();
+  ASSERT_EQ(found.constants.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(isApprox(found.constants[i], node.constants[i], 0.0));
+  EXPECT_TRUE(graph.node({"a", 8})->constants.empty());
+  node.constants[1].sensitivity[2] = std::nan("");
+  EXPECT_THROW(graph.put("a", node), urban_nav_core::UserError);
+}
+
 TEST_F(GraphRows, NodesComeBackBitByBitInOrder) {
   std::vector<Node> nodes;
   for (int i = 0; i < 100; ++i) nodes.push_back(drawn.node(1000 - 10 * i));

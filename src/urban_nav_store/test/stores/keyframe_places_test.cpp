@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "schema/schema.hpp"
 #include "support/folder.hpp"
+#include "support/older_store.hpp"
 #include "urban_nav_store/merge.hpp"
 #include "urban_nav_store/store.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -58,12 +58,7 @@ TEST_F(StoredKeyframePlaces, AreAddedToAStoreOfSchema4) {
     store.sessions().put(Session{"s", "quad", "", "", 1, true});
     store.commit();
   }
-  {
-    Connection connection(path, Connection::Mode::Write);
-    for (const Table* table : schema::tables())
-      if (table->since > 4) connection.execute("DROP TABLE " + table->name);
-    connection.execute("PRAGMA user_version=4");
-  }
+  testing::makeOlder(path, folder, 4);
   {
     Store store(path, Access::Read);
     EXPECT_FALSE(TableStore<StoredKeyframePlace>(store).get(makeRow())) << "as in a map of an earlier version";

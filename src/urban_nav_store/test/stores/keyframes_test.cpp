@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "schema/schema.hpp"
 #include "sqlite/connection.hpp"
 #include "support/contents.hpp"
 #include "support/folder.hpp"
+#include "support/older_store.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav_store {
@@ -62,14 +62,7 @@ TEST(Keyframes, AStoreFromBeforeThemIsReadAsItIsAndGetsThemWhenItIsWritten) {
     id = testing::fill(store, 1, 3);
     store.commit();
   }
-  {
-    Connection old(path, Connection::Mode::Write);
-    for (const Table* table : schema::tables())
-      if (table->since > 1)
-        old.execute("DROP TABLE " + table->name + "; DELETE FROM tally WHERE name='" + table->name + "'");
-    old.execute("PRAGMA user_version=1");
-    old.close();
-  }
+  testing::makeOlder(path, folder, 1);
   {
     Store store(path, Access::Read);
     EXPECT_TRUE(store.keyframes().cameras(id).empty());

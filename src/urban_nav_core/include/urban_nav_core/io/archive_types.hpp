@@ -14,6 +14,8 @@ namespace urban_nav_core {
 /// only hands structs on needs no archive.
 void archive(Archive& archive, Status& status);
 void archive(Archive& archive, PoseWithCovariance& value);
+void archive(Archive& archive, ConsideredConstant& value);
+/// Without the constants, which states of earlier versions lack.
 void archive(Archive& archive, RelativePose& value);
 void archive(Archive& archive, MotionInput& input);
 void archive(Archive& archive, SpecificForce& value);

@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/stamp.hpp"
@@ -20,6 +21,15 @@ struct PoseWithCovariance {
   Matrix6d covariance = Matrix6d::Identity();
 };
 
+/// A constant of the rig whose error all steps of its sessions share: a consider state (Schmidt 1966), which no later
+/// stage estimates and every later covariance contains. The error of a step is sensitivity (used - true value).
+struct ConsideredConstant {
+  std::string name;                         ///< "disparity" (px), "scale" (relative); the same in all sessions
+  double used = 0.0;                        ///< value with which the step was estimated
+  double mean = 0.0, sigma = 0.0;           ///< of the true value, by what was known when the step was final
+  Vector6d sensitivity = Vector6d::Zero();  ///< change of T_from_to per unit, tangent as in PoseWithCovariance
+};
+
 /// Motion of one frame between two times, as an odometry gives it: T_from_to takes coordinates at `to` to coordinates
 /// at `from`.
 struct RelativePose {
@@ -34,6 +44,8 @@ struct RelativePose {
   Matrix6d drift_covariance = Matrix6d::Zero();
   Status status;
   std::string source;  ///< which odometry ("swf_vo")
+  /// Errors that all steps share. They are not in `drift_covariance`.
+  std::vector<ConsideredConstant> constants{};
 };
 
 /// A measured T_a_b that may leave directions free: what a closure or a plane seen again says.
@@ -48,6 +60,7 @@ struct Constraint {
 /// Poses equal within `tolerance` (m, rad), every element of the matrices within `tolerance`; stamps, status and source
 /// exactly.
 bool isApprox(const PoseWithCovariance& a, const PoseWithCovariance& b, double tolerance);
+bool isApprox(const ConsideredConstant& a, const ConsideredConstant& b, double tolerance);
 bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance);
 bool isApprox(const Constraint& a, const Constraint& b, double tolerance);
 /// The pose with the standard deviations of its six coordinates.
