@@ -177,6 +177,9 @@ Settled Output::settle(const SettledPose& pose) {
   if (!step_covariance_.isZero() && !isProper(settled.from_previous.covariance))
     settled.from_previous.covariance = step_covariance_;
   settled.from_previous.drift_covariance = moved(pose.drift_covariance, outer.J1 * inner.J2);
+  settled.from_previous.constants = pose.constants;
+  for (urban_nav_core::ConsideredConstant& constant : settled.from_previous.constants)
+    constant.sensitivity = outer.J1 * (inner.J2 * constant.sensitivity);
   settled.from_previous.status = settled.status;
   settled.from_previous.source = "swf_vo";
   if (any_settled_) step_covariance_ = settled.from_previous.covariance;

@@ -37,7 +37,7 @@ constexpr double kAstrayPeriods = 3.5;
 constexpr int kLandmarksPerFeature = 4;
 
 constexpr const char* kStateName = "swf_vo";
-constexpr std::uint32_t kStateVersion = 5;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t kStateVersion = 6;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;

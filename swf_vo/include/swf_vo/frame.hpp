@@ -83,8 +83,9 @@ struct Settled {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::PoseWithCovariance T_odom_base;  ///< covariance: of T_first_base in the axes of the first pose
-  /// To the settled pose before; from == to for the very first frame. The error of the disparity offset is one and the
-  /// same in all steps, so it is not in drift_covariance: T_odom_base's covariance has it.
+  /// To the settled pose before; from == to for the very first frame. Errors of the disparity offset and of the rig's
+  /// scale are the same in all steps, so they are not in drift_covariance: T_odom_base's covariance has them, and
+  /// `constants` the sensitivity of the step to them.
   urban_nav_core::RelativePose from_previous;
   urban_nav_core::Status status;  ///< as it was when the frame came
 };

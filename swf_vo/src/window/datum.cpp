@@ -36,6 +36,7 @@ void Datum::start(const Prior& prior) {
   carried_.setZero();
   along_px_.setZero();
   along_used_.setZero();
+  release_.reset();
   shifted_per_px_ = squared_steps_ = 0.0;
   growth_.setZero();
   strength_m_ = strength_rad_ = 0.0;
@@ -95,6 +96,7 @@ void Datum::look(const State& state, const Prior& prior) {
 
 Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
   Vector6d per_px = Vector6d::Zero();
+  release_.reset();
   if (!prior.has_offset || !active_) return per_px;
   look(state, prior);
   const int n = prior.size();
@@ -118,6 +120,7 @@ Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
                      prior.offset_information * state.disparity_offset;
   along_px_ += per_px;
   along_used_ += per_px * state.disparity_offset;
+  release_ = Release{per_px, state.disparity_offset};
   shifted_per_px_ += per_px.head<3>().dot(step_);
   squared_steps_ += step_.squaredNorm();
   return per_px;
@@ -178,10 +181,13 @@ Matrix6d Datum::carried(const urban_nav_core::Pose& T_odom_camera) const {
   return symmetric(result);
 }
 
+void archive(urban_nav_core::Archive& archive, Datum::Release& release) { archive(release.per_px, release.used); }
+
 void Datum::archive(urban_nav_core::Archive& archive) {
   archive(active_, origin_, information_, carried_, growth_, shift_, along_px_, along_used_, strength_m_,
           strength_rad_);
   archive(offset_.used, offset_.mean, offset_.variance, first_, step_, rig_scale_, shifted_per_px_, squared_steps_);
+  archive(release_);
 }
 
 }  // namespace swf_vo

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "urban_nav_core/io/archive.hpp"
 #include "window/drift_sandwich.hpp"
 #include "window/prior.hpp"
@@ -62,6 +64,12 @@ class Datum {
   /// is learnt of the offset corrects the way to come, and `odom` never jumps. Returns d(gamma)/d(offset) of the last
   /// step, 1/px.
   urban_nav_core::Vector6d releaseOffset(const State& state, Prior& prior);
+  /// Result of the last releaseOffset(), about origin(), with the offset of that step; empty if none was released.
+  struct Release {
+    urban_nav_core::Vector6d per_px = urban_nav_core::Vector6d::Zero();
+    double used = 0.0;
+  };
+  const std::optional<Release>& release() const { return release_; }
   /// What is known of it by now, also of the offset that earlier steps were made with.
   void setOffset(const OffsetBelief& offset) { offset_ = offset; }
   /// By how much all lengths of the path are wrong for the error of the offset that is stated now (standard deviation).
@@ -92,6 +100,7 @@ class Datum {
   // with.
   urban_nav_core::Vector6d along_px_ = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Vector6d along_used_ = urban_nav_core::Vector6d::Zero();
+  std::optional<Release> release_;
   OffsetBelief offset_;
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero();  // where the path began
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero();   // the last one of the origin, m

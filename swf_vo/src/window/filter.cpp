@@ -15,6 +15,7 @@
 namespace swf_vo {
 
 using Eigen::Vector3d;
+using urban_nav_core::ConsideredConstant;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::PoseWithCovariance;
@@ -24,6 +25,9 @@ namespace {
 
 // Of the pose that a window begins with, m and rad.
 constexpr double kDatumSigma = 1e-6;
+// Names of the constants of the rig (ConsideredConstant).
+constexpr const char* kDisparityConstant = "disparity";
+constexpr const char* kScaleConstant = "scale";
 // Radians: a fifth of what a good match is off by in an image of 500 px.
 constexpr double kLeastWander = 5e-5;
 // Share of a step's covariance that is always taken as drift, so that it stays proper where nothing drifts: one
@@ -182,6 +186,7 @@ SettledPose Filter::settle() {
     result.T_odom_camera.pose = settled_.pose * result.T_previous_camera;
     result.relative_covariance = relativeCovariance(oldest);
     result.drift_covariance = driftCovariance(oldest, result.relative_covariance);
+    result.constants = constants(oldest, result.T_previous_camera);
   }
   settled_ = result.T_odom_camera;
   settled_in_window_ = computeWindowCovariance(state_.first_step);
@@ -208,6 +213,22 @@ Matrix6d Filter::driftCovariance(const PoseBlock& oldest, const Matrix6d& relati
   const Matrix6d J =
       urban_nav_core::between(settled_.pose, oldest.estimate).J2 * gauge::ofPose(oldest.estimate, datum_.origin());
   return J * datum_.growth() * J.transpose() + kLeastDrift * relative;
+}
+
+// The offset displaces the window as a whole by releaseOffset(); the rig's scale stretches each step.
+std::vector<ConsideredConstant> Filter::constants(const PoseBlock& oldest, const Pose& T_previous_camera) const {
+  std::vector<ConsideredConstant> constants;
+  if (gain_valid_ && datum_.isActive() && datum_.release()) {
+    const Matrix6d J =
+        urban_nav_core::between(settled_.pose, oldest.estimate).J2 * gauge::ofPose(oldest.estimate, datum_.origin());
+    constants.push_back({kDisparityConstant, datum_.release()->used, offset_.mean, std::sqrt(offset_.variance),
+                         J * datum_.release()->per_px});
+  }
+  if (options_.rig_scale > 0.0) {
+    constants.push_back({kScaleConstant, 0.0, 0.0, options_.rig_scale, Vector6d::Zero()});
+    constants.back().sensitivity.head<3>() = T_previous_camera.t();
+  }
+  return constants;
 }
 
 // Classic visual odometry: what the oldest frame said is lost, and the next pose becomes the datum.

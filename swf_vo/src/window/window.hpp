@@ -9,6 +9,7 @@
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "window/process_model.hpp"
 
 namespace swf_vo {
@@ -47,8 +48,9 @@ struct WindowOptions {
 /// back. Composed as if independent, relative_covariance is right for one step and 5 to 50 times too large over 100.
 /// What adds up is the drift: the covariance of the way from frame i to frame j is that composed of the
 /// drift_covariance of all its steps, with half of relative_covariance added to the first and to the last (a single
-/// step: relative_covariance alone). Measured: bench/consistency_tracks. The error of the disparity offset is one and
-/// the same in all steps and not in the drift: the covariance of T_odom_camera has it.
+/// step: relative_covariance alone). Measured: bench/consistency_tracks. Errors of the
+/// disparity offset and of the rig's scale are the same in all steps and not in the drift: the covariance of
+/// T_odom_camera has them, and `constants` the sensitivity of each step to them.
 struct SettledPose {
   FrameId frame = 0;
   urban_nav_core::PoseWithCovariance T_odom_camera;  ///< previous pose times T_previous_camera, to the last bit
@@ -58,6 +60,7 @@ struct SettledPose {
   urban_nav_core::Matrix6d drift_covariance =
       urban_nav_core::Matrix6d::Zero();  ///< that part of it which adds up over steps; all of it where the
                                          ///< filter does not keep the gauge apart (datum.hpp)
+  std::vector<urban_nav_core::ConsideredConstant> constants;  ///< of T_previous_camera, in `previous`
 };
 
 struct UpdateReport {

@@ -133,6 +133,51 @@ TEST(Datum, TheRigsScaleIsOneErrorOfTheWholePath) {
   // What adds up over steps as if independent does not have it.
   EXPECT_EQ(a.settled.back().drift_covariance, b.settled.back().drift_covariance);
   EXPECT_NEAR(b.window.scaleSigma(), off.rig_scale, 1e-12);
+  // Each step states its sensitivity.
+  EXPECT_TRUE(a.settled.back().constants.empty());
+  for (std::size_t i = 1; i < b.settled.size(); ++i) {
+    ASSERT_EQ(b.settled[i].constants.size(), 1U);
+    const urban_nav_core::ConsideredConstant& scale = b.settled[i].constants.front();
+    EXPECT_EQ(scale.name, "scale");
+    EXPECT_EQ(scale.sigma, off.rig_scale);
+    EXPECT_EQ(scale.sensitivity.head<3>(), b.settled[i].T_previous_camera.t());
+    EXPECT_EQ(scale.sensitivity.tail<3>(), Eigen::Vector3d::Zero());
+  }
+}
+
+// Settled poses with the disparity offset fixed at this distance from the true one, px.
+std::vector<SettledPose> settledWithOffset(double offset) {
+  auto tracks = turning(120, 1e-3);
+  tracks.camera.disparity_offset += offset;
+  WindowOptions options;
+  options.disparity_offset = 1e-7;
+  TrackRunner run(tracks, options);
+  while (!run.done()) run.step();
+  return run.settled;
+}
+
+TEST(Datum, SensitivitiesOfStepsAddUpToThatOfThePath) {
+  constexpr double kOff = 1e-3;  // px
+  const std::vector<SettledPose> more = settledWithOffset(kOff), less = settledWithOffset(-kOff),
+                                 at = settledWithOffset(0.0);
+  ASSERT_EQ(more.size(), at.size());
+  Pose path_pose;
+  Vector6d summed = Vector6d::Zero();
+  constexpr std::size_t kFirst = 10;
+  for (std::size_t i = kFirst + 1; i < at.size(); ++i) {
+    ASSERT_EQ(at[i].constants.size(), 1U);
+    EXPECT_EQ(at[i].constants.front().name, "disparity");
+    const auto step = urban_nav_core::compose(path_pose, at[i].T_previous_camera);
+    summed = step.J1 * summed + step.J2 * at[i].constants.front().sensitivity;
+    path_pose = step.T_a_c;
+  }
+  const auto path = [&](const std::vector<SettledPose>& of) {
+    return of[kFirst].T_odom_camera.pose.inverse() * of.back().T_odom_camera.pose;
+  };
+  const Vector6d moved = urban_nav_core::boxMinus(path(more), path(less)) / (2.0 * kOff);
+  EXPECT_GT(moved.head<3>().norm(), 0.0);
+  EXPECT_LT((moved - summed).head<3>().norm(), 0.1 * moved.head<3>().norm()) << moved.transpose() << "\n"
+                                                                             << summed.transpose();
 }
 
 }  // namespace
