@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "pose_graph/common_error.hpp"
 #include "pose_graph/problem.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
@@ -35,6 +36,10 @@ urban_nav_core::Matrix6d displayed(const Marginal<3>& marginal, double length);
 /// among them, and poses at the optimum. Whatever the objective was that led there, the error is the geodesic one. A
 /// rejected edge has the weight zero: it then says nothing and connects nothing.
 ///
+/// Common errors are consider states (Schmidt 1966): one standard deviation of them displaces the poses by
+/// x = (J^T W J)^-1 J^T W s, one back-substitution each, and every covariance contains x x^T. Derivation:
+/// docs/derivations/consider_states.md.
+///
 /// One factorisation and one selected inverse, about three times what an iteration of the solver takes, for all poses
 /// and for all pairs that an edge joins; another pair costs a walk from both up the elimination tree. Keeps buffers:
 /// not thread-safe.
@@ -42,7 +47,8 @@ template <int D>
 class Marginals {
  public:
   /// `poses` are T_map_i, finite; `weights` as in solve(). Where numbers overflow, nothing is known of any pair.
-  Marginals(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights = {});
+  Marginals(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights = {},
+            const std::vector<CommonError<D>>& common = {});
   ~Marginals();
   Marginals(Marginals&&) noexcept;
   Marginals& operator=(Marginals&&) noexcept;

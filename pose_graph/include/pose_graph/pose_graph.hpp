@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pose_graph/common_error.hpp"
 #include "pose_graph/fix_use.hpp"
 #include "pose_graph/ground_level.hpp"
 #include "pose_graph/node_index.hpp"
@@ -229,6 +230,13 @@ class PoseGraph {
   /// part of it adds up along the way. It is in no edge of the chain, in the closures' edges, and has to be added to
   /// what Marginals tell.
   urban_nav_core::Matrix6d ownNoise(const NodeRef& ref) const;
+  /// Names the rig of cameras that recorded a session. Constants of one rig are the same in all its sessions. Sessions
+  /// without a name share one rig.
+  void setRig(const SessionId& session, const std::string& rig);
+  /// Returns the errors of the rigs' constants (RelativePose::constants) in problem()'s edges, for Marginals: for each
+  /// constant its uncertainty, and the known deviation of the values that steps used from its mean. If several sessions
+  /// have estimated a constant, the estimate with the smallest standard deviation applies.
+  std::vector<CommonError<3>> commonErrors() const;
   /// Weights of problem()'s edges after the last relaxation: 0 for closures that are not accepted.
   std::vector<double> weights() const;
 
@@ -282,6 +290,7 @@ class PoseGraph {
   std::vector<std::vector<ChainStep>> steps_;  ///< of each track: steps_[t][i] leads from pose i to pose i + 1
   /// As steps_, for the store; those that do not join are nothing.
   std::vector<std::vector<urban_nav_core::RelativePose>> measured_;
+  std::vector<std::string> rigs_;       ///< of each track
   std::vector<std::vector<Run>> runs_;  ///< of each track, in order
   std::map<ClosureId, Closure> closures_;
   std::map<ClosureId, ClosureEdge> closure_edges_;  ///< of each closure, with closure_variance_

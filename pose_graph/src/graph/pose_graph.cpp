@@ -69,6 +69,7 @@ void PoseGraph::beginSession(const SessionId& session) {
   tracks_.back().session = session;
   steps_.emplace_back();
   measured_.emplace_back();
+  rigs_.emplace_back();
   runs_.emplace_back();
   forces_.emplace_back();
   ground_.emplace_back();

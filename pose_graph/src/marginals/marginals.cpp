@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/marginals.hpp"
 
+#include <utility>
+
 #include "linear/index.hpp"
+#include "marginals/common_errors.hpp"
 #include "marginals/free_directions.hpp"
 #include "marginals/selected_inverse.hpp"
 #include "solve/normal_equations.hpp"
@@ -11,20 +14,25 @@ namespace pose_graph {
 
 namespace {
 
-/// The edges that say something, and their weights in their information.
+/// Edges with information, weighted, and their numbers among all edges.
 template <int D>
-Problem<D> telling(const Problem<D>& problem, const std::vector<double>& weights) {
-  Problem<D> made;
-  made.poses.resize(problem.poses.size());
-  made.fixed = problem.fixed;
-  made.edges.reserve(problem.edges.size());
-  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-    Edge<D> edge = problem.edges[e];
-    if (!weights.empty()) edge.information *= weights[e];
-    if (!edge.information.isZero(0.0)) made.edges.push_back(edge);
+struct InformativeEdges {
+  Problem<D> problem;
+  std::vector<std::size_t> number;
+
+  InformativeEdges(const Problem<D>& all, const std::vector<double>& weights) {
+    problem.poses.resize(all.poses.size());
+    problem.fixed = all.fixed;
+    problem.edges.reserve(all.edges.size());
+    for (std::size_t e = 0; e < all.edges.size(); ++e) {
+      Edge<D> one = all.edges[e];
+      if (!weights.empty()) one.information *= weights[e];
+      if (one.information.isZero(0.0)) continue;
+      problem.edges.push_back(one);
+      number.push_back(e);
+    }
   }
-  return made;
-}
+};
 
 /// A factor of the normal equations, with pins where they are singular, and the inverse on their pattern.
 template <int D>
@@ -86,8 +94,10 @@ struct Marginals<D>::Parts {
   NormalEquations<D> equations;
   std::vector<Rigid<D>> poses;
   std::vector<Inverse<D>> inverse;  // one; of singular equations a second with pins of double strength; none: overflow
+  std::vector<std::vector<double>> displaced;  // displacement of the poses by each common error, by places
 
-  Parts(const Problem<D>& problem, const std::vector<Rigid<D>>& at) : equations(problem), poses(at) {
+  Parts(const InformativeEdges<D>& edges, const std::vector<Rigid<D>>& at, const std::vector<CommonError<D>>& common)
+      : equations(edges.problem), poses(at) {
     equations.linearise(Objective::Geodesic, poses, {});
     BlockMatrix<kN>& H = equations.H();
     std::vector<int> pinned;
@@ -97,6 +107,10 @@ struct Marginals<D>::Parts {
       return;
     }
     inverse[0].selected = selectedInverse(inverse[0].cholesky, equations.pattern());
+    for (const CommonError<D>& each : common) {
+      displaced.push_back(commonGradient(equations, poses, each, edges.number));
+      if (!displaced.back().empty()) inverse[0].cholesky.solve(displaced.back().data());
+    }
     if (pinned.empty()) return;
     std::vector<double> pins;
     for (const int entry : pinned) pins.push_back(BlockCholesky<kN>::computePin(H, entry));
@@ -105,6 +119,21 @@ struct Marginals<D>::Parts {
     inverse.emplace_back(equations.symbolic());
     if (!inverse[1].cholesky.factor(H, equations.pattern())) inverse.clear();
     else inverse[1].selected = selectedInverse(inverse[1].cholesky, equations.pattern());
+  }
+
+  /// Returns the change of T_a_b by each common error.
+  Displacements<D> displacements(int a, int b) const {
+    const Between<D> moves(poses[sz(a)], poses[sz(b)]);
+    Displacements<D> changes(kN, static_cast<Eigen::Index>(displaced.size()));
+    changes.setZero();
+    for (std::size_t c = 0; c < displaced.size(); ++c)
+      for (const auto& [pose, J] : {std::make_pair(a, moves.J_a), std::make_pair(b, moves.J_b)}) {
+        const int unknown = equations.unknowns().of_pose[sz(pose)];
+        if (unknown < 0) continue;
+        const double* moved = displaced[c].data() + kN * sz(equations.symbolic().place[sz(unknown)]);
+        changes.col(static_cast<Eigen::Index>(c)) += J * Eigen::Map<const Tangent<D>>(moved);
+      }
+    return changes;
   }
 
   TangentMatrix<D> between(const Inverse<D>& of, int a, int b) const {
@@ -124,8 +153,8 @@ struct Marginals<D>::Parts {
 
 template <int D>
 Marginals<D>::Marginals(const Problem<D>& problem, const std::vector<Rigid<D>>& poses,
-                        const std::vector<double>& weights)
-    : parts_(std::make_unique<Parts>(telling(problem, weights), poses)) {}
+                        const std::vector<double>& weights, const std::vector<CommonError<D>>& common)
+    : parts_(std::make_unique<Parts>(InformativeEdges<D>(problem, weights), poses, common)) {}
 template <int D>
 Marginals<D>::~Marginals() = default;
 template <int D>
@@ -146,9 +175,12 @@ Marginal<D> Marginals<D>::between(int a, int b) const {
   made.knowledge = Knowledge::Full;
   if (a == b) return made;
   made.covariance = parts_->between(parts_->inverse[0], a, b);
-  if (parts_->inverse.size() == 1) return made;
-  const TangentMatrix<D> stiffer = parts_->between(parts_->inverse[1], a, b);
-  return withoutPins<D>(made.covariance, 2.0 * (made.covariance - stiffer));
+  if (parts_->inverse.size() > 1) {
+    const TangentMatrix<D> stiffer = parts_->between(parts_->inverse[1], a, b);
+    made = withoutPins<D>(made.covariance, 2.0 * (made.covariance - stiffer));
+  }
+  if (!parts_->displaced.empty()) consider<D>(parts_->displacements(a, b), made);
+  return made;
 }
 
 template class Marginals<2>;

@@ -70,6 +70,7 @@ Nodes collectNodes(const PoseGraph& graph, std::size_t t, std::size_t first, std
     if (const RelativePose* step = graph.stepTo(t, i)) {
       node.covariance = step->covariance;
       node.drift_covariance = step->drift_covariance;
+      node.constants = step->constants;
       node.status = step->status.health;
       made.steps.push_back(stepEdge(track.session, *step));
     }

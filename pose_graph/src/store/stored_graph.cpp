@@ -37,6 +37,7 @@ std::vector<RelativePose> collectSteps(Store& store, const SessionId& session,
     step.T_from_to = edge->second.measured.T_a_b;
     step.covariance = node.covariance;
     step.drift_covariance = node.drift_covariance;
+    step.constants = node.constants;
     step.status.health = node.status;
     step.source = edge->second.source;
     steps.push_back(std::move(step));

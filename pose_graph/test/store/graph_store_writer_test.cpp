@@ -91,6 +91,31 @@ TEST_F(GraphStoreWriterTest, AGraphComesBackAndRelaxesToTheSameBits) {
   EXPECT_EQ(store.sessions().anchor("b")->map, "a") << "joined by closures";
 }
 
+TEST_F(GraphStoreWriterTest, ConstantsOfTheRigComeBackWithTheSteps) {
+  const urban_nav_core::Vector6d sensitivity = urban_nav_core::Vector6d::LinSpaced(1.0 / 3.0, 2.0);
+  {
+    GraphStoreWriter writer = open();
+    graph.beginSession("a");
+    writer.put(session("a"));
+    for (int i = 0; i < 3; ++i) {
+      urban_nav_core::RelativePose step = testing::stepAt(i);
+      step.constants = {{"disparity", 0.1 * i, 0.2, 0.01, sensitivity}};
+      graph.addOdometry("a", step);
+    }
+    settle(writer, graph);
+  }
+  Store store(place.file(), Access::Read);
+  const StoredGraph stored = readGraph(store);
+  ASSERT_EQ(stored.chains.front().steps.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_TRUE(isApprox(stored.chains.front().steps[i].constants.at(0), graph.stepTo(0, i + 1)->constants.at(0), 0.0));
+  PoseGraph again{Parameters()};
+  for (const urban_nav_core::RelativePose& step : stored.chains.front().steps) again.addOdometry("a", step);
+  ASSERT_EQ(again.commonErrors().size(), 2U);
+  EXPECT_EQ(again.commonErrors()[0].of_edge, graph.commonErrors()[0].of_edge);
+  EXPECT_EQ(again.commonErrors()[1].of_edge, graph.commonErrors()[1].of_edge);
+}
+
 TEST_F(GraphStoreWriterTest, NothingMoreThanOdometryWhileNothingIsRelaxed) {
   GraphStoreWriter writer = open();
   graph.beginSession("a");
