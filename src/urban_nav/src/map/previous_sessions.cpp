@@ -7,6 +7,7 @@
 #include "map/store_keys.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_input/session/sessions.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
 
 namespace urban_nav {
 
@@ -36,6 +37,8 @@ SessionOdometry makeChain(Store& store, const SessionId& id) {
   SessionOdometry run;
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(id))
     if (extrinsic.frame == urban_nav_core::frames::kStereoLeft) run.T_base_camera = extrinsic.T_base_frame;
+  for (const urban_nav_store::Property& property : store.sessions().properties(id))
+    if (property.name == urban_nav_registration::kCalibrationProperty) run.cameras = property.value;
   const std::map<StampNs, Edge> steps = collectSteps(store, id);
   store.graph().forEachNode(id, [&](const urban_nav_store::Node& node) {
     SmoothedFrame settled;
@@ -53,6 +56,7 @@ SessionOdometry makeChain(Store& store, const SessionId& id) {
                            : run.settled.back().T_odom_base.pose.inverse() * node.T_odom_base;
       step.covariance = node.covariance;
       step.drift_covariance = node.drift_covariance;
+      step.constants = node.constants;
     }
     run.settled.push_back(settled);
   });

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/session_odometry.hpp"
 
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
+
 namespace urban_nav {
+
+std::string describeCameras(const SessionOdometry& odometry) {
+  if (!odometry.cameras.empty()) return odometry.cameras;
+  return urban_nav_registration::calibrationFingerprint(odometry.camera, odometry.T_base_camera);
+}
 
 urban_nav_core::Trajectory smoothedTrajectory(const SessionOdometry& run) {
   urban_nav_core::Trajectory trajectory;

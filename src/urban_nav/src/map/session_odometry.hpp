@@ -39,8 +39,7 @@ struct SessionOdometry {
   urban_nav_core::Pose T_base_camera;
   std::vector<OdometryFrame> frames;   ///< one per frame
   std::vector<SmoothedFrame> settled;  ///< smoothed poses, one per accepted frame that has left the window
-  /// Standard deviation of a relative error that all lengths have in common.
-  double scale_sigma = 0.0;
+  std::string cameras;  ///< describeCameras() of a session that the store holds; empty: of `camera`
   std::vector<urban_nav_core::SpecificForce>
       forces;                       ///< specific forces around smoothed frames; empty without an accelerometer
   std::vector<std::string> faults;  ///< of the data, each with its file or topic; at most kMaxFaults
@@ -48,6 +47,8 @@ struct SessionOdometry {
 };
 constexpr std::size_t kMaxFaults = 100;
 
+/// Returns words for the cameras of a session and where they are mounted (calibrationFingerprint).
+std::string describeCameras(const SessionOdometry& odometry);
 /// Returns the smoothed poses of base_link in `odom`.
 urban_nav_core::Trajectory smoothedTrajectory(const SessionOdometry& odometry);
 /// Returns the smoothed steps between them.

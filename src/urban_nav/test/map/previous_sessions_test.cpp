@@ -31,6 +31,7 @@ class PreviousSessionsTest : public ::testing::Test {
       node.T_odom_base = at(i);
       node.covariance = (i + 1) * Matrix6d::Identity();
       node.drift_covariance = 0.5 * Matrix6d::Identity();
+      node.constants = {{"scale", 0.0, 0.0, 5e-4, i * urban_nav_core::Vector6d::Unit(0)}};
       node.status = i == 1 ? urban_nav_core::Health::Lost : urban_nav_core::Health::Ok;
       store.graph().put(id, node);
       store.inputs().append(id, {kVoStream, node.stamp, true});
@@ -71,6 +72,8 @@ TEST_F(PreviousSessionsTest, BringsChainsBackToTheLastBit) {
   EXPECT_EQ(run.settled[2].from_previous.T_from_to.t().x(), 1.0) << "no edge: what the poses say";
   EXPECT_EQ(run.settled[2].from_previous.covariance, 3.0 * Matrix6d::Identity());
   EXPECT_EQ(run.settled[2].from_previous.drift_covariance, 0.5 * Matrix6d::Identity());
+  ASSERT_EQ(run.settled[2].from_previous.constants.size(), 1U);
+  EXPECT_EQ(run.settled[2].from_previous.constants[0].sensitivity, 2.0 * urban_nav_core::Vector6d::Unit(0));
   EXPECT_EQ(run.settled[1].status.health, urban_nav_core::Health::Lost);
   ASSERT_EQ(run.frames.size(), 4U);
   EXPECT_FALSE(run.frames[3].accepted);

@@ -15,6 +15,7 @@
 #include "pose_graph_relative/relative_pcg.hpp"
 #include "topics/graph/closure_import.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
 
 namespace urban_nav {
 
@@ -127,7 +128,7 @@ VerdictCounts countVerdicts(const PoseGraph& graph, bool of_planes) {
   return counts;
 }
 
-// All sessions from one factorisation.
+// All sessions from one factorisation. GPS fixes are not among the edges, but they reveal errors of lengths.
 std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
                                                       const std::vector<std::string>& sessions) {
   std::vector<pose_graph::Rigid<3>> poses;
@@ -138,7 +139,9 @@ std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
       refs.push_back({track.session, track.stamps[i]});
     }
   const auto at = [](int pose) { return static_cast<std::size_t>(pose); };
-  const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights());
+  std::vector<pose_graph::CommonError<3>> common;
+  if (graph.fixUse().used == 0) common = graph.commonErrors();
+  const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights(), common);
   std::vector<std::vector<Matrix6d>> made(sessions.size());
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     const Track* track = graph.track(sessions[s]);
@@ -156,28 +159,7 @@ std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
   return made;
 }
 
-/// Errors that all lengths have in common, those of the rig's scale and of the disparity offset, are in no edge, and
-/// closures do not find them: measured by the same cameras, they are as much too long or too short. The map is known
-/// but for its scale (Schmidt's consider state). GPS fixes would show it.
-void addScale(GraphRun& run, const std::vector<const SessionOdometry*>& runs) {
-  double sigma = 0.0;
-  for (const SessionOdometry* each : runs) sigma = std::max(sigma, each->scale_sigma);
-  if (run.graph.fixUse().used > 0) return;
-  for (std::size_t s = 0; s < run.covariances.size(); ++s) {
-    const Track* track = run.graph.track(run.sessions[s]);
-    const Track* map = run.graph.track(run.sessions[run.findMap(s)]);
-    if (track == nullptr || map == nullptr || map->map.empty()) continue;
-    if (track->map.size() != run.covariances[s].size()) continue;
-    const Pose T_first_map = map->map.front().inverse();
-    for (std::size_t i = 0; i < track->map.size(); ++i) {
-      const Eigen::Vector3d path = sigma * (T_first_map * track->map[i]).t();
-      run.covariances[s][i].topLeftCorner<3, 3>() += path * path.transpose();
-    }
-  }
-}
-
-/// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a
-/// scale, is in odometry's own covariance alone.
+/// A session that no closure touches lies where odometry has it, and as surely.
 void leaveToOdometry(GraphRun& run, const std::vector<const SessionOdometry*>& runs) {
   std::set<std::string> touched;
   for (const auto& [id, closure] : run.graph.closures())
@@ -188,6 +170,16 @@ void leaveToOdometry(GraphRun& run, const std::vector<const SessionOdometry*>& r
     for (std::size_t i = 0; i < runs[s]->settled.size(); ++i)
       run.covariances[s][i] = runs[s]->settled[i].T_odom_base.covariance;
   }
+}
+
+/// Returns a name of the rig of a run: the description of the cameras of the first run with the same ones.
+std::string nameRig(const std::vector<const SessionOdometry*>& runs, std::size_t run) {
+  const std::string cameras = describeCameras(*runs[run]);
+  for (std::size_t earlier = 0; earlier < run; ++earlier) {
+    const std::string known = describeCameras(*runs[earlier]);
+    if (urban_nav_registration::isSameCalibration(known, cameras)) return known;
+  }
+  return cameras;
 }
 
 /// What a user who asked for GPS should know of it.
@@ -302,6 +294,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   made.sessions = sessions;
   for (std::size_t s = 0; s < runs.size(); ++s) {
     made.graph.beginSession(sessions[s]);
+    made.graph.setRig(sessions[s], nameRig(runs, s));
     for (std::size_t i = 1; i < runs[s]->settled.size(); ++i)
       made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
     if (s < fixes.size()) made.graph.putFixes(sessions[s], fixes[s]);
@@ -318,7 +311,6 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
     made.warnings.push_back(endingWarning(last.ending, last.iterations.size(), last.gradient));
   const auto relaxed = Clock::now();
   made.covariances = computeCovariances(made.graph, sessions);
-  addScale(made, runs);
   leaveToOdometry(made, runs);
   made.ms_covariances = millisecondsSince(relaxed);
   made.levels = estimateLevels(made, runs, grounds);

@@ -16,7 +16,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr const char* kVoRunName = "visual odometry of a session";
-constexpr std::uint32_t kVoRunVersion = 4;
+constexpr std::uint32_t kVoRunVersion = 5;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
@@ -36,6 +36,7 @@ struct StoredRun {
   std::vector<StoredRow> rows;
   std::vector<swf_vo::Settled> settled;
   std::vector<VoLandmark> landmarks;
+  std::vector<std::vector<urban_nav_core::ConsideredConstant>> constants;  // of each step of `settled`
 };
 
 StoredRun toStored(const VoRun& run) {
@@ -43,6 +44,7 @@ StoredRun toStored(const VoRun& run) {
   for (std::size_t i = 0; i < run.frames.size(); ++i) stored.rows.push_back({run.frames[i], run.figures[i]});
   for (const SmoothedFrame& frame : run.settled)
     stored.settled.push_back({frame.frame, frame.stamp, frame.T_odom_base, frame.from_previous, frame.status});
+  for (const SmoothedFrame& frame : run.settled) stored.constants.push_back(frame.from_previous.constants);
   for (const auto& [id, landmark] : run.landmarks) stored.landmarks.push_back(landmark);
   return stored;
 }
@@ -55,7 +57,8 @@ void fromStored(const StoredRun& stored, VoRun& run) {
   for (const swf_vo::Settled& frame : stored.settled)
     run.settled.push_back({frame.frame, frame.stamp, frame.T_odom_base, frame.from_previous, frame.status});
   for (const VoLandmark& landmark : stored.landmarks) run.landmarks.emplace(landmark.landmark.id, landmark);
-  run.scale_sigma = run.rig.scale_sigma;
+  for (std::size_t i = 0; i < stored.constants.size(); ++i)
+    run.settled[i].from_previous.constants = stored.constants[i];
 }
 
 /// Reads the content of version 2: poses with the translation first, matrices row by row.
@@ -111,6 +114,9 @@ class VoRunReader2 {
 void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& stored) {
   archive(stored.rows, stored.settled, run.pictures, run.faults, run.faults_total, run.forces, stored.landmarks);
   if (version > 3) archive(run.rig);
+  if (version > 4) archive(stored.constants);
+  archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
+                  "constants of the rig are not those of the steps");
 }
 
 VoRun readVoRun(std::string_view bytes) {

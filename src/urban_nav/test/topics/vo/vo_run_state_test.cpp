@@ -172,19 +172,28 @@ TEST(VoState, Version2IsRead) {
   EXPECT_EQ(again->settled[0].T_odom_base.covariance, countedFrom(100));
 }
 
-TEST(VoState, Version3IsReadWithoutConstantsOfTheRig) {
+TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   VoRun run = *unpackVoRun(runOfVersion2());
   run.rig.delay_s = 1e-3;
+  ASSERT_EQ(run.settled.size(), 1U);
+  run.settled[0].from_previous.constants = {{"scale", 0.0, 0.0, 5e-4, urban_nav_core::Vector6d::Unit(2)}};
   const std::string now = packVoRun(run);
   const std::string name = "visual odometry of a session";
-  ASSERT_EQ(unpackVoRun(now)->rig.delay_s, 1e-3);
-  const std::string_view content = urban_nav_core::unseal(name, 4, now);
-  // What version 3 did not have stands last: five numbers.
-  const std::optional<VoRun> then =
-      unpackVoRun(urban_nav_core::seal(name, 3, std::string(content.substr(0, content.size() - 5 * sizeof(double)))));
-  ASSERT_TRUE(then);
-  EXPECT_EQ(then->rig.delay_s, 0.0);
-  EXPECT_EQ(then->settled[0].T_odom_base.covariance, countedFrom(100));
+  const VoRun same = unpackVoRun(now).value();
+  ASSERT_EQ(same.rig.delay_s, 1e-3);
+  ASSERT_EQ(same.settled[0].from_previous.constants.size(), 1U);
+  EXPECT_TRUE(isApprox(same.settled[0].from_previous, run.settled[0].from_previous, 0.0));
+  const std::string content(urban_nav_core::unseal(name, 5, now));
+  // The additions of version 5 come last: number of steps, number of constants, length of a name and its five letters,
+  // nine numbers. Those of version 4, five numbers, precede them.
+  const std::size_t steps = 8 + 8 + 8 + 5 + 9 * sizeof(double), rig = 5 * sizeof(double);
+  const VoRun fourth = unpackVoRun(urban_nav_core::seal(name, 4, content.substr(0, content.size() - steps))).value();
+  EXPECT_EQ(fourth.rig.delay_s, 1e-3);
+  EXPECT_TRUE(fourth.settled[0].from_previous.constants.empty());
+  const VoRun third =
+      unpackVoRun(urban_nav_core::seal(name, 3, content.substr(0, content.size() - steps - rig))).value();
+  EXPECT_EQ(third.rig.delay_s, 0.0);
+  EXPECT_EQ(third.settled[0].T_odom_base.covariance, countedFrom(100));
 }
 
 TEST(VoState, DamagedBytesOfVersion2AreRefused) {
