@@ -9,6 +9,7 @@
 #include "evaluation/evaluate_command.hpp"
 #include "evaluation/evaluation.hpp"
 #include "evaluation/evaluation_report.hpp"
+#include "evaluation/run_covariances.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -20,20 +21,6 @@ namespace fs = std::filesystem;
 using urban_nav_core::UserError;
 
 namespace {
-
-/// The default file is optional: if it cannot be read, there is a warning and no NEES.
-std::vector<urban_nav_core::CovarianceRow> covariancesFor(const Arguments& arguments, Console& console) {
-  if (const std::optional<std::string> given = arguments.find("covariance"))
-    return urban_nav_core::readCovariances(*given);
-  const fs::path beside = fs::path(arguments.get("estimate")).parent_path() / "covariance.csv";
-  if (!fs::exists(beside)) return {};
-  try {
-    return urban_nav_core::readCovariances(beside.string());
-  } catch (const urban_nav_core::Error& error) {
-    console.warn(std::string("no NEES: ") + error.what());
-    return {};
-  }
-}
 
 /// "M,DEG"
 TruthSigma parseTruthSigma(const std::vector<std::string>& words) {
@@ -96,8 +83,12 @@ int runEvaluate(const Arguments& arguments, Console& console) {
   const urban_nav_input::TrajectoryFile truth = urban_nav_input::readTrajectory(arguments.get("truth")),
                                         estimate = urban_nav_input::readTrajectory(arguments.get("estimate"));
   if (arguments.has("truth-sigma")) options.truth_sigma = parseTruthSigma(arguments.list("truth-sigma"));
-  const std::vector<urban_nav_core::CovarianceRow> covariances = covariancesFor(arguments, console);
+  const std::optional<std::string> given = arguments.find("covariance");
+  const RunCovariances run =
+      given ? RunCovariances{urban_nav_core::readCovariances(*given), ""} : readRunCovariances(estimate);
+  const std::vector<urban_nav_core::CovarianceRow>& covariances = run.rows;
   const Evaluation evaluation = evaluate(truth, estimate, covariances, options);
+  if (!run.warning.empty()) console.warn(run.warning);
   warnAboutFiles(truth, estimate, evaluation, console);
   if (!covariances.empty() && evaluation.covariances.empty())
     console.warn("no NEES: " + std::to_string(covariances.size()) + " covariances, and not one for each of " +
@@ -134,7 +125,7 @@ Command evaluateCommand() {
                      {"--estimate", "FILE", "the same", true, false, {}},
                      {"--covariance",
                       "FILE",
-                      "covariances of the estimate, for NEES (default: covariance.csv beside it)",
+                      "covariances of the estimate's poses, for NEES (default: covariance.csv beside it)",
                       false,
                       false,
                       {}},
