@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "parameters/removed_names.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/yaml.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -142,7 +143,9 @@ std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo
     const auto row =
         std::find_if(rows.begin(), rows.end(), [&](const RowInfo& each) { return each.name == assignment.name; });
     if (row == rows.end()) {
-      throw UserError(assignment.where, fullName(stage, assignment.name) + " is no parameter",
+      const std::string full_name = fullName(stage, assignment.name), replacement = findReplacement(full_name);
+      if (!replacement.empty()) throw UserError(assignment.where, full_name + " was removed: " + replacement, "");
+      throw UserError(assignment.where, full_name + " is no parameter",
                       "the parameters that --help-all lists; "
                       "nearest: " +
                           fullName(stage, nearest(assignment.name, listNames(rows))));

@@ -82,6 +82,20 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
             "/vo/window: stage.window = \"25\": allowed 1...100000 (frames)");
 }
 
+TEST(Sources, RemovedParametersAreNamedAsSuch) {
+  struct Filter {
+    int window;
+  };
+  const Table<Filter> table("swf_vo", {{"window", &Filter::window, "frames", 10, 1, 100, {}, "A length.", ""}});
+  EXPECT_EQ(catchError([&] { load(table, parseParameters("swf_vo:\n  marginalization: none\n", "config.yaml")); }),
+            "config.yaml:2: swf_vo.marginalization was removed: poses and landmarks that leave the window are always "
+            "marginalised; the program swf_vo-bench-plain measures odometry that deletes them");
+  EXPECT_EQ(catchError([&] { load(table, {parseSetting("swf_vo.subpixel=false")}); }),
+            "--set swf_vo.subpixel=false: swf_vo.subpixel was removed: corners are always placed to subpixels");
+  EXPECT_NE(catchError([&] { load(table, {parseSetting("swf_vo.subpixels=false")}); }).find("nearest: swf_vo.window"),
+            std::string::npos);
+}
+
 TEST(Sources, UnknownStagesAreRefused) {
   const auto assignments = parseParameters(kYaml, "config.yaml");
   EXPECT_EQ(catchError([&] {
