@@ -38,20 +38,17 @@ void fill(const Pose& pose, Translation& t, Rotation& q) {
 }
 
 // Returns nullopt if the arrays do not match or a number is not finite.
-std::optional<std::vector<urban_nav_core::ConsideredConstant>> toConstants(
-    const urban_nav_msgs::RelativePose& message) {
+std::optional<urban_nav_core::ConsideredConstants> toConstants(const urban_nav_msgs::RelativePose& message) {
   const std::size_t size = message.constants.size();
   if (message.constant_used.size() != size || message.constant_mean.size() != size ||
       message.constant_sigma.size() != size || message.sensitivity.size() != 6 * size)
     return std::nullopt;
-  std::vector<urban_nav_core::ConsideredConstant> constants;
+  urban_nav_core::ConsideredConstants constants;
   for (std::size_t i = 0; i < size; ++i) {
     const Eigen::Map<const urban_nav_core::Vector6d> sensitivity(&message.sensitivity[6 * i]);
     urban_nav_core::ConsideredConstant constant{message.constants[i], message.constant_used[i],
                                                 message.constant_mean[i], message.constant_sigma[i], sensitivity};
-    if (!constant.sensitivity.allFinite() || !std::isfinite(constant.used) || !std::isfinite(constant.mean) ||
-        !std::isfinite(constant.sigma))
-      return std::nullopt;
+    if (!isFinite(constant)) return std::nullopt;
     constants.push_back(std::move(constant));
   }
   return constants;
@@ -142,7 +139,7 @@ std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs:
   relative.covariance = toMatrix6(message.covariance);
   relative.drift_covariance = toMatrix6(message.drift_covariance);
   if (!relative.covariance.allFinite() || !relative.drift_covariance.allFinite()) return std::nullopt;
-  std::optional<std::vector<urban_nav_core::ConsideredConstant>> constants = toConstants(message);
+  std::optional<urban_nav_core::ConsideredConstants> constants = toConstants(message);
   if (!constants) return std::nullopt;
   relative.constants = std::move(*constants);
   relative.status.health = *health;

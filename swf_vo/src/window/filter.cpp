@@ -15,7 +15,7 @@
 namespace swf_vo {
 
 using Eigen::Vector3d;
-using urban_nav_core::ConsideredConstant;
+using urban_nav_core::ConsideredConstants;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::PoseWithCovariance;
@@ -216,8 +216,8 @@ Matrix6d Filter::driftCovariance(const PoseBlock& oldest, const Matrix6d& relati
 }
 
 // The offset displaces the window as a whole by releaseOffset(); the rig's scale stretches each step.
-std::vector<ConsideredConstant> Filter::constants(const PoseBlock& oldest, const Pose& T_previous_camera) const {
-  std::vector<ConsideredConstant> constants;
+ConsideredConstants Filter::constants(const PoseBlock& oldest, const Pose& T_previous_camera) const {
+  ConsideredConstants constants;
   if (gain_valid_ && datum_.isActive() && datum_.release()) {
     const Matrix6d J =
         urban_nav_core::between(settled_.pose, oldest.estimate).J2 * gauge::ofPose(oldest.estimate, datum_.origin());

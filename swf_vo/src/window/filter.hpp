@@ -81,8 +81,8 @@ class Filter {
   void deleteOldest();
   urban_nav_core::Matrix6d relativeCovariance(const PoseBlock& oldest) const;
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
-  std::vector<urban_nav_core::ConsideredConstant> constants(const PoseBlock& oldest,
-                                                            const urban_nav_core::Pose& T_previous_camera) const;
+  urban_nav_core::ConsideredConstants constants(const PoseBlock& oldest,
+                                                const urban_nav_core::Pose& T_previous_camera) const;
   OffsetBelief judgeOffset() const;
   void applyProcessNoise(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d computeWindowCovariance(std::int64_t step) const;

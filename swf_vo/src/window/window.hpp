@@ -60,7 +60,7 @@ struct SettledPose {
   urban_nav_core::Matrix6d drift_covariance =
       urban_nav_core::Matrix6d::Zero();  ///< that part of it which adds up over steps; all of it where the
                                          ///< filter does not keep the gauge apart (datum.hpp)
-  std::vector<urban_nav_core::ConsideredConstant> constants;  ///< of T_previous_camera, in `previous`
+  urban_nav_core::ConsideredConstants constants;  ///< of T_previous_camera, in `previous`
 };
 
 struct UpdateReport {

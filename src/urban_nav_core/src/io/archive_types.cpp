@@ -14,6 +14,12 @@ void archive(Archive& archive, ConsideredConstant& value) {
   archive(value.name, value.used, value.mean, value.sigma, value.sensitivity);
 }
 
+void archive(Archive& archive, ConsideredConstants& values) {
+  std::vector<ConsideredConstant> all(values.begin(), values.end());
+  archive(all);
+  values.assign(all.begin(), all.end());
+}
+
 void archive(Archive& archive, RelativePose& value) {
   archive(value.from, value.to, value.T_from_to, value.covariance, value.drift_covariance, value.status, value.source);
 }

@@ -25,6 +25,11 @@ bool isApprox(const PoseWithCovariance& a, const PoseWithCovariance& b, double t
   return isApprox(a.pose, b.pose, tolerance) && closeTo(a.covariance, b.covariance, tolerance);
 }
 
+bool isFinite(const ConsideredConstant& constant) {
+  return std::isfinite(constant.used) && std::isfinite(constant.mean) && std::isfinite(constant.sigma) &&
+         constant.sensitivity.allFinite();
+}
+
 bool isApprox(const ConsideredConstant& a, const ConsideredConstant& b, double tolerance) {
   return a.name == b.name && std::abs(a.used - b.used) <= tolerance && std::abs(a.mean - b.mean) <= tolerance &&
          std::abs(a.sigma - b.sigma) <= tolerance &&

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 
@@ -49,7 +48,7 @@ class Columns {
   void matrix6(const char* name, urban_nav_core::Matrix6d& value);
   /// A blob, empty without any: their number (eight bytes), then for each the name (length in eight bytes, text) and
   /// nine doubles: used, mean, sigma and the sensitivity.
-  void constants(const char* name, std::vector<urban_nav_core::ConsideredConstant>& values);
+  void constants(const char* name, urban_nav_core::ConsideredConstants& values);
   /// An enumerator as the word of its toString().
   template <typename Word>
   void word(const char* name, Word& value, std::optional<Word> (*parse)(std::string_view)) {

@@ -25,7 +25,7 @@ struct Node {
   urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Health status = urban_nav_core::Health::Ok;
   /// Sensitivity of the motion since the previous node to constants of the rig (RelativePose::constants).
-  std::vector<urban_nav_core::ConsideredConstant> constants{};
+  urban_nav_core::ConsideredConstants constants{};
 };
 
 /// Optimised pose of a node.

@@ -13,17 +13,9 @@ namespace urban_nav_store {
 
 using urban_nav_core::Archive;
 using urban_nav_core::ConsideredConstant;
+using urban_nav_core::ConsideredConstants;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
-
-namespace {
-
-bool isInvalid(const ConsideredConstant& constant) {
-  return !constant.sensitivity.allFinite() || !std::isfinite(constant.used) || !std::isfinite(constant.mean) ||
-         !std::isfinite(constant.sigma);
-}
-
-}  // namespace
 
 void Columns::refuse(const std::string& what) const { throw std::logic_error("not validated: " + what); }
 
@@ -54,10 +46,12 @@ void Columns::matrix6(const char* name, Matrix6d& value) {
   if (isReading() && !parseMatrix(bytes, value)) refuse(std::string(name) + " is not a matrix of finite numbers");
 }
 
-void Columns::constants(const char* name, std::vector<ConsideredConstant>& values) {
+void Columns::constants(const char* name, ConsideredConstants& values) {
   std::string& bytes = scratch();
-  if (isValidating() && !isReading() && std::any_of(values.begin(), values.end(), isInvalid))
-    refuse(std::string(name) + " are not finite");
+  const auto are_finite = [&values] {
+    return std::all_of(values.begin(), values.end(), [](const ConsideredConstant& each) { return isFinite(each); });
+  };
+  if (isValidating() && !isReading() && !are_finite()) refuse(std::string(name) + " are not finite");
   if (!isReading() && !values.empty()) {
     Archive writer;
     writer(values);
@@ -74,6 +68,7 @@ void Columns::constants(const char* name, std::vector<ConsideredConstant>& value
   } catch (const urban_nav_core::DataError&) {
     refuse(std::string(name) + " cannot be read");
   }
+  if (!are_finite()) refuse(std::string(name) + " are not finite");
 }
 
 }  // namespace urban_nav_store

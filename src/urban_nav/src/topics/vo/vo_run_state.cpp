@@ -36,7 +36,7 @@ struct StoredRun {
   std::vector<StoredRow> rows;
   std::vector<swf_vo::Settled> settled;
   std::vector<VoLandmark> landmarks;
-  std::vector<std::vector<urban_nav_core::ConsideredConstant>> constants;  // of each step of `settled`
+  std::vector<urban_nav_core::ConsideredConstants> constants;  // of each step of `settled`
 };
 
 StoredRun toStored(const VoRun& run) {

@@ -15,6 +15,7 @@ namespace urban_nav_core {
 void archive(Archive& archive, Status& status);
 void archive(Archive& archive, PoseWithCovariance& value);
 void archive(Archive& archive, ConsideredConstant& value);
+void archive(Archive& archive, ConsideredConstants& values);
 /// Without the constants, which states of earlier versions lack.
 void archive(Archive& archive, RelativePose& value);
 void archive(Archive& archive, MotionInput& input);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <iosfwd>
 #include <string>
-#include <vector>
 
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/stamp.hpp"
@@ -30,6 +30,10 @@ struct ConsideredConstant {
   Vector6d sensitivity = Vector6d::Zero();  ///< change of T_from_to per unit, tangent as in PoseWithCovariance
 };
 
+/// Constants of one step, one entry for each name. Up to two need no heap memory, so that an odometry allocates
+/// nothing for a frame.
+using ConsideredConstants = boost::container::small_vector<ConsideredConstant, 2>;
+
 /// Motion of one frame between two times, as an odometry gives it: T_from_to takes coordinates at `to` to coordinates
 /// at `from`.
 struct RelativePose {
@@ -45,7 +49,7 @@ struct RelativePose {
   Status status;
   std::string source;  ///< which odometry ("swf_vo")
   /// Errors that all steps share. They are not in `drift_covariance`.
-  std::vector<ConsideredConstant> constants{};
+  ConsideredConstants constants{};
 };
 
 /// A measured T_a_b that may leave directions free: what a closure or a plane seen again says.
@@ -56,6 +60,8 @@ struct Constraint {
   Pose T_a_b;
   Matrix6d information = Matrix6d::Zero();
 };
+
+bool isFinite(const ConsideredConstant& constant);
 
 /// Poses equal within `tolerance` (m, rad), every element of the matrices within `tolerance`; stamps, status and source
 /// exactly.
