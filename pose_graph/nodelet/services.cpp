@@ -85,7 +85,7 @@ void save(GraphNode& node, GraphWorker& worker, const std::string& path, std::st
 
 void load(GraphNode& node, GraphWorker& worker, const std::string& path, std::string& message) {
   requireAbsolute(path);
-  urban_nav_store::Store store(path, urban_nav_store::Access::Read);
+  urban_nav_store::Store store(path, urban_nav_store::Access::Snapshot);
   const auto stored = std::make_shared<const StoredGraph>(readGraph(store));
   message = path + ": " + node.ask([&worker, stored] { return worker.graph().load(*stored); });
 }

@@ -44,7 +44,7 @@ std::string writeStore(const PoseGraph& graph, const std::map<SessionId, urban_n
 
 void copyStore(const std::string& from, const std::string& to) {
   if (std::error_code error; std::filesystem::exists(to, error)) {
-    Store ours(from, Access::Read), theirs(to, Access::Read);
+    Store ours(from, Access::Snapshot), theirs(to, Access::Snapshot);
     for (const urban_nav_store::Session& session : theirs.sessions().all())
       if (!ours.sessions().find(session.id))
         throw UserError(to, "has session " + session.id + " (" + session.name + "), which this graph does not have",

@@ -3,6 +3,7 @@
 
 #include "dump_tables.hpp"
 #include "schema/row.hpp"
+#include "sqlite/snapshot.hpp"
 #include "store_implementation.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_store/digest.hpp"
@@ -36,6 +37,7 @@ void dumpTable(Connection& connection, const Table& table, std::string& text) {
 }  // namespace
 
 std::string dumpTables(Connection& connection) {
+  const Snapshot snapshot(connection);
   std::string text;
   const int version = schema::version(connection);
   for (const Table* table : schema::tables())

@@ -187,7 +187,7 @@ MergeResult merge(const std::vector<std::string>& sources, const std::string& gi
     Connection& connection = target.implementation().connection;
     Merger merger(connection);
     for (const std::string& source : sources) {
-      Store opened(source, Access::Read);
+      Store opened(source, Access::Snapshot);
       merger.add(opened.implementation().connection);
     }
     result = merger.finish();

@@ -92,6 +92,7 @@ Store::Implementation::Implementation(const std::string& path, Access access)
     connection.execute("PRAGMA synchronous=FULL");
     schema::migrate(connection, schema::tables());
   }
+  if (access == Access::Snapshot) snapshot_.emplace(connection);
   schema::check(connection);
   if (toSize(path_) <= kCheckedThroughout) checkThroughout(connection);
 }
@@ -124,6 +125,7 @@ void Store::Implementation::shrink() {
 void Store::Implementation::close() {
   scans.forget();
   inputs.forget();
+  snapshot_.reset();
   connection.close();
   lock_.reset();
 }

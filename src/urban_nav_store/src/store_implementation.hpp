@@ -5,6 +5,7 @@
 
 #include "file/writer_lock.hpp"
 #include "schema/table_access.hpp"
+#include "sqlite/snapshot.hpp"
 #include "stores/graph.hpp"
 #include "stores/inputs.hpp"
 #include "stores/keyframes.hpp"
@@ -40,6 +41,9 @@ class Store::Implementation {
   SqliteKeyframeStore keyframes;
   SqliteInputOrder inputs;
   SqliteStageStates states;
+
+ private:
+  std::optional<Snapshot> snapshot_;  // before the connection is closed, it ends
 };
 
 }  // namespace urban_nav_store

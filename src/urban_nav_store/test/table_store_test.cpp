@@ -47,6 +47,38 @@ TEST_F(RowsOfATable, RowsComeBackInTheOrderOfTheirKeys) {
   EXPECT_TRUE(keyframes.get({"s", "left", {7, "", ""}}));
 }
 
+TEST_F(RowsOfATable, AreReadFromOneStateWhateverIsCommittedMeanwhile) {
+  TableStore<KeyframeRow> written(store);
+  written.put({"s", "left", {1, "first", ""}});
+  written.put({"s", "left", {2, "second", ""}});
+  store.commit();
+  Store following(path, Access::Read), snapshot(path, Access::Snapshot);
+  std::int64_t stamp = 2;
+  const auto countWhileWriting = [&](Store& reader) {
+    int rows = 0;
+    TableStore<KeyframeRow>(reader).forEach("s", [&](const KeyframeRow&) {
+      ++rows;
+      written.put({"s", "left", {++stamp, "later", ""}});
+      store.commit();
+    });
+    return rows;
+  };
+  EXPECT_EQ(countWhileWriting(following), 2) << "rows and tally are of one state";
+  EXPECT_EQ(countWhileWriting(following), 4) << "the next call sees what was committed";
+  EXPECT_EQ(countWhileWriting(snapshot), 2) << "the file as it was opened";
+}
+
+TEST_F(RowsOfATable, AStateIsReadWithAllItsParts) {
+  const std::string first(3 << 20, 'a'), second(1 << 20, 'b');
+  store.states().put("s", "vo", first);
+  store.commit();
+  Store snapshot(path, Access::Snapshot);
+  store.states().put("s", "vo", second);
+  store.commit();
+  EXPECT_EQ(snapshot.states().get("s", "vo"), first);
+  EXPECT_EQ(Store(path, Access::Read).states().get("s", "vo"), second);
+}
+
 TEST_F(RowsOfATable, PosesMatricesAndWordsComeBackBitByBit) {
   Drawn drawn(1);
   const Node node = drawn.node(3);

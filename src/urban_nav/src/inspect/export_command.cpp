@@ -129,7 +129,7 @@ void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Writt
 int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
-  Store store(arguments.get("STORE"), Access::Read);
+  Store store(arguments.get("STORE"), Access::Snapshot);
   const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
   if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
   Written written(console);

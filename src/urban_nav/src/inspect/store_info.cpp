@@ -124,7 +124,7 @@ std::string toText(const StoredSession& each) {
 }  // namespace
 
 StoreInfo lookIntoStore(const std::string& path) {
-  Store store(path, urban_nav_store::Access::Read);
+  Store store(path, urban_nav_store::Access::Snapshot);
   StoreInfo info;
   info.path = path;
   for (const char* suffix : {"", "-wal"}) {

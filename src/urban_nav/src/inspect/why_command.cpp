@@ -55,7 +55,7 @@ int runWhy(const Arguments& arguments, Console& console) {
   if (arguments.has("T1") != arguments.has("T2"))
     throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
   if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");
-  urban_nav_store::Store store(arguments.get("STORE"), urban_nav_store::Access::Read);
+  urban_nav_store::Store store(arguments.get("STORE"), urban_nav_store::Access::Snapshot);
   const std::vector<StoredClosure> closures = listClosures(store);
   if (!moments && !arguments.has("closure")) {
     console.print(makeList(closures));

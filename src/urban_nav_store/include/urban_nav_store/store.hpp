@@ -14,8 +14,9 @@
 namespace urban_nav_store {
 
 enum class Access {
-  Read,   ///< changes no byte of the file; another program may write at the same time
-  Write,  ///< opens the file or creates it; one writer at a time
+  Read,      ///< changes no byte of the file; what another program commits meanwhile is seen by the next call
+  Snapshot,  ///< as Read, but every call sees the file as it was when it was opened: for results made of many calls
+  Write,     ///< opens the file or creates it; one writer at a time
 };
 
 /// One session store: an SQLite file in WAL mode with any number of sessions.

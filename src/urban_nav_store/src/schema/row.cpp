@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sqlite/snapshot.hpp"
 #include "urban_nav_store/bytes.hpp"
 
 namespace urban_nav_store {
@@ -125,6 +126,7 @@ void verifyTally(const RowReader& reader, const std::string& session) {
 }
 
 void verifyTally(Connection& connection, const Table& table, const std::string& session) {
+  const Snapshot snapshot(connection);
   Statement statement = connection.prepare("SELECT count(*),ifnull(sum(crc),0) FROM " + table.name + " WHERE " +
                                            table.columns.front().name + "=?");
   statement.bind(0, session);
@@ -136,6 +138,7 @@ bool operator==(const Value& a, const Value& b) {
 }
 
 void verifyTally(Connection& connection, const Table& table) {
+  const Snapshot snapshot(connection);
   std::vector<std::string> sessions;
   {
     Statement statement = connection.prepare("SELECT session FROM tally WHERE name=? AND count<>0 UNION SELECT " +

@@ -6,6 +6,7 @@
 #include "schema/row.hpp"
 #include "schema/row_columns.hpp"
 #include "schema/schema.hpp"
+#include "sqlite/snapshot.hpp"
 
 namespace urban_nav_store {
 
@@ -85,6 +86,7 @@ void TableAccess::remove(const Table& table, const AnyRow& row, std::size_t keys
 void TableAccess::forEach(const Table& table, const SessionId& session, const AnyRow& row,
                           const std::function<void()>& visit) {
   if (!has(table)) return;
+  const Snapshot snapshot(connection_);  // rows and tally
   RowReader reader(connection_, stored(table), "WHERE " + keySql(table, 1));
   reader.statement().bind(0, session);
   while (reader.next()) {

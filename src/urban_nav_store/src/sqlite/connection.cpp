@@ -135,4 +135,9 @@ void Connection::rollback() {
   if (inTransaction()) execute("ROLLBACK");
 }
 
+void Connection::endReading() noexcept {
+  if (handle_ != nullptr && sqlite3_get_autocommit(handle_) == 0)
+    sqlite3_exec(handle_, "COMMIT", nullptr, nullptr, nullptr);
+}
+
 }  // namespace urban_nav_store

@@ -40,8 +40,11 @@ class Connection {
   /// Opens a transaction if none is open. UserError where the store was opened for reading.
   void beginWriting();
   bool inTransaction() const;
+  bool writes() const { return writes_; }
   void commit();
   void rollback();
+  /// Ends the transaction of a reader, if one is open; never throws.
+  void endReading() noexcept;
 
   /// Closes the file; everything after it is a UserError.
   void close();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "schema/schema.hpp"
+#include "sqlite/snapshot.hpp"
 #include "tables/session_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/bytes.hpp"
@@ -57,6 +58,7 @@ std::optional<Session> SqliteSessionStore::find(const SessionId& id) const {
 }
 
 std::vector<Session> SqliteSessionStore::all() const {
+  const Snapshot snapshot(tables_.connection());  // rows and tally
   std::vector<Session> sessions;
   SessionRow row;
   tables_.forEachRow(declaredTable<SessionRow>(), AnyRow(row), [&] { sessions.push_back(row.session); });

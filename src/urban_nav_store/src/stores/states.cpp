@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "schema/row.hpp"
+#include "sqlite/snapshot.hpp"
 #include "tables/measurement_tables.hpp"
 #include "urban_nav_store/deflate.hpp"
 
@@ -25,6 +26,7 @@ void SqliteStageStates::put(const SessionId& session, const std::string& stage, 
 }
 
 std::optional<std::string> SqliteStageStates::get(const SessionId& session, const std::string& stage) const {
+  const Snapshot snapshot(tables_.connection());  // all parts of one state
   verifyTally(tables_.connection(), declaredTable<StatePartRow>(), session);
   StatePartRow row{session, stage, 0, 0, ""};
   std::string bytes;

@@ -40,7 +40,7 @@ class LocalizationStage final : public Stage {
   }
 
   Messages run(MapContext& context) override {
-    Store frozen(context.options.localise, Access::Read);
+    Store frozen(context.options.localise, Access::Snapshot);
     urban_nav_localization::Parameters parameters = context.options.parameters.get(urban_nav_localization::table());
     parameters.registration = context.options.parameters.get(urban_nav_registration::table());
     Messages messages;
