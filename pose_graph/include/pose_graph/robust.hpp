@@ -28,7 +28,7 @@ enum class Reason {
   Unconfirmed,  ///< could be, but so much could be there that fitting proves nothing, and no other closure supports it
   NoWitness,    ///< would join two parts of the graph that nothing else joins
   Slipped,      ///< a step of odometry that all else contradicts
-  Undecided,    ///< agrees with others, but with no more of them than chance explains
+  Undecided,    ///< agrees with others, but a set without it is nearly as likely, or odometry alone
 };
 /// A sentence.
 const char* toString(Reason reason);
@@ -49,7 +49,8 @@ struct SelectionReport {
   bool contested = false;     ///< whether more sets than one and odometry alone were weighed
   bool unweighed = false;     ///< the graph is too large for that, and closures were rejected or variances are far off
   bool undecided = false;     ///< no set of closures is likelier than chance: odometry alone
-  bool has_rival = false;     ///< another set, with other closures, is likelier than a thousandth of the chosen one
+  /// Another set, with other closures, is likelier than a thousandth of the chosen one: what is not in both is left out.
+  bool has_rival = false;
   double log_evidence = 0.0;  ///< of the set that was chosen, over odometry alone
   std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, where the graph is of a file
   /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
@@ -97,7 +98,8 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
 /// taken out, and with sessions joined by closures that agree with each other, two of different rows at least and more
 /// than chance explains, or by all closures where none disagrees, which is a rival if they are only two. The set with
 /// the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of them: where no set is
-/// likelier by a factor of 1000, no closure is accepted. Edges that are the same to the last bit count once. Where the
+/// likelier by a factor of 1000, no closure is accepted. Of a set that another one comes near by that factor, what both
+/// have is accepted. Edges that are the same to the last bit count once. Where the
 /// variances of odometry and closures are off by more than a factor of 9 against each other, by evidence, the poses are
 /// those of the information put right. Of graphs beyond 200 000 poses the selection of relaxRobust() alone is weighed
 /// against odometry, by the core that their chains leave, or not at all where it is as large

@@ -117,7 +117,8 @@ std::vector<std::string> selectionWarnings(const SelectionReport& selection, std
                        std::to_string(rejected) + " of " + std::to_string(closures) +
                        " are rejected, and the others may agree by chance");
   if (selection.has_rival)
-    warnings.push_back("another set of closures is nearly as likely as the accepted one: what differs is a guess");
+    warnings.push_back("another set of closures, a rival, is nearly as likely as the accepted one: closures that are not in both are "
+                       "left out; confirm them by asserted edges or by closures elsewhere");
   return warnings;
 }
 

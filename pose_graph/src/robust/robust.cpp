@@ -64,7 +64,7 @@ const char* toString(Reason reason) {
     case Reason::Disagrees: return "disagrees with the accepted edges";
     case Reason::Unconfirmed: return "too little is known there, and no other closure agrees";
     case Reason::Slipped: return "odometry slipped: all other edges contradict it";
-    case Reason::Undecided: return "agrees with no more closures than chance explains";
+    case Reason::Undecided: return "a set of closures without it, or odometry alone, is nearly as likely";
     case Reason::NoWitness: return "joins two parts, and no second closure agrees";
   }
   return "";

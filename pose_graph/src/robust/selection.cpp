@@ -21,7 +21,7 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     report.contested = selection.wasContested();
     report.log_evidence = selection.evidence();
     report.undecided = selection.isUndecided();
-    report.has_rival = !report.undecided && selection.hasRival();
+    report.has_rival = !report.undecided && selection.keepShared();
     if (selection.hasVariances()) factors = selection.hypothesis().factors;
     report.odometry_factor = factors.odometry;
     report.closure_factor = factors.closures;

@@ -111,10 +111,35 @@ class Selection {
   }
   /// Whether sets should have been weighed, and the graph is too large.
   bool isUnweighed() const { return unweighed_; }
-  /// Whether another set that takes other closures is nearly as likely.
-  bool hasRival() const {
-    if (!evaluator_ || evaluator_->areAssertions()) return contested_ && hasRivalSet();
-    return (contested_ && hasRivalSet()) || (!core_ && hasUnconfirmedRow());
+  /// Leaves out of the best set what a rival, another set of edges that is nearly as likely, does not share: closures that
+  /// are not in both become undecided. Where the rest no longer joins the ends of a slip, the step is odometry again. The
+  /// poses are relaxed anew. Returns whether there is a rival.
+  bool keepShared() {
+    const std::optional<std::vector<char>> shared = findShared();
+    if (!shared) return false;
+    std::vector<EdgeAssessment>& edges = best_.assessed.edges;
+    bool changed = false;
+    for (std::size_t e = 0; e < roles_.size(); ++e) {
+      if (roles_[e] != EdgeRole::Candidate || !(edges[e].weight > 0.0) || (*shared)[e]) continue;
+      edges[e].weight = 0.0;
+      edges[e].verdict = urban_nav_core::ClosureVerdict::Rejected;
+      edges[e].reason = Reason::Undecided;
+      changed = true;
+    }
+    if (!changed) return true;
+    if (!holdsWithout(best_.assessed, best_.slips)) {
+      for (const Slip<D>& slip : best_.slips) {
+        edges[sz(slip.edge)].weight = 1.0;
+        edges[sz(slip.edge)].verdict = urban_nav_core::ClosureVerdict::Accepted;
+        edges[sz(slip.edge)].reason = Reason::Role;
+      }
+    }
+    std::vector<char> in;
+    for (const EdgeAssessment& edge : edges) in.push_back(edge.weight > 0.0);
+    AcceptedGraph<D> graph(problem_);
+    graph.take(in);
+    graph.relax(best_.assessed.poses, kRoundSteps, kRoundShare, true);
+    return true;
   }
   bool hasVariances() const { return evaluator_ && !evaluator_->areAssertions(); }
   /// Whether the variances of odometry and closures are off against each other by far, and that is no chance.
@@ -138,28 +163,46 @@ class Selection {
     VarianceFactors grown_with;
   };
 
-  bool hasRivalSet() const {
-    return std::any_of(weighed_.begin(), weighed_.end(), [&](const auto& other) {
-      if (!(other.first > best_.hypothesis.log_evidence - kDecisive)) return false;
-      std::size_t differ = 0;
-      for (std::size_t e = 0; e < roles_.size(); ++e)
-        differ += roles_[e] == EdgeRole::Candidate && other.second[e] != best_.hypothesis.in[e];
-      return static_cast<double>(differ) > kContestedShare * static_cast<double>(candidates_);
-    });
+  // Edges that the best set and all its rivals have; none where there is no rival.
+  std::optional<std::vector<char>> findShared() const {
+    std::vector<char> shared = best_.hypothesis.in;
+    bool has_rival = contested_ && shareWithSets(shared);
+    if (evaluator_ && !evaluator_->areAssertions() && !core_) has_rival |= shareWithoutRows(shared);
+    return has_rival ? std::make_optional(shared) : std::nullopt;
   }
 
-  // Whether the map is another one without a row of closures that no other confirms, and nearly as likely.
-  bool hasUnconfirmedRow() const {
+  // Takes out of `shared` what sets nearly as likely have not. Returns whether there are any.
+  bool shareWithSets(std::vector<char>& shared) const {
+    bool has_rival = false;
+    for (const auto& [log_evidence, in] : weighed_) {
+      if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
+      std::size_t differ = 0;
+      for (std::size_t e = 0; e < roles_.size(); ++e)
+        differ += roles_[e] == EdgeRole::Candidate && in[e] != best_.hypothesis.in[e];
+      if (!(static_cast<double>(differ) > kContestedShare * static_cast<double>(candidates_))) continue;
+      has_rival = true;
+      for (std::size_t e = 0; e < shared.size(); ++e) shared[e] = shared[e] && in[e];
+    }
+    return has_rival;
+  }
+
+  // Takes out of `shared` each row of closures that no other confirms, where the map is another one without it, and nearly
+  // as likely. Returns whether there are any.
+  bool shareWithoutRows(std::vector<char>& shared) const {
     const std::vector<std::vector<int>> rows = evaluator_->unconfirmedRows(best_.hypothesis);
     if (rows.empty()) return false;
     const Hypothesis<D> all = evaluator_->assessRows(best_.hypothesis, 0);
-    return std::any_of(rows.begin(), rows.end(), [&](const std::vector<int>& row) {
+    bool has_rival = false;
+    for (const std::vector<int>& row : rows) {
       Hypothesis<D> without = best_.hypothesis;
       for (const int e : row) without.in[sz(e)] = 0;
       without = evaluator_->assessRows(without, 0);
-      return all.log_evidence - without.log_evidence < kDecisive &&
-             (!best_.slips.empty() || evaluator_->isDisplaced(without.poses, all.poses));
-    });
+      if (!(all.log_evidence - without.log_evidence < kDecisive)) continue;
+      if (best_.slips.empty() && !evaluator_->isDisplaced(without.poses, all.poses)) continue;
+      has_rival = true;
+      for (const int e : row) shared[sz(e)] = 0;
+    }
+    return has_rival;
   }
 
   double overOdometry(const Hypothesis<D>& hypothesis) const {
