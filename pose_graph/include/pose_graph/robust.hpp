@@ -46,12 +46,13 @@ struct EdgeAssessment {
 
 /// How a selection among several sets of edges ended.
 struct SelectionReport {
-  bool contested = false;     ///< whether more sets than one and odometry alone were weighed
-  bool unweighed = false;     ///< the graph is too large for that, and closures were rejected or variances are far off
-  bool undecided = false;     ///< no set of closures is likelier than chance: odometry alone
-  /// Another set, with other closures, is likelier than a thousandth of the chosen one: what is not in both is left out.
+  bool contested = false;  ///< whether more sets than one and odometry alone were weighed
+  bool unweighed = false;  ///< the graph is too large for that, and closures were rejected or variances are far off
+  bool undecided = false;  ///< no set of closures is likelier than chance: odometry alone
+  /// Another set, with other closures, is likelier than a thousandth of the chosen one: what is not in both is left
+  /// out.
   bool has_rival = false;
-  double log_evidence = 0.0;  ///< of the set that was chosen, over odometry alone
+  double log_evidence = 0.0;         ///< of the set that was chosen, over odometry alone
   std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, where the graph is of a file
   /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
   double odometry_factor = 1.0, closure_factor = 1.0;
@@ -97,13 +98,12 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
 /// alternatives: the same with the information of odometry or of closures scaled, with steps of odometry that slipped
 /// taken out, and with sessions joined by closures that agree with each other, two of different rows at least and more
 /// than chance explains, or by all closures where none disagrees, which is a rival if they are only two. The set with
-/// the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of them: where no set is
+/// the largest evidence wins (robust/decision/score.hpp), and odometry alone competes with all of them: where no set is
 /// likelier by a factor of 1000, no closure is accepted. Of a set that another one comes near by that factor, what both
-/// have is accepted. Edges that are the same to the last bit count once. Where the
-/// variances of odometry and closures are off by more than a factor of 9 against each other, by evidence, the poses are
-/// those of the information put right. Of graphs beyond 200 000 poses the selection of relaxRobust() alone is weighed
-/// against odometry, by the core that their chains leave, or not at all where it is as large
-/// (SelectionReport::unweighed).
+/// have is accepted. Edges that are the same to the last bit count once. Where the variances of odometry and closures
+/// are off by more than a factor of 9 against each other, by evidence, the poses are those of the information put
+/// right. Of graphs beyond 200 000 poses the selection of relaxRobust() alone is weighed against odometry, by the core
+/// that their chains leave, or not at all where it is as large (SelectionReport::unweighed).
 template <int D>
 RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const SolveOptions& options);

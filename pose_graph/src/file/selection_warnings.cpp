@@ -8,15 +8,14 @@
 #include <utility>
 
 #include "linear/disjoint_sets.hpp"
-#include "robust/session_links.hpp"
+#include "robust/evidence/variances.hpp"
+#include "robust/generators/session_links.hpp"
 
 namespace pose_graph {
 
 using urban_nav_core::ClosureVerdict;
 
 namespace {
-
-constexpr double kImplausible = 3.0;  // of deviations
 
 struct Rejections {
   std::size_t rejected = 0, all = 0;
@@ -87,8 +86,8 @@ std::string twoDigits(double value) {
 // Errors that are smaller than stated are reported only where odometry and closures are weighed wrongly for it.
 void addScales(const std::string& kind, const std::optional<double>& odometry, const std::optional<double>& closures,
                std::vector<std::string>& warnings) {
-  const bool larger_odometry = odometry && *odometry > kImplausible;
-  const bool larger_closures = closures && *closures > kImplausible;
+  const bool larger_odometry = odometry && *odometry > kStatedWithin;
+  const bool larger_closures = closures && *closures > kStatedWithin;
   const std::string stated = " times the deviations that the information states";
   if (larger_odometry)
     warnings.push_back("the errors of odometry's " + kind + " are " + twoDigits(*odometry) + stated +
@@ -98,7 +97,7 @@ void addScales(const std::string& kind, const std::optional<double>& odometry, c
                        ": divide their information by " + twoDigits(*closures * *closures));
   if (larger_odometry || larger_closures || !odometry || !closures) return;
   const double ratio = *odometry / *closures;
-  if (ratio > kImplausible || ratio < 1.0 / kImplausible)
+  if (ratio > kStatedWithin || ratio < 1.0 / kStatedWithin)
     warnings.push_back("odometry and closures are weighed wrongly against each other: the errors of odometry's " +
                        kind + " are " + twoDigits(*odometry) + stated + ", those of the closures' " +
                        twoDigits(*closures) + " times");
@@ -117,8 +116,9 @@ std::vector<std::string> selectionWarnings(const SelectionReport& selection, std
                        std::to_string(rejected) + " of " + std::to_string(closures) +
                        " are rejected, and the others may agree by chance");
   if (selection.has_rival)
-    warnings.push_back("another set of closures, a rival, is nearly as likely as the accepted one: closures that are not in both are "
-                       "left out; confirm them by asserted edges or by closures elsewhere");
+    warnings.push_back(
+        "another set of closures, a rival, is nearly as likely as the accepted one: closures that are not in both are "
+        "left out; confirm them by asserted edges or by closures elsewhere");
   return warnings;
 }
 

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "linear/index.hpp"
-#include "robust/accepted_graph.hpp"
-#include "robust/whitened_edge.hpp"
+#include "objective/whitened_edge.hpp"
+#include "solve/accepted_graph.hpp"
 #include "start/aligned.hpp"
 #include "start/along_edges.hpp"
 

@@ -90,7 +90,8 @@ void expectRejected(double information) {
     addAliasedRow(problem, similar, static_cast<int>(end), dice);
     const RobustSolution<2> robust = relaxSelected(problem, rolesByNumbers(problem), {});
     EXPECT_EQ(countAliasedAccepted(robust), 0u) << seed;
-    EXPECT_LT(largestDistance(robust.solution.poses, clean.solution.poses), 0.01 * extent(clean.solution.poses)) << seed;
+    EXPECT_LT(largestDistance(robust.solution.poses, clean.solution.poses), 0.01 * extent(clean.solution.poses))
+        << seed;
   }
   EXPECT_GE(rows, 4);
 }

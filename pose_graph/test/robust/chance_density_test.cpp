@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/chance_density.hpp"
+#include "robust/evidence/chance_density.hpp"
 
 #include <gtest/gtest.h>
 

@@ -225,8 +225,7 @@ Problem<2> drawStreets(std::uint64_t seed) {
     Tangent<2> noise = test::drawTangent<2>(dice, kDrawn * kMetres, kDrawn * kRadians);
     noise[2] += bias;
     result.edges.push_back({from, to, exact * moved(Rigid<2>(), noise), TangentMatrix<2>::Zero()});
-    result.edges.back().information.diagonal() =
-        Eigen::Vector3d(kMetres, kMetres, kRadians).cwiseAbs2().cwiseInverse();
+    result.edges.back().information.diagonal() = Eigen::Vector3d(kMetres, kMetres, kRadians).cwiseAbs2().cwiseInverse();
   };
   for (int i = 0; i + 1 < kPoses; ++i) {
     Rigid<2> step;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/slips.hpp"
+#include "robust/generators/slips.hpp"
 
 #include <gtest/gtest.h>
 

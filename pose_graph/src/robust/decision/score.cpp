@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/decision/score.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "robust/evidence/chance_density.hpp"
+#include "robust/evidence/dead_reckoning.hpp"
+#include "robust/evidence/variances.hpp"
+#include "start/along_edges.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+// A priori one step of a thousand slips.
+const double kLogSlip = std::log(Thresholds::kNegligible);
+constexpr double kDisplaced = 0.01;                   // of the extent
+constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // of a ratio; of logarithms
+constexpr double kComponentsSettled = 0.05;           // of the logarithms of the factors
+constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
+constexpr std::size_t kMostUnconfirmed = 8;
+constexpr int kLongestRow = 30;  // closures that a row of false ones has at most
+
+double logFactorial(double n) { return std::lgamma(n + 1.0); }
+
+// Logarithm of how many sets of `some` of `all` there are, times how many sizes.
+double logChoices(double all, double some) {
+  return logFactorial(all) - logFactorial(some) - logFactorial(all - some) + std::log(all + 1.0);
+}
+
+// See HypothesisEvaluator::largestOdometryFactor().
+template <int D>
+double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  std::vector<const Edge<D>*> step(problem.poses.size(), nullptr);
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    if (roles[e] == EdgeRole::Trusted && problem.edges[e].to == problem.edges[e].from + 1)
+      step[sz(problem.edges[e].from)] = &problem.edges[e];
+  std::vector<double> squares;
+  for (std::size_t i = 0; i + 1 < step.size(); ++i) {
+    if (!step[i] || !step[i + 1]) continue;
+    Tangent<D> difference;
+    difference.template head<D>() = step[i + 1]->Z.t - step[i]->Z.t;
+    difference.template tail<kRotationSize<D>>() =
+        logRotation(Rotation<D>(step[i]->Z.R.transpose() * step[i + 1]->Z.R));
+    squares.push_back(0.5 * difference.dot(step[i]->information * difference) / kTangentSize<D>);
+  }
+  if (squares.empty()) return kFarFactor;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return kFarFactor * std::max(1.0, *middle);
+}
+
+// Logarithm of the determinant of what an information has, and its rank.
+template <int D>
+std::pair<double, int> logDeterminant(const TangentMatrix<D>& information) {
+  const auto eigen = urban_nav_core::smallEigen<kTangentSize<D>>(information);
+  const double largest = eigen.values[kTangentSize<D> - 1];
+  double sum = 0.0;
+  int rank = 0;
+  for (int a = 0; a < kTangentSize<D>; ++a) {
+    if (!(eigen.values[a] > kZeroEigenvalue * largest)) continue;
+    sum += std::log(eigen.values[a]);
+    ++rank;
+  }
+  return {sum, rank};
+}
+
+// Adds to information with directions that say less than that a pose is somewhere in the map, what that says: evidence
+// of what may be anywhere is no number.
+template <int D>
+void boundInformation(double extent, TangentMatrix<D>& information) {
+  Tangent<D> deviation;  // of an even spread
+  deviation.template head<D>().setConstant(2.0 * extent / std::sqrt(12.0));
+  deviation.template tail<kRotationSize<D>>().setConstant(2.0 * M_PI / std::sqrt(12.0));
+  const TangentMatrix<D> scaled = deviation.asDiagonal() * information * deviation.asDiagonal();
+  if (urban_nav_core::smallEigen<kTangentSize<D>>(scaled).values[0] >= 1.0) return;
+  information.diagonal() += deviation.cwiseAbs2().cwiseInverse();
+}
+
+// Whether most closures do, to the last bit.
+template <int D>
+bool stateTheSame(const Problem<D>& problem, const std::vector<int>& candidates) {
+  const auto values = [&](int e) {
+    const Rigid<D>& Z = problem.edges[sz(e)].Z;
+    std::array<double, D + D * D> made;
+    std::copy(Z.t.data(), Z.t.data() + D, made.begin());
+    std::copy(Z.R.data(), Z.R.data() + D * D, made.begin() + D);
+    return made;
+  };
+  std::set<std::array<double, D + D * D>> different;
+  for (const int e : candidates) different.insert(values(e));
+  return 2 * different.size() < candidates.size();
+}
+
+// Where two steps of a slowly converging sequence lead in the end, beyond the second (Aitken 1926).
+double leap(double before, double now) {
+  const double ratio = before * now > 0.0 ? std::min(now / before, kMostLeap) : 0.0;
+  return std::clamp(now * ratio / (1.0 - ratio), -kLeapWithin, kLeapWithin);
+}
+
+// Whether both ends of two closures are: between two chains partners may be anywhere.
+template <int D>
+bool areNear(const Edge<D>& a, const Edge<D>& b) {
+  return std::abs(std::min(a.from, a.to) - std::min(b.from, b.to)) <= kRowReach &&
+         std::abs(std::max(a.from, a.to) - std::max(b.from, b.to)) <= kRowReach;
+}
+
+}  // namespace
+
+template <int D>
+HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
+    : problem_(problem), roles_(roles), reckoning_(problem, roles) {
+  problem_.fixed = withoutCopiedPoses(problem, roles);
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    is_candidate_.push_back(roles[e] == EdgeRole::Candidate);
+    if (is_candidate_.back()) candidates_.push_back(static_cast<int>(e));
+  }
+  TangentMatrix<D> given = TangentMatrix<D>::Zero(), bounded = given;  // many edges state the same
+  std::pair<double, int> determinant;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    TangentMatrix<D>& information = problem_.edges[e].information;
+    if (e == 0 || information != given || roles[e] != roles[e - 1]) {
+      bounded = given = information;
+      // A prior or a fix without information has no effect; a step of odometry without it ends somewhere in the map.
+      if (roles[e] != EdgeRole::Asserted || !information.isZero(0.0)) boundInformation<D>(reckoning_.extent, bounded);
+      determinant = logDeterminant<D>(bounded);
+    }
+    information = bounded;
+    log_information_.push_back(determinant.first);
+    rank_.push_back(determinant.second);
+  }
+  largest_odometry_ = boundOdometryFactor(problem, roles);
+  assertions_ = stateTheSame(problem, candidates_);
+  constexpr int kN = kTangentSize<D>, kR = kRotationSize<D>;
+  log_place_ = -kR * kLogTwoPi - D * std::log(2.0 * reckoning_.extent);
+  log_false_.assign(roles.size(), log_place_);
+  ChanceDensity<D> by_chance(reckoning_, candidates_.size());
+  for (const int e : candidates_) log_false_[sz(e)] = by_chance.logAt(problem.edges[sz(e)]);
+  neighbour_.assign(roles.size(), -1);
+  row_position_.assign(roles.size(), 0);
+  log_alike_.assign(roles.size(), 0.0);
+  const ClosureLoops<D> loops(problem, candidates_, reckoning_);
+  const double scale = assertions_ ? 1.0 : informationScale(loops).factor;
+  for (std::size_t a = 0; a < loops.size(); ++a)
+    loops.partners(a, 1, [&](std::size_t b) {
+      if (!areNear(problem.edges[sz(loops.edge(a))], problem.edges[sz(loops.edge(b))])) return;
+      const ClosureLoop loop = loops.loop(a, b);
+      if (!std::isfinite(loop.chi2) || !std::isfinite(loop.log_true)) return;
+      double best = -std::numeric_limits<double>::infinity();
+      for (const double factor : {1.0, scale, kLooseFactor, kLooseFactor * std::max(1.0, scale)})
+        best = std::max(best, loop.log_true - 0.5 * kN * std::log(factor) - 0.5 * loop.chi2 / factor);
+      neighbour_[sz(loops.edge(b))] = loops.edge(a);
+      row_position_[sz(loops.edge(b))] = row_position_[sz(loops.edge(a))] + 1;
+      log_alike_[sz(loops.edge(b))] = best;
+    });
+}
+
+template <int D>
+double HypothesisEvaluator<D>::chance(const Hypothesis<D>& hypothesis) const {
+  // A choice for the closures within chains, and one for those between each two chains: how many of them are true has
+  // nothing to do with each other.
+  struct Choice {
+    double starts = 0.0, first_inside = 0.0, followers = 0.0, changes = 0.0;
+  };
+  std::map<std::pair<int, int>, Choice> choices;
+  double sum = 0.0;
+  for (const int e : candidates_) {
+    const int near = neighbour_[sz(e)];
+    const auto [a, b] = std::minmax(reckoning_.of_pose[sz(problem_.edges[sz(e)].from)],
+                                    reckoning_.of_pose[sz(problem_.edges[sz(e)].to)]);
+    Choice& choice = choices[a == b ? std::make_pair(-1, -1) : std::make_pair(a, b)];
+    if (near < 0) {
+      ++choice.starts;
+      choice.first_inside += hypothesis.in[sz(e)] != 0;
+    } else {
+      ++choice.followers;
+      choice.changes += (hypothesis.in[sz(e)] != 0) != (hypothesis.in[sz(near)] != 0);
+    }
+    if (hypothesis.in[sz(e)]) continue;
+    const bool alike = near >= 0 && !hypothesis.in[sz(near)];
+    sum += alike ? std::max(log_false_[sz(e)], log_alike_[sz(e)]) : log_false_[sz(e)];
+  }
+  for (const auto& [chains, choice] : choices)
+    sum -= logChoices(choice.starts, choice.first_inside) + logChoices(choice.followers, choice.changes);
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    if (roles_[e] == EdgeRole::Trusted && !hypothesis.in[e]) sum += log_false_[e] + kLogSlip;
+  return sum;
+}
+
+template <int D>
+double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
+  std::vector<int> inside;
+  for (const int e : candidates_)
+    if (hypothesis.in[sz(e)]) inside.push_back(e);
+  if (inside.empty() || assertions_) return 0.0;
+  ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
+  const double log_predicted =
+      (hypothesis.log_inside - log_odometry_) / static_cast<double>(inside.size());  // density of each, on average
+  const std::size_t every = 1 + inside.size() / kAskedOfMap;
+  double sum = 0.0, asked = 0.0;
+  for (std::size_t i = 0; i < inside.size(); i += every, asked += 1.0) {
+    const std::size_t e = sz(inside[i]);
+    const double on_map = by_chance.logAt(problem_.edges[e], std::exp(-log_predicted));
+    sum += std::max(0.0, on_map - (neighbour_[e] < 0 ? log_false_[e] : std::max(log_false_[e], log_alike_[e])));
+  }
+  return sum / asked * static_cast<double>(inside.size());
+}
+
+// Sums of squares over redundancy (Förstner 1979), translation and rotation together.
+template <int D>
+VarianceFactors HypothesisEvaluator<D>::estimateFactors(AcceptedGraph<D>& graph,
+                                                        const Hypothesis<D>& hypothesis) const {
+  const double cost = graph.cost(hypothesis.poses);
+  const typename AcceptedGraph<D>::Share closures = graph.share(hypothesis.poses, is_candidate_);
+  double ranks[2] = {0.0, 0.0};
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    if (hypothesis.in[e]) ranks[roles_[e] == EdgeRole::Candidate] += rank_[e];
+  const double unknowns = graph.unknowns() * kTangentSize<D>;
+  const auto factor = [](double squares, double redundancy) {
+    return likeliestFactor({squares, std::max(0.0, redundancy)});
+  };
+  VarianceFactors made;
+  made.odometry =
+      std::min(factor((cost - closures.cost) * hypothesis.factors.odometry, ranks[0] - (unknowns - closures.unknowns)),
+               largest_odometry_);
+  if (!assertions_) made.closures = factor(closures.cost * hypothesis.factors.closures, ranks[1] - closures.unknowns);
+  return made;
+}
+
+template <int D>
+void HypothesisEvaluator<D>::evaluate(Hypothesis<D>& hypothesis) const {
+  assess(hypothesis, kRounds);
+}
+
+template <int D>
+double HypothesisEvaluator<D>::gainByFactors(const Hypothesis<D>& hypothesis) const {
+  Hypothesis<D> as_stated = hypothesis;
+  as_stated.factors = {};
+  assess(as_stated, 0);
+  return hypothesis.log_evidence - as_stated.log_evidence;
+}
+
+template <int D>
+void HypothesisEvaluator<D>::assess(Hypothesis<D>& hypothesis, int rounds) const {
+  constexpr int kN = kTangentSize<D>;
+  std::vector<int> edges;
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    if (hypothesis.in[e]) edges.push_back(static_cast<int>(e));
+  std::vector<double> weights(roles_.size(), 0.0);
+  AcceptedGraph<D> graph(problem_);
+  const auto factorOf = [&](int e) {
+    return roles_[sz(e)] == EdgeRole::Candidate ? hypothesis.factors.closures : hypothesis.factors.odometry;
+  };
+  double steps_before[2] = {0.0, 0.0};
+  for (int round = 0; round <= rounds; ++round) {
+    for (const int e : edges) weights[sz(e)] = 1.0 / factorOf(e);
+    graph.take(hypothesis.in, weights);
+    graph.relax(hypothesis.poses, kMostSteps, kEndShare, false);
+    if (round == rounds) break;
+    if (!graph.factor(hypothesis.poses)) break;
+    const VarianceFactors last = hypothesis.factors;
+    hypothesis.factors = estimateFactors(graph, hypothesis);
+    const double steps[2] = {std::log(hypothesis.factors.odometry / last.odometry),
+                             std::log(hypothesis.factors.closures / last.closures)};
+    if (std::abs(steps[0]) < kComponentsSettled && std::abs(steps[1]) < kComponentsSettled) {
+      round = rounds - 1;  // only the poses have to follow
+    } else if (round % 2 == 1) {
+      hypothesis.factors.odometry =
+          std::min(hypothesis.factors.odometry * std::exp(leap(steps_before[0], steps[0])), largest_odometry_);
+      hypothesis.factors.closures *= std::exp(leap(steps_before[1], steps[1]));  // 1 where it is not estimated
+    }
+    std::copy(steps, steps + 2, steps_before);
+  }
+  hypothesis.log_evidence = -std::numeric_limits<double>::infinity();
+  if (!graph.factor(hypothesis.poses)) return;
+  const double unknowns = graph.unknowns();
+  double sum = -0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ + 0.5 * unknowns * kN * kLogTwoPi -
+               0.5 * graph.logDeterminant();
+  for (const int e : edges) {
+    sum += 0.5 * log_information_[sz(e)] - 0.5 * rank_[sz(e)] * (kLogTwoPi + std::log(factorOf(e)));
+  }
+  sum += logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
+  if (!std::isfinite(sum)) return;
+  hypothesis.log_inside = sum;
+  hypothesis.log_evidence = sum + chance(hypothesis);
+}
+
+template <int D>
+double HypothesisEvaluator<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
+  double rows = 0.0;
+  for (const int e : candidates_) {
+    const int near = neighbour_[sz(e)];
+    rows += hypothesis.in[sz(e)] && (near < 0 || !hypothesis.in[sz(near)]);
+  }
+  return rows;
+}
+
+template <int D>
+std::vector<std::vector<int>> HypothesisEvaluator<D>::unconfirmedRows(const Hypothesis<D>& hypothesis) const {
+  struct Row {
+    std::vector<int> closures;
+    int begin = 0, end = 0;
+    std::size_t alone = 0;  // steps
+  };
+  std::vector<Row> rows;
+  std::vector<int> row_of(roles_.size(), -1);
+  for (const int e : candidates_) {
+    if (!hypothesis.in[sz(e)]) continue;
+    const auto [begin, end] = std::minmax(problem_.edges[sz(e)].from, problem_.edges[sz(e)].to);
+    const int near = neighbour_[sz(e)];
+    row_of[sz(e)] = near >= 0 && row_of[sz(near)] >= 0 ? row_of[sz(near)] : static_cast<int>(rows.size());
+    if (row_of[sz(e)] == static_cast<int>(rows.size())) rows.push_back({{}, begin, end, 0});
+    Row& row = rows[sz(row_of[sz(e)])];
+    row.closures.push_back(e);
+    row.begin = std::min(row.begin, begin);
+    row.end = std::max(row.end, end);
+  }
+  std::vector<std::ptrdiff_t> changes(problem_.poses.size() + 1, 0), number_changes = changes;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    ++changes[sz(rows[r].begin)];
+    --changes[sz(rows[r].end)];
+    number_changes[sz(rows[r].begin)] += static_cast<std::ptrdiff_t>(r);
+    number_changes[sz(rows[r].end)] -= static_cast<std::ptrdiff_t>(r);
+  }
+  std::ptrdiff_t spanning = 0, numbers = 0;  // rows over a step, and the sum of their numbers
+  for (std::size_t step = 0; step + 1 < problem_.poses.size(); ++step) {
+    spanning += changes[step];
+    numbers += number_changes[step];
+    if (spanning == 1) ++rows[static_cast<std::size_t>(numbers)].alone;
+  }
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const Row& row) { return row.alone == 0; }), rows.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.alone > b.alone; });
+  std::vector<std::vector<int>> unconfirmed;
+  for (Row& row : rows)
+    if (unconfirmed.size() < kMostUnconfirmed) unconfirmed.push_back(std::move(row.closures));
+  return unconfirmed;
+}
+
+template <int D>
+Hypothesis<D> HypothesisEvaluator<D>::assessRows(const Hypothesis<D>& hypothesis, int rounds) const {
+  Hypothesis<D> rows = hypothesis;
+  double followers = 0.0;  // their densities given those before them in their row
+  for (const int e : candidates_) {
+    const int near = neighbour_[sz(e)];
+    if (!hypothesis.in[sz(e)] || near < 0 || !hypothesis.in[sz(near)]) continue;
+    if (log_alike_[sz(e)] < log_false_[sz(e)]) continue;
+    if (row_position_[sz(e)] % kLongestRow == 0) {  // were it false, it would not err like those before it
+      followers += log_alike_[sz(e)] - log_false_[sz(e)];
+      continue;
+    }
+    rows.in[sz(e)] = 0;
+    followers += log_alike_[sz(e)];
+  }
+  assess(rows, rounds);
+  rows.log_evidence += followers + chance(hypothesis) - chance(rows);
+  return rows;
+}
+
+template <int D>
+bool HypothesisEvaluator<D>::isDisplaced(const std::vector<Rigid<D>>& poses,
+                                         const std::vector<Rigid<D>>& others) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < poses.size(); ++i) largest = std::max(largest, (poses[i].t - others[i].t).norm());
+  return largest > kDisplaced * reckoning_.extent;
+}
+
+template <int D>
+Hypothesis<D> HypothesisEvaluator<D>::evaluateOdometry() {
+  Hypothesis<D> made;
+  Problem<D> part = problem_.withoutEdges();
+  for (std::size_t e = 0; e < roles_.size(); ++e) {
+    made.in.push_back(roles_[e] != EdgeRole::Candidate);
+    if (made.in.back()) part.edges.push_back(problem_.edges[e]);
+  }
+  made.poses = posesAlongEdges(part);
+  evaluate(made);
+  log_odometry_ = made.log_inside;
+  return made;
+}
+
+template class HypothesisEvaluator<2>;
+template class HypothesisEvaluator<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/decision/selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "linear/disjoint_sets.hpp"
+#include "robust/evidence/closure_loops.hpp"
+#include "robust/generators/admission.hpp"
+#include "robust/generators/session_links.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+// Logarithm of the Bayes factor for each row of closures, on average, where variances are beyond kContestedFactor.
+constexpr double kEachDecisive = 2.0;
+constexpr int kRow = 5;  // of closures in a row outside, one in so many stands for the others
+// What takes so many times the work of the best set to factor, and more than a fraction of a second (multiplications of
+// blocks), has false closures between far places that fill the factor: no other set has been worth its minutes.
+constexpr double kDense = 20.0, kSoonFactored = 1e7;
+constexpr double kSameFactor = 1.4;  // of variances: less changes hardly a verdict
+// Beyond so many poses what nothing contests is not scored, and beyond so many one selection is all that there is time
+// for, weighed where the chains of a graph leave a core that is no larger.
+constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
+
+}  // namespace
+
+template <int D>
+void Selection<D>::run() {
+  best_.selected = selectEdges(problem_, roles_);
+  if (candidates_ == 0) return;
+  if (problem_.poses.size() > kManyPoses && !isContested(best_.selected)) return;
+  if (problem_.poses.size() > kMostPoses) {
+    weighCore();
+    return;
+  }
+  parts_ = sessionParts(problem_, roles_);
+  for (std::size_t e = 0; e < roles_.size(); ++e) between_ += isBetween(e);
+  contested_ = isContested(best_.selected) || between_ > 0;
+  evaluator_ = std::make_unique<HypothesisEvaluator<D>>(problem_, roles_);
+  odometry_ = evaluator_->evaluateOdometry();
+  weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
+  best_.hypothesis = hypothesisOver(best_.selected, {});
+  evaluator_->evaluate(best_.hypothesis);
+  contract(best_.hypothesis);
+  weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
+  if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
+  if (!contested_) {
+    // A short slip costs few closures; one alone refutes no step.
+    if (rejected(best_.selected) > 1) proposeSlips({});
+    // False closures fit too where variances are stated far too large.
+    if (!evaluator_->areAssertions() && evidence() < kDecisive)
+      contested_ = propose({1.0 / kFarFactor, 1.0 / kFarFactor}, slips_);
+    if (contested_) repeatWithFactors();
+    return;
+  }
+  if (between_ > 0) joinSessions();
+  proposeSlips({});
+  if (!evaluator_->areAssertions()) tryScales();
+}
+
+template <int D>
+bool Selection<D>::isUndecided() const {
+  if (contested_ || core_) return !(evidence() >= kDecisive);
+  const Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
+  const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
+  const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
+  return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
+}
+
+template <int D>
+std::vector<char> Selection<D>::inUncontestedParts() const {
+  std::vector<char> uncontested(problem_.poses.size(), 0), contested_part = uncontested;
+  if (core_ || !contested_ || isLoosened()) return uncontested;
+  for (std::size_t e = 0; e < roles_.size(); ++e) {
+    if (!isBetween(e) && best_.selected.edges[e].verdict != urban_nav_core::ClosureVerdict::Rejected) continue;
+    contested_part[sz(parts_[sz(problem_.edges[e].from)])] = contested_part[sz(parts_[sz(problem_.edges[e].to)])] = 1;
+  }
+  for (std::size_t i = 0; i < uncontested.size(); ++i) uncontested[i] = !contested_part[sz(parts_[i])];
+  return uncontested;
+}
+
+template <int D>
+bool Selection<D>::keepShared() {
+  const std::optional<std::vector<char>> shared = findShared();
+  if (!shared) return false;
+  std::vector<EdgeAssessment>& edges = best_.selected.edges;
+  bool changed = false;
+  for (std::size_t e = 0; e < roles_.size(); ++e) {
+    if (roles_[e] != EdgeRole::Candidate || !(edges[e].weight > 0.0) || (*shared)[e]) continue;
+    edges[e].weight = 0.0;
+    edges[e].verdict = urban_nav_core::ClosureVerdict::Rejected;
+    edges[e].reason = Reason::Undecided;
+    changed = true;
+  }
+  if (!changed) return true;
+  if (!holdsWithout(best_.selected, best_.slips)) {
+    for (const Slip<D>& slip : best_.slips) {
+      edges[sz(slip.edge)].weight = 1.0;
+      edges[sz(slip.edge)].verdict = urban_nav_core::ClosureVerdict::Accepted;
+      edges[sz(slip.edge)].reason = Reason::Role;
+    }
+  }
+  std::vector<char> in;
+  for (const EdgeAssessment& edge : edges) in.push_back(edge.weight > 0.0);
+  AcceptedGraph<D> graph(problem_);
+  graph.take(in);
+  graph.relax(best_.selected.poses, kRoundSteps, kRoundShare, true);
+  if (core_) return true;
+  Hypothesis<D> kept = hypothesisOver(best_.selected, {});
+  evaluator_->evaluate(kept);
+  best_.hypothesis.factors = kept.factors;  // without the closures that are left out
+  return true;
+}
+
+template <int D>
+bool Selection<D>::isRescaled() const {
+  const VarianceFactors& found = best_.hypothesis.factors;
+  return hasVariances() && beyond(found.odometry / found.closures, kContestedFactor) &&
+         evaluator_->gainByFactors(best_.hypothesis) >= kDecisive;
+}
+
+template <int D>
+std::optional<std::vector<char>> Selection<D>::findShared() const {
+  std::vector<char> shared = best_.hypothesis.in;
+  bool has_rival = contested_ && shareWithSets(shared);
+  if (evaluator_ && !evaluator_->areAssertions() && !core_) has_rival |= shareWithoutRows(shared);
+  return has_rival ? std::make_optional(shared) : std::nullopt;
+}
+
+template <int D>
+bool Selection<D>::shareWithSets(std::vector<char>& shared) const {
+  bool has_rival = false;
+  for (const auto& [log_evidence, in] : weighed_) {
+    if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
+    std::size_t differ = 0;
+    for (std::size_t e = 0; e < roles_.size(); ++e)
+      differ += roles_[e] == EdgeRole::Candidate && in[e] != best_.hypothesis.in[e];
+    if (!(static_cast<double>(differ) > Thresholds::kContested * static_cast<double>(candidates_))) continue;
+    has_rival = true;
+    for (std::size_t e = 0; e < shared.size(); ++e) shared[e] = shared[e] && in[e];
+  }
+  return has_rival;
+}
+
+template <int D>
+bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
+  const std::vector<std::vector<int>> rows = evaluator_->unconfirmedRows(best_.hypothesis);
+  if (rows.empty()) return false;
+  const Hypothesis<D> all = evaluator_->assessRows(best_.hypothesis, 0);
+  bool has_rival = false;
+  for (const std::vector<int>& row : rows) {
+    Hypothesis<D> without = best_.hypothesis;
+    for (const int e : row) without.in[sz(e)] = 0;
+    without = evaluator_->assessRows(without, 0);
+    if (!(all.log_evidence - without.log_evidence < kDecisive)) continue;
+    if (best_.slips.empty() && !evaluator_->isDisplaced(without.poses, all.poses)) continue;
+    has_rival = true;
+    for (const int e : row) shared[sz(e)] = 0;
+  }
+  return has_rival;
+}
+
+template <int D>
+bool Selection<D>::isLoosened() const {
+  const VarianceFactors& factors = best_.hypothesis.factors;
+  return std::max({best_.selected.variance, factors.odometry, factors.closures}) > kContestedFactor;
+}
+
+template <int D>
+std::ptrdiff_t Selection<D>::rejected(const SelectedEdges<D>& selected) const {
+  return std::count_if(selected.edges.begin(), selected.edges.end(), [](const EdgeAssessment& edge) {
+    return edge.verdict == urban_nav_core::ClosureVerdict::Rejected;
+  });
+}
+
+template <int D>
+Hypothesis<D> Selection<D>::hypothesisOver(const SelectedEdges<D>& selected, const VarianceFactors& factors) const {
+  Hypothesis<D> made;
+  for (std::size_t e = 0; e < roles_.size(); ++e) made.in.push_back(selected.edges[e].weight > 0.0);
+  made.poses = selected.poses;
+  made.factors = factors;
+  return made;
+}
+
+template <int D>
+bool Selection<D>::isInflated(const Hypothesis<D>& hypothesis) const {
+  if (overOdometry(hypothesis) < kDecisive) return true;
+  if (!hypothesis.factors.areBeyond(kContestedFactor)) return false;
+  return overOdometry(hypothesis) < kDecisive + kEachDecisive * evaluator_->rowsInside(hypothesis);
+}
+
+template <int D>
+SelectedEdges<D> Selection<D>::selectProposed(const VarianceFactors& factors, double most_work) const {
+  Problem<D> part = proposed_.withoutEdges();
+  std::vector<EdgeRole> roles;
+  std::vector<std::size_t> names;
+  for (std::size_t e = 0; e < proposed_roles_.size(); ++e) {
+    if (e < barred_.size() && barred_[e]) continue;
+    part.edges.push_back(proposed_.edges[e]);
+    roles.push_back(proposed_roles_[e]);
+    names.push_back(e);
+  }
+  SelectedEdges<D> selected = selectEdges(withFactors(std::move(part), roles, factors), roles, most_work), made;
+  made.is_too_dense = selected.is_too_dense;
+  if (made.is_too_dense) return made;
+  made.poses = std::move(selected.poses);
+  made.variance = selected.variance;
+  EdgeAssessment left_out;
+  left_out.weight = 0.0;
+  left_out.verdict = urban_nav_core::ClosureVerdict::Rejected;
+  left_out.reason = Reason::NoWitness;
+  left_out.dof = kTangentSize<D>;
+  made.edges.assign(roles_.size(), left_out);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    for (int& other : selected.edges[k].contradicted_by) other = static_cast<int>(names[sz(other)]);
+    if (names[k] < roles_.size()) made.edges[names[k]] = std::move(selected.edges[k]);
+  }
+  return made;
+}
+
+template <int D>
+bool Selection<D>::holdsWithout(const SelectedEdges<D>& selected, const std::vector<Slip<D>>& slips) const {
+  DisjointSets joined(problem_.poses.size());
+  joined.joinAll(problem_.fixed);
+  for (std::size_t e = 0; e < selected.edges.size(); ++e)
+    if (selected.edges[e].weight > 0.0) joined.join(problem_.edges[e].from, problem_.edges[e].to);
+  return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
+    const Edge<D>& edge = problem_.edges[sz(slip.edge)];
+    return joined.areJoined(edge.from, edge.to);
+  });
+}
+
+template <int D>
+std::size_t Selection<D>::countLinking(const Hypothesis<D>& hypothesis) const {
+  std::size_t linking = 0;
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    linking += isBetween(e) && hypothesis.in[e] && !best_.hypothesis.in[e];
+  return linking;
+}
+
+template <int D>
+double Selection<D>::mostWork() const {
+  return std::max(kSoonFactored, kDense * AcceptedGraph<D>(problem_).work(best_.hypothesis.in, true));
+}
+
+template <int D>
+bool Selection<D>::propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced,
+                           bool is_doubtful_link) {
+  Proposal made;
+  made.slips = slips;
+  made.found_with = factors;
+  made.selected = selectProposed(factors, forced ? std::numeric_limits<double>::infinity() : mostWork());
+  if (made.selected.is_too_dense) return false;
+  for (const Slip<D>& slip : slips) {
+    EdgeAssessment& edge = made.selected.edges[sz(slip.edge)];
+    edge.weight = 0.0;
+    edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
+    edge.reason = Reason::Slipped;
+  }
+  made.hypothesis = hypothesisOver(made.selected, factors);
+  const bool known = std::any_of(weighed_.begin(), weighed_.end(),
+                                 [&](const auto& other) { return other.second == made.hypothesis.in; });
+  if (known && !forced && !is_doubtful_link) return false;
+  evaluator_->evaluate(made.hypothesis);
+  weighed_.emplace_back(made.hypothesis.log_evidence, made.hypothesis.in);
+  const bool is_new_slip = slips.size() > best_.slips.size();
+  const bool likelier = made.hypothesis.log_evidence >
+                            best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
+                        (!is_new_slip || holdsWithout(made.selected, slips)) &&
+                        (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
+  if (likelier || forced) contract(made.hypothesis);
+  if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
+  best_ = std::move(made);
+  return true;
+}
+
+template <int D>
+void Selection<D>::weighCore() {
+  core_ = CoreGraph<D>::of(problem_, roles_);
+  unweighed_ = !core_ || core_->problem().poses.size() > kMostPoses;
+  if (unweighed_) return;
+  contested_ = true;
+  HypothesisEvaluator<D> along_odometry(core_->problem(), core_->roles());
+  odometry_ = along_odometry.evaluateOdometry();
+  const double log_evidence = odometry_.log_evidence;
+  odometry_.poses = core_->expanded(odometry_.poses);
+  Hypothesis<D> made;
+  for (std::size_t i = 0; i < core_->problem().poses.size(); ++i)
+    made.poses.push_back(best_.selected.poses[sz(core_->pose(static_cast<int>(i)))]);
+  for (std::size_t e = 0; e < core_->problem().edges.size(); ++e) {
+    const int edge = core_->edge(static_cast<int>(e));
+    made.in.push_back(edge < 0 || best_.selected.edges[sz(edge)].weight > 0.0);
+  }
+  core_->expanded(made.poses);
+  core_->relinearise();
+  evaluator_ = std::make_unique<HypothesisEvaluator<D>>(core_->problem(), core_->roles());
+  evaluator_->evaluateOdometry();
+  evaluator_->evaluate(made);
+  best_.hypothesis = std::move(made);
+  odometry_.log_evidence = log_evidence;
+  contract(best_.hypothesis);
+}
+
+template <int D>
+void Selection<D>::addLink(int closure) {
+  proposed_.edges.push_back(problem_.edges[sz(closure)]);
+  proposed_roles_.push_back(EdgeRole::Trusted);
+}
+
+template <int D>
+void Selection<D>::barUnlinked() {
+  const std::vector<int> linked = sessionParts(proposed_, proposed_roles_);
+  barred_.assign(roles_.size(), 0);
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    barred_[e] = isBetween(e) && linked[sz(problem_.edges[e].from)] != linked[sz(problem_.edges[e].to)];
+}
+
+template <int D>
+void Selection<D>::joinSessions() {
+  std::vector<char> within = best_.hypothesis.in;
+  for (std::size_t e = 0; e < within.size(); ++e) {
+    if (isBetween(e)) within[e] = 0;
+  }
+  const SessionLinks links =
+      linkSessions(withFactors(problem_, roles_, best_.hypothesis.factors), roles_, within, best_.hypothesis.poses);
+  for (const int closure : links.agreed) addLink(closure);
+  barUnlinked();
+  bool wrongly_joined = false;
+  for (std::size_t e = 0; e < roles_.size(); ++e) wrongly_joined |= barred_[e] && best_.hypothesis.in[e];
+  if (!links.agreed.empty() || wrongly_joined) propose({}, {}, wrongly_joined);
+  std::vector<char> tried(roles_.size(), 0);
+  for (const int closure : links.doubtful) {
+    if (!barred_[sz(closure)] || tried[sz(closure)] || tryLink(closure)) continue;
+    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= weighed_.back().second[e];
+  }
+}
+
+template <int D>
+bool Selection<D>::tryLink(int closure) {
+  const Problem<D> before = proposed_;
+  addLink(closure);
+  barUnlinked();
+  if (propose({}, {}, false, true)) return true;
+  proposed_ = before;
+  proposed_roles_.pop_back();
+  barUnlinked();
+  return false;
+}
+
+template <int D>
+typename Selection<D>::Considered Selection<D>::considerConfirmed(const Problem<D>& scaled) const {
+  std::vector<int> candidates;
+  for (std::size_t e = 0; e < proposed_roles_.size(); ++e)
+    if (proposed_roles_[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
+  const DeadReckoning<D> reckoning(scaled, proposed_roles_);
+  const std::vector<int> group = consistentGroups(scaled.edges.size(), ClosureLoops<D>(scaled, candidates, reckoning),
+                                                  1.0, Thresholds(candidates.size(), kTangentSize<D>));
+  std::vector<int> members(scaled.edges.size(), 0);
+  for (const int e : candidates) ++members[sz(group[sz(e)])];
+  Considered made{best_.hypothesis.in, {}};
+  made.confirmed.resize(proposed_roles_.size(), 1);
+  made.thinned = made.confirmed;
+  std::vector<int> before(scaled.edges.size(), 0);
+  for (const int e : candidates) {
+    if (made.thinned[sz(e)] || members[sz(group[sz(e)])] < 2) continue;
+    made.confirmed[sz(e)] = 1;
+    made.thinned[sz(e)] = before[sz(group[sz(e)])]++ % kRow == 0;
+  }
+  return made;
+}
+
+template <int D>
+void Selection<D>::proposeSlips(const VarianceFactors& factors) {
+  const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
+  std::vector<char> in = best_.hypothesis.in;
+  in.resize(proposed_roles_.size(), 1);
+  if (rejected(best_.selected) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
+  Considered some = considerConfirmed(scaled);
+  std::vector<char> considered = std::move(some.confirmed), all(scaled.edges.size(), 1);
+  const AcceptedGraph<D> graph(scaled);
+  if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
+  else if (!maySlip(scaled, proposed_roles_, in, considered, best_.hypothesis.poses)) return;
+  // Rows of false closures between far places would fill the factor.
+  if (graph.work(considered, true) > kWork * graph.work(in, true)) considered = std::move(some.thinned);
+  if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
+  // From odometry as it is, a slip that closures nearby seem to bear out is not found. What is no more than chance
+  // refutes nothing.
+  if (evidence() < kDecisive) return;
+  const std::vector<char> doubted = mostRefuted(scaled, proposed_roles_, in, considered);
+  if (!doubted.empty())
+    proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, doubted, odometry_.poses), factors);
+}
+
+template <int D>
+bool Selection<D>::proposeWithoutSlips(std::vector<Slip<D>> slips, const VarianceFactors& factors) {
+  slips.erase(std::remove_if(slips.begin(), slips.end(),
+                             [&](const Slip<D>& slip) { return slip.edge >= static_cast<int>(roles_.size()); }),
+              slips.end());
+  if (slips.empty()) return false;
+  slips_ = std::move(slips);
+  const Problem<D> before = proposed_;
+  for (const Slip<D>& slip : slips_) {
+    proposed_.edges[sz(slip.edge)].Z = slip.T_from_to;
+    proposed_.edges[sz(slip.edge)].information *= 1.0 / kFarFactor;
+  }
+  if (propose(factors, slips_)) return true;
+  proposed_ = before;
+  slips_.clear();
+  return false;
+}
+
+template <int D>
+void Selection<D>::tryScales() {
+  if (!isContested(best_.selected) && !best_.hypothesis.factors.areBeyond(kContestedFactor)) return;
+  const auto try_with = [&](const VarianceFactors& factors) {
+    if (!takesNearlyAll() && factors.odometry <= evaluator_->largestOdometryFactor()) propose(factors, slips_);
+  };
+  const bool looser = evidence() < kDecisive || mayFitLooser();
+  if (looser) try_with({kFarFactor, kFarFactor});  // what is too sure of itself shuts true ones out
+  if (!isCredible()) {
+    if (looser) try_with({kFarFactor, 1.0});
+    if (looser) try_with({1.0, kFarFactor});
+    try_with({1.0 / kFarFactor, 1.0 / kFarFactor});
+  }
+  repeatWithFactors();
+  // Where variances were stated too large, a slip stands out only now.
+  if (slips_.empty() && evidence() >= kDecisive && !best_.found_with.areWithin(kSameFactor, {}))
+    proposeSlips(best_.found_with);
+}
+
+template <int D>
+bool Selection<D>::mayFitLooser() const {
+  const Thresholds thresholds(candidates_, kTangentSize<D>);
+  const VarianceFactors& found = best_.hypothesis.factors;
+  const double far = kFarFactor * std::min(1.0, std::max(found.odometry, found.closures));
+  std::size_t near = 0;
+  for (const EdgeAssessment& edge : best_.selected.edges)
+    near += edge.verdict == urban_nav_core::ClosureVerdict::Rejected &&
+            edge.chi2 <= far * thresholds.limit[sz(std::max(1, edge.dof))];
+  return static_cast<double>(near) > Thresholds::kContested * static_cast<double>(candidates_);
+}
+
+template <int D>
+bool Selection<D>::isSettled() const {
+  const VarianceFactors& now = best_.hypothesis.factors;
+  return now.areWithin(kSameFactor, best_.found_with) || now.areWithin(kSameFactor, repeated_with_);
+}
+
+template <int D>
+void Selection<D>::repeatWithFactors() {
+  for (int i = 0; i < kRepeats && !isSettled(); ++i) {
+    const VarianceFactors now = best_.hypothesis.factors;
+    repeated_with_ = now;
+    if (!propose(now, slips_)) return;
+  }
+}
+
+template class Selection<2>;
+template class Selection<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/evidence/closure_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear/disjoint_sets.hpp"
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace pose_graph {
+
+namespace {}  // namespace
+
+template <int D>
+typename ClosureLoops<D>::Closure ClosureLoops<D>::toClosure(const Problem<D>& problem, int e, double extent) {
+  const Edge<D>& edge = problem.edges[sz(e)];
+  const TangentMatrix<D> child = boundedCovariance<D>(edge.information, extent);
+  if (edge.from <= edge.to) {
+    const TangentMatrix<D> turn = adjoint<D>(edge.Z);
+    return {e, edge.from, edge.to, edge.Z, turn * child * turn.transpose()};
+  }
+  return {e, edge.to, edge.from, edge.Z.inverse(), child};
+}
+
+template <int D>
+ClosureLoops<D>::ClosureLoops(const Problem<D>& problem, const std::vector<int>& candidates,
+                              const DeadReckoning<D>& chains)
+    : chains_(&chains) {
+  closures_.reserve(candidates.size());
+  for (int e : candidates) closures_.push_back(toClosure(problem, e, chains.extent));
+  std::sort(closures_.begin(), closures_.end(), [&](const Closure& a, const Closure& b) {
+    const auto on_a = closureChains(a), on_b = closureChains(b);
+    return on_a != on_b ? on_a < on_b : a.from != b.from ? a.from < b.from : a.edge < b.edge;
+  });
+}
+
+template <int D>
+ClosureLoop ClosureLoops<D>::loop(std::size_t first, std::size_t second) const {
+  constexpr int kN = kTangentSize<D>;
+  const Closure &a = closures_[first], &b = closures_[second];
+  const DeadReckoning<D>& chains = *chains_;
+  const Rigid<D> to_b = a.Z * (chains.pose[sz(a.to)].inverse() * chains.pose[sz(b.to)]);
+  const Rigid<D> back = to_b * b.Z.inverse();
+  const Rigid<D> remains = back * (chains.pose[sz(b.from)].inverse() * chains.pose[sz(a.from)]);
+  Tangent<D> d;
+  d.template head<D>() = remains.t;
+  d.template tail<kRotationSize<D>>() = logRotation(remains.R);
+  const TangentMatrix<D> over_a = adjoint<D>(a.Z), over_b = adjoint<D>(back);
+  const TangentMatrix<D> S = a.covariance + over_a * chains.covariance(a.to, b.to) * over_a.transpose() +
+                             over_b * (b.covariance + chains.covariance(b.from, a.from)) * over_b.transpose();
+  const urban_nav_core::SmallCholesky<kN> factored(S);
+  const double span = chains.of_pose[sz(a.from)] == chains.of_pose[sz(a.to)]
+                          ? std::min(chains.extent, std::abs(chains.way[sz(a.to)] - chains.way[sz(a.from)]))
+                          : chains.extent;
+  ClosureLoop made;
+  made.chi2 = d.dot(factored.solve(d));
+  made.log_true = -0.5 * kN * kLogTwoPi;
+  for (int i = 0; i < kN; ++i) made.log_true -= std::log(factored.factor()(i, i));
+  made.log_false = -kRotationSize<D> * kLogTwoPi - D * std::log(2.0 * std::max(span, kLeastExtent));
+  return made;
+}
+
+namespace {
+
+constexpr std::size_t kLoops = 500;  // looked at: the factor of so many is good to some hundredths
+constexpr int kScaleSteps = 20;
+
+// A mixture of loops of true closures, of false ones that agree with each other more or less, and of others.
+struct Mixture {
+  double factor = 1.0, loose = kLooseFactor;  // of the variances of the first two kinds
+  double shares[3] = {0.5, 0.25, 0.25};
+  double true_loops = 0.0;
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+};
+
+// `rows`: whether false ones may agree with each other; else all of them are anywhere.
+Mixture mixtureFrom(const std::vector<ClosureLoop>& loops, int dof, double factor, bool rows) {
+  Mixture made;
+  if (!rows) made.shares[1] = 0.0;
+  made.factor = factor;
+  made.loose = kLooseFactor * factor;
+  for (int i = 0; i < kScaleSteps; ++i) {
+    // A priori one loop of unit variance.
+    double squares[2] = {1.0 * dof, dof * made.loose}, numbers[2] = {1.0 * dof, 1.0 * dof};
+    double sum[3] = {0.0, 0.0, 0.0};
+    made.log_likelihood = 0.0;
+    for (const ClosureLoop& loop : loops) {
+      const double factors[2] = {made.factor, made.loose};
+      double logs[3], most = logs[2] = std::log(made.shares[2]) + loop.log_false;
+      for (int k = 0; k < 2; ++k) {
+        logs[k] =
+            std::log(made.shares[k]) + loop.log_true - 0.5 * dof * std::log(factors[k]) - 0.5 * loop.chi2 / factors[k];
+        most = std::max(most, logs[k]);
+      }
+      double total = 0.0;
+      for (double& log : logs) total += log = std::exp(log - most);
+      made.log_likelihood += most + std::log(total);
+      for (int k = 0; k < 3; ++k) sum[k] += logs[k] / total;
+      for (int k = 0; k < 2; ++k) {
+        squares[k] += logs[k] / total * loop.chi2;
+        numbers[k] += logs[k] / total * dof;
+      }
+    }
+    made.true_loops = sum[0];
+    made.factor = squares[0] / numbers[0];
+    made.loose = std::max(squares[1] / numbers[1], kLooseFactor * made.factor);
+    for (int k = 0; k < 3; ++k)
+      if (made.shares[k] > 0.0)
+        made.shares[k] = std::max(Thresholds::kNegligible, sum[k] / static_cast<double>(loops.size()));
+  }
+  return made;
+}
+
+// From where it begins decides where it ends: from few that fit well, from the middle one, and from what is stated.
+Mixture likeliest(const std::vector<ClosureLoop>& loops, int dof, bool rows) {
+  std::vector<double> chi2;
+  for (const ClosureLoop& loop : loops) chi2.push_back(loop.chi2);
+  std::sort(chi2.begin(), chi2.end());
+  Mixture best;
+  for (const double begin : {chi2[chi2.size() / 4] / dof, chi2[chi2.size() / 2] / dof, 1.0}) {
+    const Mixture one = mixtureFrom(loops, dof, std::max(begin, 1e-12), rows);
+    if (one.log_likelihood > best.log_likelihood) best = one;
+  }
+  return best;
+}
+
+}  // namespace
+
+template <int D>
+InformationScale informationScale(const ClosureLoops<D>& closures) {
+  constexpr int kDof = kTangentSize<D>;
+  std::vector<ClosureLoop> loops;
+  const std::size_t step = 1 + closures.size() / kLoops;
+  for (std::size_t a = 0; a < closures.size(); a += step)
+    closures.partners(a, 1, [&](std::size_t b) {
+      const ClosureLoop loop = closures.loop(a, b);
+      if (std::isfinite(loop.chi2) && std::isfinite(loop.log_true)) loops.push_back(loop);
+    });
+  if (loops.empty()) return {};
+  const Mixture plain = likeliest(loops, kDof, false);
+  InformationScale made{plain.factor, plain.true_loops, plain.shares[0]};
+  // Where false closures that agree with each other outnumber the true ones, theirs is the likelier spread: that
+  // information boasts must be so beside them too.
+  if (made.factor > 1.0)
+    made.factor = plain.true_loops < kTellingLoops ? 1.0 : std::max(1.0, likeliest(loops, kDof, true).factor);
+  return made;
+}
+
+namespace {
+
+constexpr int kPartners = 20;  // compared with each closure at most: one that agrees is enough
+
+template <int D>
+bool agree(const ClosureLoop& loop, double variance, const Thresholds& thresholds) {
+  constexpr int kN = kTangentSize<D>;
+  if (!(loop.chi2 <= variance * thresholds.limit[kN])) return false;
+  const double log_true = loop.log_true - 0.5 * kN * std::log(variance) - 0.5 * loop.chi2 / variance;
+  return log_true - loop.log_false >= Thresholds::kEvidence;
+}
+
+}  // namespace
+
+Thresholds::Thresholds(std::size_t candidates, int largest_dof) {
+  // With few candidates the tests stay as strict as with ten.
+  const double each = kFalseAlarms / static_cast<double>(std::max<std::size_t>(10, candidates));
+  early_evidence = std::max(kEvidence, -std::log(each));
+  limit.assign(1, 0.0);
+  for (int dof = 1; dof <= largest_dof; ++dof) limit.push_back(urban_nav_core::chiSquareQuantile(1.0 - each, dof));
+}
+
+template <int D>
+std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
+                                  const Thresholds& thresholds) {
+  DisjointSets joined(edges);
+  for (std::size_t a = 0; a < closures.size(); ++a)
+    closures.partners(a, kPartners, [&](std::size_t b) {
+      if (!joined.areJoined(closures.edge(a), closures.edge(b)) && agree<D>(closures.loop(a, b), variance, thresholds))
+        joined.join(closures.edge(a), closures.edge(b));
+    });
+  std::vector<int> group(edges, -1);
+  for (std::size_t a = 0; a < closures.size(); ++a) group[sz(closures.edge(a))] = joined.root(closures.edge(a));
+  return group;
+}
+
+template class ClosureLoops<2>;
+template class ClosureLoops<3>;
+template InformationScale informationScale<2>(const ClosureLoops<2>&);
+template InformationScale informationScale<3>(const ClosureLoops<3>&);
+template std::vector<int> consistentGroups<2>(std::size_t, const ClosureLoops<2>&, double, const Thresholds&);
+template std::vector<int> consistentGroups<3>(std::size_t, const ClosureLoops<3>&, double, const Thresholds&);
+
+}  // namespace pose_graph

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "pose_graph/robust.hpp"
+
+namespace pose_graph {
+
+/// A selection is repeated with what follows from it so often at most; on public graphs it settles in two.
+constexpr int kRepeats = 3;
+
+/// Verdicts of all edges, and the poses that follow.
+template <int D>
+struct SelectedEdges {
+  std::vector<EdgeAssessment> edges;  ///< chi2 of candidates alone
+  std::vector<Rigid<D>> poses;
+  double variance = 1.0;
+  bool is_too_dense = false;  ///< given up: AdmissionState::is_too_dense
+};
+
+/// The inner selection: admits closures by evidence, with the information taken as it is stated (relaxRobust()), over
+/// the reduced graph where that pays. Gives up where what is accepted takes more than `most_work`
+/// (AcceptedGraph::work()) to factor.
+template <int D>
+SelectedEdges<D> selectEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                             double most_work = std::numeric_limits<double>::infinity());
+
+extern template SelectedEdges<2> selectEdges<2>(const Problem<2>&, const std::vector<EdgeRole>&, double);
+extern template SelectedEdges<3> selectEdges<3>(const Problem<3>&, const std::vector<EdgeRole>&, double);
+
+}  // namespace pose_graph

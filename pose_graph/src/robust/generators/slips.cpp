@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/generators/slips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "objective/whitened_edge.hpp"
+#include "robust/evidence/chance_density.hpp"
+#include "robust/evidence/closure_loops.hpp"
+#include "robust/evidence/variances.hpp"
+#include "solve/accepted_graph.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+// Rounds, as many as these multiplications allow: thousands of false closures that agree with each other make the
+// factor dense, and a hundred rounds would take minutes.
+constexpr double kCauchyWork = 2e11;
+constexpr int kFewestCauchyRounds = 12, kMostCauchyRounds = 100;
+constexpr std::size_t kMostSlips = 20;
+// A step stands out from all others if the few that it is most alike are that much farther from it than those of any
+// other step that would explain the slip as well are from that one.
+constexpr std::size_t kAlike = 3;
+constexpr double kStandsOut = 4.0;  // of squares
+constexpr double kBelieved = 0.5;   // weight under Cauchy's kernel
+constexpr int kSlipReach = 200;     // poses: so far from where it shows a slip is looked for
+constexpr int kDoubtedRounds = 5;   // as many as it takes for what spans a doubted step to agree
+constexpr double kDoubtedWeight = 1e-9;
+
+/// Steps of odometry between consecutive poses. Of a slip the graph tells no more than which closures span it: steps
+/// that the same closures span, in one run between ends of closures or in several, would explain it alike.
+template <int D>
+class Steps {
+ public:
+  Steps(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& whitened,
+        const std::vector<double>& weights)
+      : problem_(problem), whitened_(whitened), into_(problem.poses.size(), -1), spanned_(problem.poses.size(), 0) {
+    for (std::size_t e = 0; e < roles.size(); ++e) {
+      const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
+      if (roles[e] != EdgeRole::Candidate) {
+        if (last == first + 1 && into_[sz(last)] < 0) into_[sz(last)] = static_cast<int>(e);
+      } else if (weights[e] > kBelieved) {
+        // A closure's number is in the sum of those that span the steps from its first pose on to its last.
+        const std::uint64_t number = scatteredBits(e);
+        for (const int end : {first, last})
+          if (end + 1 < static_cast<int>(spanned_.size())) spanned_[sz(end + 1)] ^= number;
+      }
+    }
+    for (std::size_t i = 1; i < spanned_.size(); ++i) spanned_[i] ^= spanned_[i - 1];
+  }
+
+  /// The step that is least like all others, of those that the same closures span as e, where that is plain; else e.
+  int mostUnlike(int e) const {
+    const int at = std::max(problem_.edges[sz(e)].from, problem_.edges[sz(e)].to);
+    if (into_[sz(at)] != e) return e;
+    int best = e;
+    double most = 0.0, second = 0.0;
+    const auto compare = [&](int pose) {
+      if (spanned_[sz(pose)] != spanned_[sz(at)]) return;
+      const double square = unlikeness(into_[sz(pose)]);
+      if (square > most) {
+        second = most;
+        most = square;
+        best = into_[sz(pose)];
+      } else {
+        second = std::max(second, square);
+      }
+    };
+    const int poses = static_cast<int>(into_.size());
+    for (int pose = at; pose > 0 && into_[sz(pose)] >= 0 && pose > at - kSlipReach; --pose) compare(pose);
+    for (int pose = at + 1; pose < poses && into_[sz(pose)] >= 0 && pose < at + kSlipReach; ++pose) compare(pose);
+    return most > kStandsOut * second ? best : e;
+  }
+
+  /// T_from_to of `f` where the slip is its and not e's, and the poses between the two move as one body.
+  Rigid<D> motionInstead(int f, int e, const std::vector<Rigid<D>>& poses) const {
+    const auto ends = [&](int edge) { return std::minmax(problem_.edges[sz(edge)].from, problem_.edges[sz(edge)].to); };
+    const auto [e_from, e_to] = ends(e);
+    const auto [f_from, f_to] = ends(f);
+    Rigid<D> from = poses[sz(f_from)], to = poses[sz(f_to)];
+    if (f_from > e_from) from = poses[sz(e_from)] * forward(e) * (poses[sz(e_to)].inverse() * from);
+    if (f_from < e_from) to = poses[sz(e_to)] * forward(e).inverse() * (poses[sz(e_from)].inverse() * to);
+    const Rigid<D> motion = from.inverse() * to;
+    return problem_.edges[sz(f)].from < problem_.edges[sz(f)].to ? motion : motion.inverse();
+  }
+
+ private:
+  Rigid<D> forward(int e) const {
+    const Edge<D>& edge = problem_.edges[sz(e)];
+    return edge.from < edge.to ? edge.Z : edge.Z.inverse();
+  }
+
+  // Square of the distance to the kAlike-th nearest other step, in its own deviations.
+  double unlikeness(int e) const {
+    const Rigid<D> own = forward(e);
+    std::vector<double> squares;
+    for (const int other : into_) {
+      if (other < 0 || other == e) continue;
+      const Rigid<D> difference = own.inverse() * forward(other);
+      Tangent<D> d;
+      d.template head<D>() = difference.t;
+      d.template tail<kRotationSize<D>>() = logRotation(difference.R);
+      squares.push_back((whitened_[sz(e)].W * d).squaredNorm());
+    }
+    if (squares.size() < kAlike) return 0.0;
+    std::nth_element(squares.begin(), squares.begin() + kAlike - 1, squares.end());
+    return squares[kAlike - 1];
+  }
+
+  const Problem<D>& problem_;
+  const std::vector<WhitenedEdge<D>>& whitened_;
+  std::vector<int> into_;               // step that ends at a pose, -1 without one
+  std::vector<std::uint64_t> spanned_;  // by the end of a step, sum without carry of the closures that span it
+};
+
+// Chi-square over its degrees of freedom.
+template <int D>
+double squareOver(const WhitenedEdge<D>& edge, const std::vector<Rigid<D>>& poses) {
+  return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm() / std::max(1, edge.rank);
+}
+
+// `least` times the middle one of all steps.
+template <int D>
+double slipLimit(double least, const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& edges,
+                 const std::vector<Rigid<D>>& poses) {
+  std::vector<double> squares;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (roles[e] == EdgeRole::Trusted && edges[e].rank > 0) squares.push_back(squareOver(edges[e], poses));
+  if (squares.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return least * std::max(1.0, *middle);
+}
+
+// By pose: of the closures that span the step from it to the next, how many more are outside than inside.
+template <int D>
+std::vector<int> countRefuting(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const std::vector<char>& in, const std::vector<char>& considered) {
+  std::vector<int> against(problem.poses.size() + 1, 0);
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (roles[e] != EdgeRole::Candidate || !considered[e]) continue;
+    const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
+    against[sz(first)] += in[e] ? -1 : 1;
+    against[sz(last)] -= in[e] ? -1 : 1;
+  }
+  for (std::size_t i = 1; i < against.size(); ++i) against[i] += against[i - 1];
+  return against;
+}
+
+}  // namespace
+
+template <int D>
+bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+             const std::vector<char>& considered, const std::vector<Rigid<D>>& poses) {
+  const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
+  const double limit = slipLimit(kLooseFactor, roles, edges, poses);
+  for (std::size_t e = 0; e < in.size(); ++e)
+    if (roles[e] == EdgeRole::Trusted && squareOver(edges[e], poses) > limit) return true;
+  const std::vector<int> against = countRefuting(problem, roles, in, considered);
+  return std::any_of(against.begin(), against.end(),
+                     [](int more) { return more >= static_cast<int>(Thresholds::kLeastAgreeing); });
+}
+
+template <int D>
+std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                              const std::vector<char>& in, const std::vector<char>& considered) {
+  const std::vector<int> against = countRefuting(problem, roles, in, considered);
+  const int most = *std::max_element(against.begin(), against.end());
+  std::vector<char> made;
+  if (most < static_cast<int>(Thresholds::kLeastAgreeing)) return made;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
+    made.push_back(roles[e] == EdgeRole::Trusted && last == first + 1 && against[sz(first)] == most);
+  }
+  return made;
+}
+
+template <int D>
+std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const std::vector<char>& considered, const std::vector<char>& doubted,
+                               const std::vector<Rigid<D>>& odometry) {
+  const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
+  std::vector<char> in;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    in.push_back(edges[e].rank > 0 && (roles[e] != EdgeRole::Candidate || considered[e]));
+  std::vector<Rigid<D>> poses = odometry;
+  std::vector<double> weights(edges.size(), 1.0);
+  AcceptedGraph<D> graph(problem);
+  double last = 0.0;
+  const double work = graph.work(in) * std::pow(kTangentSize<D>, 3);
+  const int rounds =
+      static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestCauchyRounds, kMostCauchyRounds));
+  for (int round = 0; round < rounds; ++round) {
+    const bool is_doubted = round < kDoubtedRounds && !doubted.empty();
+    double cost = 0.0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      weights[e] = 0.0;
+      if (!in[e]) continue;
+      const double square = squareOver(edges[e], poses);
+      weights[e] = is_doubted && doubted[e] ? kDoubtedWeight : 1.0 / (1.0 + square);
+      cost += std::log1p(square);
+    }
+    if (round > 0 && !is_doubted && std::abs(last - cost) <= kEndShare * cost) break;
+    last = cost;
+    graph.take(in, weights);
+    graph.relax(poses, 1, 0.0, false);
+  }
+  std::vector<Slip<D>> made;
+  const double limit = slipLimit(kFarFactor, roles, edges, poses);
+  const Steps<D> steps(problem, roles, edges, weights);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (roles[e] != EdgeRole::Trusted || !(squareOver(edges[e], poses) > limit)) continue;
+    const int likeliest = steps.mostUnlike(static_cast<int>(e));
+    if (std::any_of(made.begin(), made.end(), [&](const Slip<D>& slip) { return slip.edge == likeliest; })) continue;
+    made.push_back({likeliest, steps.motionInstead(likeliest, static_cast<int>(e), poses)});
+  }
+  if (made.size() > kMostSlips) made.clear();  // odometry as a whole is not what its information says
+  return made;
+}
+
+template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                         const std::vector<char>&, const std::vector<Rigid<2>>&);
+template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                         const std::vector<char>&, const std::vector<Rigid<3>>&);
+template std::vector<char> mostRefuted<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                          const std::vector<char>&);
+template std::vector<char> mostRefuted<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                          const std::vector<char>&);
+template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                           const std::vector<char>&, const std::vector<Rigid<2>>&);
+template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                           const std::vector<char>&, const std::vector<Rigid<3>>&);
+
+}  // namespace pose_graph
