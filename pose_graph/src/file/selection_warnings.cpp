@@ -118,7 +118,7 @@ std::vector<std::string> selectionWarnings(const SelectionReport& selection, std
   if (selection.has_rival)
     warnings.push_back(
         "another set of closures, a rival, is nearly as likely as the accepted one: closures that are not in both are "
-        "left out; confirm them by asserted edges or by closures elsewhere");
+        "left out where many others remain, and a guess where few do");
   return warnings;
 }
 

@@ -21,6 +21,8 @@ constexpr int kRow = 5;  // of closures in a row outside, one in so many stands 
 // What takes so many times the work of the best set to factor, and more than a fraction of a second (multiplications of
 // blocks), has false closures between far places that fill the factor: no other set has been worth its minutes.
 constexpr double kDense = 20.0, kSoonFactored = 1e7;
+// A row that no other confirms is left out if so many others are inside, as in an exchange of groups.
+constexpr double kOthers = 8.0;
 constexpr double kSameFactor = 1.4;  // of variances: less changes hardly a verdict
 // Beyond so many poses what nothing contests is not scored, and beyond so many one selection is all that there is time
 // for, weighed where the chains of a graph leave a core that is no larger.
@@ -151,17 +153,22 @@ bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
   const std::vector<std::vector<int>> rows = evaluator_->unconfirmedRows(best_.hypothesis);
   if (rows.empty()) return false;
   const Hypothesis<D> all = evaluator_->assessRows(best_.hypothesis, 0);
-  bool has_rival = false;
+  std::vector<int> nearly_as_likely;  // closures of such rows
+  double rivals = 0.0;
   for (const std::vector<int>& row : rows) {
     Hypothesis<D> without = best_.hypothesis;
     for (const int e : row) without.in[sz(e)] = 0;
     without = evaluator_->assessRows(without, 0);
     if (!(all.log_evidence - without.log_evidence < kDecisive)) continue;
     if (best_.slips.empty() && !evaluator_->isDisplaced(without.poses, all.poses)) continue;
-    has_rival = true;
-    for (const int e : row) shared[sz(e)] = 0;
+    nearly_as_likely.insert(nearly_as_likely.end(), row.begin(), row.end());
+    ++rivals;
   }
-  return has_rival;
+  // Among few rows, a lack of confirmation is no sign of an error.
+  if (evaluator_->rowsInside(best_.hypothesis) >= kOthers * rivals) {
+    for (const int e : nearly_as_likely) shared[sz(e)] = 0;
+  }
+  return rivals > 0.0;
 }
 
 template <int D>
