@@ -54,7 +54,11 @@ class PoseGraphStage {
     return "the graph is empty";
   }
   void close() {}
-  urban_nav_live::StageReport report() const { return worker_->report(); }
+  urban_nav_live::StageReport report() const {
+    urban_nav_live::StageReport report = worker_->report();
+    accelerometer_->addTo(report);
+    return report;
+  }
 
  private:
   GraphWorker::Listener listener();

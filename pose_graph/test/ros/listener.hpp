@@ -3,6 +3,7 @@
 
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/NavSatFix.h>
 #include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/GraphState.h>
@@ -63,6 +64,7 @@ class Listener : public urban_nav_ros::testing::Listener {
   ros::Publisher closures = advertise<urban_nav_msgs::MetricClosure>("loops/metric");
   ros::Publisher constraints = advertise<urban_nav_msgs::RelativeConstraint>("map/constraints");
   ros::Publisher fixes = advertise<sensor_msgs::NavSatFix>("gps/fix");
+  ros::Publisher imu = advertise<sensor_msgs::Imu>("imu/data");
   ros::Publisher ground = advertise<urban_nav_msgs::GroundPlane>("stereo/ground_plane");
   std::vector<urban_nav_msgs::GraphUpdate> updates;
   std::vector<urban_nav_msgs::PoseCorrection> corrections;

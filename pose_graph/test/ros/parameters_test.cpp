@@ -120,8 +120,8 @@ TEST(NodeletParameters, NameFramesAndSpaceThePath) {
   ASSERT_TRUE(nodelet.until([&] { return nodelet.isConnected(); }));
   // Topics have no order among each other.
   ASSERT_TRUE(nodelet.describeCamera());
-  ASSERT_TRUE(nodelet.receipts().await({{"renamed/stereo/ground_plane", kPoses + 1}},
-                                       [&] { nodelet.seeGround(kPoses, up); }));
+  ASSERT_TRUE(
+      nodelet.receipts().await({{"renamed/stereo/ground_plane", kPoses + 1}}, [&] { nodelet.seeGround(kPoses, up); }));
   nodelet.drive(0, kPoses);
   const auto isLevel = [&] {
     if (nodelet.paths.empty() || nodelet.paths.back().poses.empty()) return false;

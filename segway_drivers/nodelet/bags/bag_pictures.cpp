@@ -142,7 +142,7 @@ FrameReader readLadybugFrames(const std::string& bag) {
 }
 
 std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& path, const std::string& side) {
-  if (!urban_nav_input::isBagFile(path)) return std::nullopt;  // a camera
+  if (!urban_nav_input::isRecording(path)) return std::nullopt;  // a camera
   const std::string topic = side == "left" ? urban_nav_ros::topics::kLeftInfo : urban_nav_ros::topics::kRightInfo;
   Recording recording(path);
   RecordedMessages messages = recording.messages({topic, urban_nav_ros::topics::fromRoot(topic)});

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav_ros {
 
@@ -21,7 +22,10 @@ std::vector<SpecificForce> Accelerometer::add(const sensor_msgs::Imu& message) {
   // sensor_msgs/Imu: element 0 is -1 without an accelerometer.
   if (message.linear_acceleration_covariance[0] < 0.0 || waiting_.size() >= kMostWaiting) return {};
   const auto& force = message.linear_acceleration;
-  waiting_.push_back({toStampNs(message.header.stamp), {force.x, force.y, force.z}});
+  const auto& rate = message.angular_velocity;
+  const urban_nav_core::Vector3d measured(force.x, force.y, force.z);
+  waiting_.push_back(
+      {{toStampNs(message.header.stamp), convention_.scale * (convention_.axes * measured)}, {rate.x, rate.y, rate.z}});
   return takeConverted();
 }
 
@@ -31,12 +35,40 @@ std::vector<SpecificForce> Accelerometer::add(const tf2_msgs::TFMessage& message
 }
 
 std::vector<SpecificForce> Accelerometer::takeConverted() {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (!R_base_imu_ && frame_)
     if (const auto T_base_imu = transforms_.lookup(base_frame_, *frame_)) R_base_imu_ = T_base_imu->R();
   if (!R_base_imu_) return {};
-  std::vector<SpecificForce> made = std::exchange(waiting_, {});
-  for (SpecificForce& sample : made) sample.force = *R_base_imu_ * sample.force;
-  return made;
+  std::vector<SpecificForce> converted;
+  for (const Sample& sample : std::exchange(waiting_, {})) {
+    check_.add(sample.force.force, sample.rate);
+    if (!sample.force.force.allFinite()) continue;
+    if (check_.isPlausible(R_base_imu_->transpose().col(2)))
+      converted.push_back({sample.force.stamp, *R_base_imu_ * sample.force.force});
+    else ++withheld_;
+  }
+  return converted;
+}
+
+urban_nav_core::AccelerometerVerdict Accelerometer::verdict() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!R_base_imu_) return {};
+  return check_.verdict(R_base_imu_->transpose().col(2), R_base_imu_->transpose().col(1));
+}
+
+std::int64_t Accelerometer::withheld() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return withheld_;
+}
+
+void Accelerometer::addTo(urban_nav_live::StageReport& report) const {
+  const std::string fault = verdict().sentence();
+  report.add("accelerometer", fault.empty() ? "sound or absent" : fault);
+  report.add("specific forces not used", withheld());
+  if (fault.empty()) return;
+  report.is_warning = true;
+  const std::string before = report.summary.empty() ? report.status.sentence : report.summary;
+  report.summary = (before.empty() ? "" : before + "; ") + topics::kImu + " is not used: " + fault;
 }
 
 }  // namespace urban_nav_ros

@@ -2,8 +2,10 @@
 #include "urban_nav_ros/extrinsics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_ros/pose.hpp"
 
 namespace urban_nav_ros {
@@ -11,6 +13,12 @@ namespace urban_nav_ros {
 using urban_nav_core::Pose;
 
 namespace {
+
+constexpr double kUnit = 1e-3;                     // deviation of a quaternion's length from 1
+constexpr double kShortest = 0.5, kLongest = 2.0;  // lengths of quaternions that are normalised
+constexpr double kSameDistance = 1e-3;             // m
+constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad
+
 std::string bare(const std::string& frame) { return frame.empty() || frame.front() != '/' ? frame : frame.substr(1); }
 }  // namespace
 
@@ -21,13 +29,45 @@ void StaticTransforms::add(const tf2_msgs::TFMessage& message) {
 void StaticTransforms::add(const geometry_msgs::TransformStamped& transform) {
   const std::string parent = bare(transform.header.frame_id);
   const std::string child = bare(transform.child_frame_id);
-  const std::optional<Pose> pose = toPose(transform.transform);
+  const auto& q = transform.transform.rotation;
+  const double length = urban_nav_core::Quaterniond(q.w, q.x, q.y, q.z).norm();
+  geometry_msgs::Transform unit = transform.transform;
+  if (length > kShortest && length < kLongest) {
+    unit.rotation.x /= length, unit.rotation.y /= length, unit.rotation.z /= length, unit.rotation.w /= length;
+    if (std::abs(length - 1.0) > kUnit)
+      addFault("static transform from \"" + parent + "\" to \"" + child + "\" has a quaternion of length " +
+               urban_nav_core::formatNumber(length, 4) + ", no unit quaternion; it is normalised");
+  }
+  const std::optional<Pose> pose = toPose(unit);
   if (parent.empty() || child.empty() || parent == child || !pose) {
-    faults_.push_back("static transform from \"" + parent + "\" to \"" + child +
-                      "\" is no rigid motion between two frames");
+    addFault("static transform from \"" + parent + "\" to \"" + child + "\" is no rigid motion between two frames");
     return;
   }
+  const auto known = parents_.find(child);
+  if (known != parents_.end()) {
+    const double apart = (known->second.T_parent_child.t() - pose->t()).norm();
+    const double angle = known->second.T_parent_child.q().angularDistance(pose->q());
+    if (known->second.is_given) return;
+    if (known->second.parent != parent)
+      addFault("two static transforms to \"" + child + "\" contradict each other: one from \"" + known->second.parent +
+               "\", a later one from \"" + parent + "\"; the later one is used");
+    else if (apart > kSameDistance || angle > kSameAngle)
+      addFault("two static transforms from \"" + parent + "\" to \"" + child +
+               "\" contradict each other: they differ by " + urban_nav_core::formatNumber(apart, 3) + " m and " +
+               urban_nav_core::formatNumber(angle * 180.0 / M_PI, 3) + " deg; the later one is used");
+  }
   parents_[child] = {parent, *pose};
+}
+
+void StaticTransforms::give(const geometry_msgs::TransformStamped& transform) {
+  const std::string child = bare(transform.child_frame_id);
+  parents_.erase(child);
+  add(transform);
+  if (const auto link = parents_.find(child); link != parents_.end()) link->second.is_given = true;
+}
+
+void StaticTransforms::addFault(const std::string& fault) {
+  if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) faults_.push_back(fault);
 }
 
 std::optional<StaticTransforms::Climb> StaticTransforms::climb(const std::string& frame) const {

@@ -14,10 +14,12 @@ namespace {
 
 constexpr double kUnknownSigma = 5.0;  // m, of single receivers in towns
 constexpr double kLeastSigma = 0.01;   // m
+constexpr double kNoHeight = 1e4;      // m: standard deviation of a height that the receiver does not state
 
 bool isUsable(const sensor_msgs::NavSatFix& fix) {
   return fix.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX && std::abs(fix.latitude) <= 90.0 &&
-         std::abs(fix.longitude) <= 360.0 && std::isfinite(fix.altitude) && !fix.header.stamp.isZero();
+         std::abs(fix.longitude) <= 360.0 && !(fix.latitude == 0.0 && fix.longitude == 0.0) &&
+         !fix.header.stamp.isZero();
 }
 
 }  // namespace
@@ -28,14 +30,15 @@ std::optional<GpsReading> toGpsReading(const sensor_msgs::NavSatFix& fix) {
   reading.stamp = toStampNs(fix.header.stamp);
   reading.latitude = fix.latitude;
   reading.longitude = fix.longitude;
-  reading.height = fix.altitude;
+  reading.height = std::isfinite(fix.altitude) ? fix.altitude : 0.0;
   reading.sigma = kUnknownSigma * Vector3d(1.0, 1.0, 2.0);
-  if (fix.position_covariance_type == sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN) return reading;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  const bool is_stated = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
+  for (std::size_t axis = 0; is_stated && axis < 3; ++axis) {
     const double variance = fix.position_covariance[4 * axis];
     if (std::isfinite(variance) && variance >= 0.0)
       reading.sigma(static_cast<Eigen::Index>(axis)) = std::max(kLeastSigma, std::sqrt(variance));
   }
+  if (!std::isfinite(fix.altitude)) reading.sigma.z() = kNoHeight;
   return reading;
 }
 

@@ -43,6 +43,42 @@ TEST(StaticTransforms, TakeTheLaterOfTwoAndNameWhatIsNone) {
   EXPECT_FALSE(transforms.has("imu"));
 }
 
+TEST(StaticTransforms, NameTwoThatContradictEachOther) {
+  StaticTransforms transforms;
+  transforms.add(toStaticTransform("base_link", "laser_left", at(1.0, 0.3)));
+  transforms.add(toStaticTransform("base_link", "laser_left", at(1.0, 0.3)));
+  EXPECT_TRUE(transforms.faults().empty()) << "equal ones are one";
+  transforms.add(toStaticTransform("base_link", "laser_left", at(1.3, 0.3)));
+  transforms.add(toStaticTransform("base_link", "laser_left", at(1.3, 0.3)));
+  ASSERT_EQ(transforms.faults().size(), 1U);
+  EXPECT_NE(transforms.faults()[0].find("contradict"), std::string::npos);
+  EXPECT_NE(transforms.faults()[0].find("0.3 m"), std::string::npos) << transforms.faults()[0];
+  transforms.add(toStaticTransform("mast", "laser_left", at(1.3, 0.3)));
+  ASSERT_EQ(transforms.faults().size(), 2U);
+  EXPECT_NE(transforms.faults()[1].find("mast"), std::string::npos);
+}
+
+TEST(StaticTransforms, NormaliseQuaternionsAndNameThem) {
+  StaticTransforms transforms;
+  geometry_msgs::TransformStamped longer = toStaticTransform("base_link", "camera", at(1.0, 0.4));
+  auto& q = longer.transform.rotation;
+  q.x *= 1.02, q.y *= 1.02, q.z *= 1.02, q.w *= 1.02;
+  transforms.add(longer);
+  ASSERT_TRUE(transforms.lookup("base_link", "camera"));
+  EXPECT_TRUE(isApprox(*transforms.lookup("base_link", "camera"), at(1.0, 0.4), 1e-12));
+  ASSERT_EQ(transforms.faults().size(), 1U);
+  EXPECT_NE(transforms.faults()[0].find("1.02"), std::string::npos);
+}
+
+TEST(StaticTransforms, WhatTheUserGivesTakesPrecedence) {
+  StaticTransforms transforms;
+  transforms.add(toStaticTransform("base_link", "camera", at(1.0, 0.0)));
+  transforms.give(toStaticTransform("base_link", "camera", at(2.0, 0.0)));
+  transforms.add(toStaticTransform("base_link", "camera", at(3.0, 0.0)));
+  EXPECT_NEAR(transforms.lookup("base_link", "camera")->t().x(), 2.0, 1e-12);
+  EXPECT_TRUE(transforms.faults().empty());
+}
+
 TEST(StaticTransforms, SurviveARing) {
   StaticTransforms transforms;
   transforms.add(toStaticTransform("a", "b", Pose()));

@@ -52,12 +52,24 @@ TEST(GpsFixes, TakeTheOriginWhereNobodyTellsThePlace) {
 TEST(GpsFixes, IgnoreMessagesWithoutAFix) {
   GpsFixes fixes("base_link");
   fixes.add(makeAntenna());
-  auto none = makeFix(1), odd = makeFix(2), high = makeFix(3);
+  auto none = makeFix(1), odd = makeFix(2), high = makeFix(3), zero = makeFix(3);
+  zero.latitude = zero.longitude = 0.0;
   none.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   odd.longitude = std::numeric_limits<double>::quiet_NaN();
   high.latitude = 91.0;
-  for (const auto& each : {none, odd, high}) EXPECT_TRUE(fixes.add(each).empty());
+  for (const auto& each : {none, odd, high, zero}) EXPECT_TRUE(fixes.add(each).empty());
   EXPECT_EQ(fixes.add(makeFix(4)).size(), 1U);
+}
+
+TEST(GpsFixes, WithoutAnAltitudeStateTheHorizontalPosition) {
+  GpsFixes fixes("base_link");
+  fixes.add(makeAntenna());
+  auto flat = makeFix(1);
+  flat.altitude = std::numeric_limits<double>::quiet_NaN();
+  const auto converted = fixes.add(flat);
+  ASSERT_EQ(converted.size(), 1U);
+  EXPECT_EQ(converted[0].reading.height, 0.0);
+  EXPECT_EQ(converted[0].reading.sigma, urban_nav_core::Vector3d(2.0, 3.0, 1e4));
 }
 
 }  // namespace

@@ -50,14 +50,56 @@ TEST(LaserScan, WhoseBeamsCannotBePlacedIsNone) {
   EXPECT_EQ(urban_nav_core::toScan(*toPlanarScan(good)).beams.size(), 2U);
   for (float sensor_msgs::LaserScan::*number :
        {&sensor_msgs::LaserScan::angle_min, &sensor_msgs::LaserScan::angle_increment,
-        &sensor_msgs::LaserScan::time_increment, &sensor_msgs::LaserScan::scan_time, &sensor_msgs::LaserScan::range_min,
-        &sensor_msgs::LaserScan::range_max}) {
+        &sensor_msgs::LaserScan::time_increment}) {
     sensor_msgs::LaserScan bad = good;
     bad.*number = std::numeric_limits<float>::infinity();
     EXPECT_FALSE(toPlanarScan(bad));
   }
   good.header.stamp = ros::Time();
   EXPECT_FALSE(toPlanarScan(good));
+}
+
+TEST(LaserScan, LimitsThatAreNoneDropNoBeam) {
+  sensor_msgs::LaserScan scan;
+  scan.header.stamp = ros::Time(5.0);
+  scan.angle_increment = 0.01F;
+  scan.range_max = 80.0F;
+  scan.ranges = {1.0F, 2.0F, 3.0F};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float limit : {0.0F, nan, std::numeric_limits<float>::infinity(), -1.0F}) {
+    scan.range_max = limit;
+    EXPECT_TRUE(hasNoRangeLimit(scan));
+    ASSERT_TRUE(toPlanarScan(scan)) << limit;
+    EXPECT_EQ(urban_nav_core::toScan(*toPlanarScan(scan)).beams.size(), 3U) << limit;
+  }
+  scan.range_min = nan;
+  scan.scan_time = nan;
+  ASSERT_TRUE(toPlanarScan(scan));
+  EXPECT_EQ(toPlanarScan(scan)->period, 0.0);
+  EXPECT_EQ(urban_nav_core::toScan(*toPlanarScan(scan)).beams.size(), 3U);
+}
+
+TEST(LaserScan, OtherUnitsAreRefusedUnlessTheyAreStated) {
+  sensor_msgs::LaserScan scan;
+  scan.header.stamp = ros::Time(5.0);
+  scan.angle_min = -90.0F;
+  scan.angle_increment = 1.0F;
+  scan.range_max = 80'000.0F;
+  scan.ranges.assign(181, 5000.0F);
+  EXPECT_FALSE(toPlanarScan(scan));
+  EXPECT_EQ(checkUnits(scan).fault, urban_nav_core::ScanFault::AngleUnit);
+  urban_nav_core::LaserConvention stated;
+  stated.angle_scale = checkUnits(scan).repair;
+  EXPECT_EQ(checkUnits(scan, stated).fault, urban_nav_core::ScanFault::RangeUnit);
+  stated.range_scale = checkUnits(scan, stated).repair;
+  stated.delay = 500'000'000;
+  const auto planar = toPlanarScan(scan, stated);
+  ASSERT_TRUE(planar);
+  EXPECT_EQ(planar->stamp, 4'500'000'000);
+  EXPECT_NEAR(planar->angle_first, -1.5707963, 1e-6);
+  const urban_nav_core::Scan beams = urban_nav_core::toScan(*planar);
+  ASSERT_EQ(beams.beams.size(), 181U);
+  EXPECT_NEAR(beams.beams.front().range, 5.0F, 1e-5F);
 }
 
 }  // namespace

@@ -263,5 +263,13 @@ Option configOption() { return {"--config", "FILE", "parameters as YAML: stage, 
 Option threadsOption() {
   return {"--threads", "N", "threads to use (default: one per core); the results are the same", false, false, {}};
 }
+Option transformOption() {
+  return {"--transform",
+          "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW",
+          "place of a frame (m, quaternion), which takes precedence over the recording's tf; repeatable",
+          false,
+          true,
+          {}};
+}
 
 }  // namespace urban_nav

@@ -77,5 +77,6 @@ Option jsonOption();
 Option setOption();
 Option configOption();
 Option threadsOption();
+Option transformOption();
 
 }  // namespace urban_nav

@@ -3,23 +3,22 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/message_traits.h>
-#include <rosbag/bag.h>
-#include <sensor_msgs/CameraInfo.h>
+#include <ros/serialization.h>
 
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "urban_nav_core/camera/stereo_camera.hpp"
-#include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_input/recording/recording_writer.hpp"
 
 namespace urban_nav {
 
-/// A bag that appears whole or not at all (until then it is PATH.active, as rosbag record has it), its chunks not
-/// compressed. Messages are to come in the order of their receipt. Throws UserError naming the bag where it cannot be
+/// A recording that appears whole or not at all: MCAP if its path ends in ".mcap", otherwise a bag whose chunks are not
+/// compressed. Messages are to come in the order of their receipt. Throws UserError naming the file where it cannot be
 /// written.
 class BagWriter {
  public:
@@ -28,7 +27,7 @@ class BagWriter {
 
   template <typename Message>
   void write(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message) {
-    writeNow(topic, stamp, message, nullptr);
+    writeNow(topic, stamp, message, false);
   }
   /// /tf_static, latched.
   void writeStaticTransforms(urban_nav_core::StampNs stamp,
@@ -41,31 +40,35 @@ class BagWriter {
 
  private:
   template <typename Message>
-  void writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message,
-                const boost::shared_ptr<ros::M_string>& header);
-  ros::Time receipt(urban_nav_core::StampNs stamp) const;
-  [[noreturn]] void fail(const std::exception& error) const;
+  void writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message, bool is_latched);
 
-  /// The destructor of a bag that cannot be closed (the disk is full) ends the process: such a bag is never destroyed.
-  struct Close {
-    void operator()(rosbag::Bag* bag) const;
-  };
-
-  std::string path_;
-  urban_nav_core::PartialFile file_;
-  std::unique_ptr<rosbag::Bag, Close> bag_;
+  std::unique_ptr<urban_nav_input::RecordingWriter> writer_;
+  std::map<std::pair<std::string, std::string>, urban_nav_input::Connection> connections_;  // key: topic and type
+  std::vector<std::uint8_t> bytes_;                                                         // the message at work
   std::map<std::string, std::int64_t> counts_;
 };
 
 template <typename Message>
 void BagWriter::writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message,
-                         const boost::shared_ptr<ros::M_string>& header) {
-  try {
-    bag_->write(topic, receipt(stamp), message, header);
-    ++counts_[topic];
-  } catch (const rosbag::BagException& error) {
-    fail(error);
+                         bool is_latched) {
+  namespace traits = ros::message_traits;
+  const auto [known, is_new] = connections_.try_emplace({topic, traits::DataType<Message>::value()});
+  urban_nav_input::Connection& connection = known->second;
+  if (is_new) {
+    connection.topic = topic;
+    connection.type = traits::DataType<Message>::value();
+    connection.md5 = traits::MD5Sum<Message>::value();
+    connection.definition = traits::Definition<Message>::value();
+    connection.definition_encoding = "ros1msg";
+    connection.encoding = "ros1";
+    connection.is_latched = is_latched;
+    if (is_latched) connection.caller_id = "/urban_nav_convert";
   }
+  bytes_.resize(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+  ros::serialization::serialize(stream, message);
+  writer_->write(connection, stamp, {bytes_.data(), bytes_.size()});
+  ++counts_[topic];
 }
 
 }  // namespace urban_nav

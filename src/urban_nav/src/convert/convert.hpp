@@ -13,6 +13,7 @@ namespace urban_nav {
 struct Converted {
   std::map<std::string, std::int64_t> counts;  ///< messages by topic
   std::vector<std::string> notes;              ///< what was assumed or left out
+  std::vector<std::string> files = {};         ///< files of a conversion into several; empty: one
 };
 
 /// A folder of KITTI or EuRoC into a bag: rectified images with camera_info, static tf, IMU and truth where the folder

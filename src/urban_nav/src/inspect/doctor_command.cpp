@@ -18,8 +18,10 @@ urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
   urban_nav_input::SourceOptions options;
   options.topics = arguments.all("topic");
   options.calibration = arguments.get("calibration");
+  options.transforms = arguments.all("transform");
   options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
-  options.right_delay = parameters.get(urban_nav_input::inputTable()).right_delay;
+  apply(parameters.get(urban_nav_input::inputTable()), options);
+  options.motion_input = "none";
   return options;
 }
 
@@ -116,6 +118,7 @@ Command doctorCommand() {
        false,
        true,
        {}},
+      transformOption(),
       {"--calibration", "FILE", "as of map: calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)", false, false, {}},
       {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
       jsonOption(),

@@ -25,6 +25,7 @@ std::string padded(const std::string& text, std::size_t width) {
 std::string toText(const urban_nav_input::InputInfo& info) {
   std::string text = info.name + ": " + info.kind + "\n";
   for (const std::string& note : info.notes) text += "  " + note + "\n";
+  for (const std::string& warning : info.warnings) text += "  " + warning + "\n";
   std::size_t width = 20, type_width = 12;
   for (const urban_nav_input::StreamInfo& stream : info.streams) {
     width = std::max(width, stream.name.size() + 2);
@@ -41,6 +42,7 @@ std::string toText(const urban_nav_input::InputInfo& info) {
               urban_nav_core::printStamp(stream.first) + " ... " + urban_nav_core::printStamp(stream.last);
     }
     if (stream.backward > 0) text += "  " + std::to_string(stream.backward) + " stamps not later than the one before";
+    if (!stream.undecoded.empty()) text += "  not decoded: " + stream.undecoded;
     text += "\n";
   }
   if (info.distance_m)
@@ -52,6 +54,8 @@ Json toJson(const urban_nav_input::InputInfo& info) {
   Json json = Json::object();
   json["name"] = info.name;
   json["kind"] = info.kind;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : info.warnings) warnings.append(warning);
   Json& streams = json["streams"] = Json::array();
   for (const urban_nav_input::StreamInfo& stream : info.streams) {
     Json entry = Json::object();
@@ -63,6 +67,7 @@ Json toJson(const urban_nav_input::InputInfo& info) {
     entry["backward"] = stream.backward;
     entry["first_ns"] = stream.first;
     entry["last_ns"] = stream.last;
+    if (!stream.undecoded.empty()) entry["undecoded"] = stream.undecoded;
     streams.append(entry);
   }
   if (info.distance_m) json["distance_m"] = *info.distance_m;
@@ -92,8 +97,8 @@ int runInfo(const Arguments& arguments, Console& console) {
 Command infoCommand() {
   Command command;
   command.name = "info";
-  command.summary = "Says what is in a bag, folder or session store: sessions, topics, rates, gaps, distance.";
-  command.options = {{"INPUT", "", "bags, folders or session stores", true, true, {}},
+  command.summary = "Says what is in a recording, folder or session store: sessions, topics, rates, gaps, distance.";
+  command.options = {{"INPUT", "", "recordings, folders or session stores", true, true, {}},
                      jsonOption(),
                      configOption(),
                      setOption(),

@@ -18,15 +18,13 @@ std::vector<std::string> topicsReadByStages(const AllStages& stages, const Param
 
 MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
   ParameterSet parameters = loadParameters(arguments);
-  const urban_nav_input::InputParameters& input = parameters.get(urban_nav_input::inputTable());
-  const urban_nav_input::SourceOptions source{arguments.all("topic"),
-                                              arguments.get("calibration"),
-                                              arguments.number("rate", 0.0, 0.01, 10000.0),
-                                              input.motion_input,
-                                              input.wheel_noise,
-                                              input.gyro_noise,
-                                              input.right_delay,
-                                              topicsReadByStages(stages, parameters)};
+  urban_nav_input::SourceOptions source;
+  source.topics = arguments.all("topic");
+  source.calibration = arguments.get("calibration");
+  source.transforms = arguments.all("transform");
+  source.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
+  source.read_elsewhere = topicsReadByStages(stages, parameters);
+  apply(parameters.get(urban_nav_input::inputTable()), source);
   const std::optional<double> so_far =
       arguments.has("so-far") ? std::optional(arguments.number("so-far", 1.0, 0.0, 1.0)) : std::nullopt;
   return {arguments.all("INPUT"),
@@ -66,12 +64,7 @@ std::vector<Option> mapOptions(const AllStages& stages) {
   return {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
-      {"--overwrite",
-       "",
-       "replaces the map of other inputs that DIR holds (otherwise it is refused)",
-       false,
-       false,
-       {}},
+      {"--overwrite", "", "replaces the map of other inputs in DIR (otherwise it is refused)", false, false, {}},
       {"--stages", "LIST", stagesSentence(stages), false, true, {}},
       {"--closures",
        "FILE",
@@ -86,6 +79,7 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        false,
        true,
        {}},
+      transformOption(),
       {"--calibration",
        "FILE",
        "if the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "map/session_odometry.hpp"
+#include "urban_nav_input/session/source.hpp"
+#include "urban_nav_ros/panorama_feed.hpp"
 
 namespace urban_nav {
 

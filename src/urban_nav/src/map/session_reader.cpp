@@ -140,7 +140,9 @@ void SessionReader::read(const ProgressCallback& progress) {
   processPanoramas(source_->panoramas());
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
-  for (const urban_nav_input::Finding& finding : images.findings())
+  std::vector<urban_nav_input::Finding> findings = source_->sensorFindings();
+  for (const urban_nav_input::Finding& finding : images.findings()) findings.push_back(finding);
+  for (const urban_nav_input::Finding& finding : findings)
     faults.push_back(source_->info().name + ": " + finding.text + " (" + finding.remedy + ")");
   if (const std::string& note = context_.sessions[session_].input.note; !note.empty())
     faults.push_back(source_->info().name + ": " + note);

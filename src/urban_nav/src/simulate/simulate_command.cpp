@@ -50,8 +50,8 @@ SimulateJob makeJob(const Arguments& arguments) {
   job.lags = arguments.all("lag");
   job.misplaced = arguments.all("misplace");
   job.bag = arguments.get("output");
-  if (std::filesystem::path(job.bag).extension() != ".bag")
-    throw UserError("--output", job.bag, "a name that ends in .bag; the truth goes beside it");
+  if (const std::string ending = std::filesystem::path(job.bag).extension(); ending != ".bag" && ending != ".mcap")
+    throw UserError("--output", job.bag, "a name that ends in .bag or .mcap; the truth goes beside it");
   job.part = arguments.number("split", 0.0, 0.1, kLongest);
   job.folder = arguments.get("folder");
   job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);

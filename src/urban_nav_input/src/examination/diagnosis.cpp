@@ -82,6 +82,7 @@ class Reading {
       diagnosis_.findings.insert(diagnosis_.findings.end(), found.begin(), found.end());
     };
     append(readerFindings(source_.closingFaults()));
+    append(source_.sensorFindings());
     append(faults_.findings());
     if (2 * diagnosis_.complete > diagnosis_.pairs) append(checkStamps(stamps_));
     append(images_.findings());

@@ -27,14 +27,20 @@ constexpr KnownSentence kKnownSentences[] = {
      "trigger both cameras together; --set input.right_delay=MS if one is late by a constant time"},
     {"no image of this camera", FindingKind::Pairs, "check the cable and the driver of this camera of the panorama"},
     {"no static tf", FindingKind::Tf,
-     "publish it while recording: rosrun tf2_ros static_transform_publisher X Y Z QX QY QZ QW base_link FRAME"},
+     "--transform base_link,FRAME:X,Y,Z,QX,QY,QZ,QW states it for this recording (m, quaternion); for later ones "
+     "publish it: rosrun tf2_ros static_transform_publisher X Y Z QX QY QZ QW base_link FRAME"},
+    {"contradict each other", FindingKind::Tf,
+     "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW with the right one of the two; for later recordings stop the other "
+     "publisher"},
+    {"no unit quaternion", FindingKind::Tf,
+     "nothing has to be done if the rotation is right; for later recordings publish quaternions of length 1"},
+    {"is no rigid motion", FindingKind::Tf, "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW states it"},
     {"is not used", FindingKind::Tf, "publish its transform from base_link on /tf_static"},
     {"images are rectified already, although", FindingKind::Calibration,
      "publish images without distortion with a camera_info whose D is zero, or record the raw images"},
     {"although their topic is named as rectified", FindingKind::Calibration,
      "name raw images image_raw, and rectified ones image_rect"},
     {"left aside", FindingKind::Calibration, "repair the file that the message names"},
-    {"have no stamp, or angles", FindingKind::Stamps, "check the driver of this laser"},
 };
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
@@ -59,6 +65,11 @@ const char* toString(FindingKind kind) {
     case FindingKind::Calibration: return "calibration";
     case FindingKind::Tf: return "tf";
     case FindingKind::Rates: return "rates";
+    case FindingKind::Imu: return "imu";
+    case FindingKind::Lasers: return "lasers";
+    case FindingKind::Gps: return "gps";
+    case FindingKind::Wheels: return "wheels";
+    case FindingKind::Topics: return "topics";
   }
   return "";
 }

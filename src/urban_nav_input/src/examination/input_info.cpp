@@ -3,8 +3,6 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +12,14 @@
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
-#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
 #include "urban_nav_input/folder/new_college_files.hpp"
 #include "urban_nav_input/folder/new_college_log.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_input/truth/truth.hpp"
 #include "urban_nav_ros/pose.hpp"
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
@@ -63,13 +60,13 @@ class Counter {
 /// Counts a topic by the stamps of its headers, and by receipt where they are not set or do not change.
 class TopicCounter {
  public:
-  explicit TopicCounter(const rosbag::ConnectionInfo& connection)
-      : has_header_(beginsWithHeader(connection.msg_def)),
-        stamps_(connection.topic, connection.datatype),
-        receipts_(connection.topic, connection.datatype) {}
+  explicit TopicCounter(const Connection& connection)
+      : has_header_(beginsWithHeader(connection.definition)),
+        stamps_(connection.topic, connection.type),
+        receipts_(connection.topic, connection.type) {}
 
-  void add(const rosbag::MessageInstance& message) {
-    receipts_.add(urban_nav_ros::toStampNs(message.getTime()));
+  void add(const RecordedMessage& message) {
+    receipts_.add(message.receipt());
     if (has_header_) stamps_.add(readHeaderStamp(message));
   }
 
@@ -99,7 +96,7 @@ class TopicCounter {
       const std::string_view text = urban_nav_core::trimmed(line.substr(0, line.find('#')));
       if (has_ended || text.empty()) return;
       const std::string_view type = text.substr(0, text.find_first_of(" \t"));
-      has_header = type == "Header" || type == "std_msgs/Header";
+      has_header = type == "Header" || type == "std_msgs/Header" || type == "std_msgs/msg/Header";
       has_ended = true;
     });
     return has_header;
@@ -122,25 +119,26 @@ StreamInfo toStream(const std::string& name, const std::string& type, const Stam
 }
 
 void lookIntoBag(const std::string& path, InputInfo& info) {
-  rosbag::Bag bag(path, rosbag::bagmode::Read);
-  rosbag::View view(bag);
+  Recording recording(path);
+  info.kind = recording.kind();
   std::map<std::string, TopicCounter> counters;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections())
-    counters.emplace(connection->topic, TopicCounter(*connection));
+  for (const Connection& connection : recording.connections())
+    counters.emplace(connection.topic, TopicCounter(connection));
   std::map<std::string, std::vector<Vector3d>> positions_by_topic;
-  for (const rosbag::MessageInstance& instance : view) {
-    counters.at(instance.getTopic()).add(instance);
+  MessageSelection all = recording.select(std::nullopt);
+  while (const std::optional<RecordedMessage> each = all.next()) {
+    counters.at(each->topic()).add(*each);
     std::optional<urban_nav_core::Pose> pose;
-    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>())
-      pose = urban_nav_ros::toPose(odometry->pose.pose);
-    if (const auto stamped = instance.instantiate<geometry_msgs::PoseStamped>())
-      pose = urban_nav_ros::toPose(stamped->pose);
-    if (pose) positions_by_topic[instance.getTopic()].push_back(pose->t());
+    if (const auto odometry = each->as<nav_msgs::Odometry>()) pose = urban_nav_ros::toPose(odometry->pose.pose);
+    if (const auto stamped = each->as<geometry_msgs::PoseStamped>()) pose = urban_nav_ros::toPose(stamped->pose);
+    if (pose) positions_by_topic[each->topic()].push_back(pose->t());
   }
   for (const auto& [topic, counter] : counters) {
     info.streams.push_back(counter.info());
+    info.streams.back().undecoded = recording.undecoded(topic);
     if (std::string note = counter.note(); !note.empty()) info.notes.push_back(std::move(note));
   }
+  info.warnings = recording.warnings();
   if (positions_by_topic.empty()) return;
   const auto truth = std::find_if(positions_by_topic.begin(), positions_by_topic.end(), [](const auto& positions) {
     return positions.first.find("truth") != std::string::npos;
@@ -214,15 +212,7 @@ InputInfo lookInto(const std::string& path) {
   InputInfo info;
   info.name = path;
   switch (kind) {
-    case InputKind::Bag:
-      info.kind = "bag";
-      try {
-        lookIntoBag(path, info);
-      } catch (const rosbag::BagException& error) {
-        throw urban_nav_core::DataError(path, std::string("cannot be read: ") + error.what(),
-                                        "a whole bag (`rosbag reindex` mends one that was cut off)");
-      }
-      break;
+    case InputKind::Bag: lookIntoBag(path, info); break;
     case InputKind::NewCollegeFolder:
       info.kind = "New College folder";
       lookIntoNewCollege(path, info);

@@ -5,7 +5,9 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
+#include "urban_nav_input/sensors/accelerometer_finding.hpp"
 #include "urban_nav_input/session/open.hpp"
+#include "urban_nav_ros/accelerometer.hpp"
 
 namespace urban_nav_input {
 
@@ -30,7 +32,7 @@ class EurocFolder : public Source {
     if (options.motion_input == "wheels")
       throw urban_nav_core::DataError(mav0_, "has no wheel odometry for input.motion_input = wheels", "");
     if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
-    readForces();
+    readForces(options.accelerometer);
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
     if (std::string sentence = describeUnusedFiles(mav0_, {"cam0", "cam1", "imu0", "state_groundtruth_estimate0"});
@@ -40,6 +42,7 @@ class EurocFolder : public Source {
 
   const SourceInfo& info() const override { return info_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
+  std::vector<Finding> sensorFindings() const override { return findings_; }
 
   std::optional<SourceItem> next() override {
     if (position_ >= pairs_.size()) return std::nullopt;
@@ -65,10 +68,14 @@ class EurocFolder : public Source {
   }
 
   /// They level the map; without them it is as the first pose stands, and nothing else is lost.
-  void readForces() {
+  void readForces(const urban_nav_core::AccelerometerConvention& convention) {
     try {
+      urban_nav_ros::Accelerometer accelerometer(rig_.T_base_body.R(), convention);
       for (const EurocImu& row : readEurocImu(mav0_))
-        forces_.push_back({row.stamp, rig_.T_base_body.R() * row.acceleration});
+        for (const urban_nav_core::SpecificForce& sample : accelerometer.add(toImuMessage(row)))
+          forces_.push_back(sample);
+      findings_ = accelerometerFindings("imu0", accelerometer.verdict(), convention);
+      if (!accelerometer.verdict().sound()) forces_.clear();
     } catch (const urban_nav_core::Error& error) {
       forces_.clear();
       info_.notes.push_back(std::string("the accelerometer is left aside: ") + error.what());
@@ -94,6 +101,7 @@ class EurocFolder : public Source {
   urban_nav_ros::GreyScale scale_;
   std::vector<urban_nav_core::MotionInput> motion_;
   std::vector<urban_nav_core::SpecificForce> forces_;
+  std::vector<Finding> findings_;
   std::size_t position_ = 0, next_motion_ = 0;
 };
 

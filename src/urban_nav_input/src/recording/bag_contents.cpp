@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/bag_contents.hpp"
 
-#include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/topics.hpp"
@@ -33,17 +34,17 @@ bool isSamePlace(const Pose& a, const Pose& b) {
   return (a.t() - b.t()).norm() < kSamePlace && a.q().angularDistance(b.q()) < kSameAngle;
 }
 
-std::map<std::string, TfLink> readLinks(std::list<rosbag::Bag>& bags) {
+std::map<std::string, TfLink> readLinks(Recording& recording) {
   std::map<std::string, TfLink> links;  // by child
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{urban_nav_ros::topics::kTransforms, "tf"}));
-    const std::size_t step = std::max<std::size_t>(1, view.size() / kTfSamples);
+  for (RecordingFile* file : recording.files()) {
+    MessageSelection selection({file}, std::vector<std::string>{urban_nav_ros::topics::kTransforms, "tf"}, {});
+    const std::size_t step = std::max<std::size_t>(1, selection.size() / kTfSamples);
     std::size_t i = 0;
-    for (const rosbag::MessageInstance& instance : view) {
+    while (const std::optional<RecordedMessage> instance = selection.next()) {
       // The first ones all, then some drawn by a hash (Knuth): publishers take turns, and a stride would meet the same.
       const std::uint32_t draw = static_cast<std::uint32_t>(i) * 2654435761U;
       if (i++ > kTfSamples / 10 && (draw >> 8U) % step != 0) continue;
-      const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+      const auto message = instance->as<tf2_msgs::TFMessage>();
       if (!message) continue;
       for (const geometry_msgs::TransformStamped& transform : message->transforms) {
         const std::optional<Pose> pose = urban_nav_ros::toPose(transform.transform);
@@ -61,25 +62,12 @@ std::map<std::string, TfLink> readLinks(std::list<rosbag::Bag>& bags) {
 
 }  // namespace
 
-std::map<std::string, std::string> topicTypes(std::list<rosbag::Bag>& bags) {
-  std::map<std::string, std::string> types;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      types[connection->topic] = connection->datatype;
-  }
-  return types;
-}
-
-urban_nav_ros::StaticTransforms readTransforms(std::list<rosbag::Bag>& bags) {
+urban_nav_ros::StaticTransforms readTransforms(Recording& recording) {
   urban_nav_ros::StaticTransforms transforms;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(
-        bag, rosbag::TopicQuery(std::vector<std::string>{urban_nav_ros::topics::kStaticTransforms, "tf_static"}));
-    for (const rosbag::MessageInstance& instance : view)
-      if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
-  }
-  for (const auto& [child, link] : readLinks(bags))
+  RecordedMessages messages = recording.messages({urban_nav_ros::topics::kStaticTransforms, "tf_static"});
+  while (const std::optional<RecordedMessage> each = messages.next())
+    if (const auto message = each->as<tf2_msgs::TFMessage>()) transforms.add(*message);
+  for (const auto& [child, link] : readLinks(recording))
     if (!link.moves && !transforms.hasParent(child)) transforms.add(link.first);
   return transforms;
 }

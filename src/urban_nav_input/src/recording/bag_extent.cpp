@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/bag_extent.hpp"
 
-#include <ros/serialization.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -12,8 +8,8 @@
 
 #include "recording/bag_order.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_input/recording/receipt_range.hpp"
-#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav_input {
 
@@ -26,50 +22,40 @@ constexpr StampNs kLongestSplitNs = static_cast<StampNs>(1e9 * kLongestSplit);
 // A recorder that is started again before the one before it has ended records a little twice.
 constexpr StampNs kMostTwice = 1'000'000'000;  // ns
 
-BagExtent::Span readReceipts(rosbag::View& view) {
-  return {urban_nav_ros::toStampNs(view.getBeginTime()), urban_nav_ros::toStampNs(view.getEndTime())};
-}
+BagExtent::Span readReceipts(MessageSelection& images) { return {images.first(), images.last()}; }
 
-BagExtent::Span readStamps(rosbag::View& view) {
-  auto last = view.begin();
-  for (auto each = view.begin(); each != view.end(); ++each) last = each;
-  return {readHeaderStamp(*view.begin()), readHeaderStamp(*last)};
+BagExtent::Span readStamps(MessageSelection& images) {
+  std::optional<RecordedMessage> first = images.next(), last = first;
+  while (const std::optional<RecordedMessage> each = images.next()) last = each;
+  return {readHeaderStamp(*first), readHeaderStamp(*last)};
 }
 
 /// Sets the spans of images by `span_of`. Whether all have one that does not end before it begins.
 template <typename SpanOf>
-bool useImages(rosbag::Bag& bag, BagExtent& extent, const SpanOf& span_of) {
-  rosbag::View images(bag,
-                      rosbag::TypeQuery(std::vector<std::string>{"sensor_msgs/Image", "sensor_msgs/CompressedImage"}));
+bool useImages(Recording& bag, BagExtent& extent, const SpanOf& span_of) {
   extent.images.clear();
-  for (const rosbag::ConnectionInfo* connection : images.getConnections()) {
-    rosbag::View view(bag, rosbag::TopicQuery(connection->topic));
-    if (view.size() == 0) continue;
-    const BagExtent::Span span = span_of(view);
-    const bool is_constant = view.size() > 1 && span.second == span.first;
+  for (const auto& [topic, type] : bag.topicTypes()) {
+    if (!isImageType(type)) continue;
+    MessageSelection images = bag.select(std::vector<std::string>{topic});
+    if (images.size() == 0) continue;
+    const BagExtent::Span span = span_of(images);
+    const bool is_constant = images.size() > 1 && span.second == span.first;
     if (span.first == 0 || span.second < span.first || is_constant) return false;
-    extent.images[connection->topic] = span;
+    extent.images[topic] = span;
   }
   return !extent.images.empty();
 }
 
 BagExtent computeExtent(const std::string& path) {
-  try {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
-    rosbag::View view(bag);
-    if (view.size() == 0) throw DataError(path, "holds no messages", "");
-    BagExtent extent;
-    extent.path = path;
-    extent.receipts = readReceipts(view);
-    extent.messages = view.size();
-    extent.by_stamps = useImages(bag, extent, readStamps);
-    return extent;
-  } catch (const rosbag::BagUnindexedException&) {
-    throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
-  } catch (const rosbag::BagException& error) {
-    throw DataError(path, std::string("cannot be read: ") + error.what(),
-                    "a whole bag (`rosbag reindex` mends one that was cut off)");
-  }
+  Recording bag(path);
+  const MessageSelection all = bag.select(std::nullopt);
+  if (all.size() == 0) throw DataError(path, "holds no messages", "");
+  BagExtent extent;
+  extent.path = path;
+  extent.receipts = {all.first(), all.last()};
+  extent.messages = all.size();
+  extent.by_stamps = useImages(bag, extent, readStamps);
+  return extent;
 }
 
 /// Whether two spans share more than a recorder's restart explains.
@@ -89,25 +75,25 @@ bool areSimultaneous(const BagExtent& a, const BagExtent& b) {
 }
 
 /// Returns the bytes of the first and the last image of a topic.
-std::pair<std::string, std::string> readEnds(rosbag::Bag& bag, const std::string& topic) {
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
-  const auto toBytes = [](const rosbag::MessageInstance& message) {
-    std::string bytes(message.size(), '\0');
-    ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()), message.size());
-    message.write(stream);
-    return bytes;
+std::pair<std::string, std::string> readEnds(Recording& recording, const std::string& topic) {
+  const auto toBytes = [](const RecordedMessage& message) {
+    const ByteView bytes = message.bytes();
+    return std::string(bytes.data, bytes.data + bytes.size);
   };
-  if (view.size() == 0) return {};
-  auto last = view.begin();
-  for (auto each = view.begin(); each != view.end(); ++each) last = each;
-  return {toBytes(*view.begin()), toBytes(*last)};
+  MessageSelection messages = recording.select(std::vector<std::string>{topic});
+  const std::optional<RecordedMessage> first = messages.next();
+  if (!first) return {};
+  std::string first_bytes = toBytes(*first);
+  std::optional<RecordedMessage> last = first;
+  while (const std::optional<RecordedMessage> each = messages.next()) last = each;
+  return {std::move(first_bytes), toBytes(*last)};
 }
 
 }  // namespace
 
 bool isSameRecording(const BagExtent& a, const BagExtent& b) {
   if (a.receipts != b.receipts || a.images != b.images || a.messages != b.messages || a.images.empty()) return false;
-  rosbag::Bag first(a.path, rosbag::bagmode::Read), second(b.path, rosbag::bagmode::Read);
+  Recording first(a.path), second(b.path);
   return std::all_of(a.images.begin(), a.images.end(),
                      [&](const auto& topic) { return readEnds(first, topic.first) == readEnds(second, topic.first); });
 }
@@ -121,7 +107,7 @@ std::vector<BagExtent> findExtents(const std::vector<std::string>& paths) {
     extent.by_stamps = by_stamps;
     extent.span = extent.receipts;
     if (!by_stamps) {
-      rosbag::Bag bag(extent.path, rosbag::bagmode::Read);
+      Recording bag(extent.path);
       useImages(bag, extent, readReceipts);
       continue;
     }
@@ -135,15 +121,15 @@ std::vector<BagExtent> findExtents(const std::vector<std::string>& paths) {
 }
 
 std::vector<std::vector<BagExtent>> separateRecordings(const std::vector<BagExtent>& bags) {
-  struct Recording {
+  struct Group {
     std::vector<BagExtent> bags;
     StampNs end = 0;
   };
-  std::vector<Recording> recordings;
+  std::vector<Group> recordings;
   for (const BagExtent& bag : bags) {
-    Recording* nearest = nullptr;  // of those side by side, whose end this bag's begin is nearest to
-    const auto apart = [&](const Recording& recording) { return std::abs(bag.span.first - recording.end); };
-    for (Recording& recording : recordings) {
+    Group* nearest = nullptr;  // the one whose end is nearest to the begin of this bag
+    const auto apart = [&](const Group& recording) { return std::abs(bag.span.first - recording.end); };
+    for (Group& recording : recordings) {
       const bool is_other = std::any_of(recording.bags.begin(), recording.bags.end(),
                                         [&](const BagExtent& member) { return areSimultaneous(member, bag); });
       if (is_other || bag.span.first - recording.end >= kLongestSplitNs) continue;
@@ -154,7 +140,7 @@ std::vector<std::vector<BagExtent>> separateRecordings(const std::vector<BagExte
     nearest->bags.push_back(bag);
   }
   std::vector<std::vector<BagExtent>> made;
-  for (Recording& recording : recordings) made.push_back(std::move(recording.bags));
+  for (Group& recording : recordings) made.push_back(std::move(recording.bags));
   return made;
 }
 

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/bag_groups.hpp"
 
-#include <rosbag/view.h>
-
 #include <algorithm>
-
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
-std::vector<BagGroup> groupBags(std::list<rosbag::Bag>& bags) {
+std::vector<BagGroup> groupBags(Recording& recording) {
   std::vector<BagGroup> groups;
   std::size_t count = 0;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View all(bag);
+  for (RecordingFile* bag : recording.files()) {
+    const MessageSelection all({bag}, std::nullopt, {});
     const bool empty = all.size() == 0;
-    if (groups.empty() || (!empty && urban_nav_ros::toStampNs(all.getBeginTime()) > groups.back().receipt))
-      groups.emplace_back();
+    if (groups.empty() || (!empty && all.first() > groups.back().receipt)) groups.emplace_back();
     BagGroup& group = groups.back();
-    group.bags.push_back(&bag);
+    group.bags.push_back(bag);
     group.end = ++count;
-    if (!empty) group.receipt = std::max(group.receipt, urban_nav_ros::toStampNs(all.getEndTime()));
+    if (!empty) group.receipt = std::max(group.receipt, all.last());
   }
   return groups;
 }

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/bag_order.hpp"
 
-#include <ros/serialization.h>
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
-
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
@@ -26,17 +22,15 @@ struct Sample {
   StampNs stamp = 0, receipt = 0;
 };
 
-std::vector<Sample> drawSamples(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
+std::vector<Sample> drawSamples(Recording& recording, const std::vector<std::string>& topics,
                                 const ReceiptRange& range) {
   std::vector<Sample> samples;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view;
-    addToView(view, bag, topics, range);
-    const std::size_t every = std::max<std::size_t>(1, view.size() / kSamples);
+  for (RecordingFile* file : recording.files()) {
+    MessageSelection selection({file}, topics, range);
+    const std::size_t every = std::max<std::size_t>(1, selection.size() / kSamples);
     std::size_t i = 0;
-    for (const rosbag::MessageInstance& message : view)
-      if (i++ % every == 0)
-        samples.push_back({message.getTopic(), readHeaderStamp(message), urban_nav_ros::toStampNs(message.getTime())});
+    while (const std::optional<RecordedMessage> message = selection.next())
+      if (i++ % every == 0) samples.push_back({message->topic(), readHeaderStamp(*message), message->receipt()});
   }
   return samples;
 }
@@ -54,37 +48,35 @@ bool areConstant(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-StampNs readHeaderStamp(const rosbag::MessageInstance& message) {
-  constexpr std::size_t kSecondsAt = 4, kNanosecondsAt = 8, kEnd = 12;  // after seq, little-endian
-  const std::uint32_t size = message.size();
-  if (size < kEnd) return 0;
-  std::vector<std::uint8_t> bytes(size);
-  ros::serialization::OStream stream(bytes.data(), size);
-  message.write(stream);
-  std::uint32_t seconds = 0, nanoseconds = 0;
-  std::memcpy(&seconds, &bytes[kSecondsAt], sizeof(seconds));
-  std::memcpy(&nanoseconds, &bytes[kNanosecondsAt], sizeof(nanoseconds));
-  return static_cast<StampNs>(seconds) * 1'000'000'000 + nanoseconds;
+StampNs readHeaderStamp(const RecordedMessage& message) {
+  // After seq (ROS 1) or the encapsulation (CDR), which are of the same size.
+  constexpr std::size_t kSecondsAt = 4, kNanosecondsAt = 8, kEnd = 12;
+  const ByteView bytes = message.bytes();
+  if (bytes.size < kEnd) return 0;
+  const bool is_big_endian = message.connection().encoding == "cdr" && bytes.data[1] == 0;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < sizeof(value); ++i)
+      value |= static_cast<std::uint32_t>(bytes.data[at + i]) << 8U * (is_big_endian ? sizeof(value) - 1 - i : i);
+    return value;
+  };
+  return static_cast<StampNs>(number(kSecondsAt)) * 1'000'000'000 + number(kNanosecondsAt);
 }
 
-std::pair<StampNs, StampNs> findStampSpan(rosbag::View& view) {
+std::pair<StampNs, StampNs> findStampSpan(MessageSelection& messages) {
   constexpr std::size_t kEnds = 20;  // messages at either end, of several topics
   std::pair<StampNs, StampNs> span(std::numeric_limits<StampNs>::max(), 0);
-  std::size_t i = 0;
-  for (const rosbag::MessageInstance& message : view) {
-    const bool is_at_end = i < kEnds || i + kEnds >= view.size();
-    ++i;
-    if (!is_at_end) continue;
-    const StampNs stamp = readHeaderStamp(message);
+  for (std::size_t i = 0; const std::optional<RecordedMessage> message = messages.next(); ++i) {
+    if (i >= kEnds && i + kEnds < messages.size()) continue;
+    const StampNs stamp = readHeaderStamp(*message);
     span = {std::min(span.first, stamp), std::max(span.second, stamp)};
   }
   return span;
 }
 
-StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
-                         const ReceiptRange& range) {
+StampSurvey surveyStamps(Recording& recording, const std::vector<std::string>& topics, const ReceiptRange& range) {
   StampSurvey survey;
-  const std::vector<Sample> samples = drawSamples(bags, topics, range);
+  const std::vector<Sample> samples = drawSamples(recording, topics, range);
   if (samples.empty()) return survey;
   survey.unset = std::all_of(samples.begin(), samples.end(), [](const Sample& sample) { return sample.stamp == 0; });
   if (survey.unset) return survey;
@@ -109,26 +101,22 @@ StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::st
   return survey;
 }
 
-BagMessages::BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted,
-                         const ReceiptRange& range)
-    : is_sorted_(is_sorted) {
-  for (rosbag::Bag* bag : bags) addToView(view_, *bag, topics, range);
-  position_ = view_.begin();
+BagMessages::BagMessages(const std::vector<RecordingFile*>& bags, const std::vector<std::string>& topics,
+                         bool is_sorted, const ReceiptRange& range)
+    : selection_(bags, topics, range), is_sorted_(is_sorted) {
   if (!is_sorted_) return;
-  all_.reserve(view_.size());
-  for (const rosbag::MessageInstance& message : view_) {
-    order_.emplace_back(readHeaderStamp(message), all_.size());
-    all_.push_back(message);
+  all_.reserve(selection_.size());
+  while (const std::optional<RecordedMessage> message = selection_.next()) {
+    order_.emplace_back(readHeaderStamp(*message), all_.size());
+    all_.push_back(*message);
   }
   std::sort(order_.begin(), order_.end());
 }
 
-const rosbag::MessageInstance* BagMessages::next() {
+const RecordedMessage* BagMessages::next() {
   if (is_sorted_) return next_ < order_.size() ? &all_[order_[next_++].second] : nullptr;
-  if (position_ == view_.end()) return nullptr;
-  message_.emplace(*position_);
-  ++position_;
-  return &*message_;
+  message_ = selection_.next();
+  return message_ ? &*message_ : nullptr;
 }
 
 }  // namespace urban_nav_input

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/bag.h>
-#include <rosbag/message_instance.h>
-#include <rosbag/view.h>
-
-#include <list>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "recording/clock_steps.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav_input {
 
@@ -29,33 +24,32 @@ struct StampSurvey {
   urban_nav_core::StampNs back = 0;
 };
 
-/// Returns the stamp (ns) of a message that begins with a std_msgs/Header.
-urban_nav_core::StampNs readHeaderStamp(const rosbag::MessageInstance& message);
+/// Returns the stamp (ns) of a message that begins with a std_msgs/Header; 0 if it is too short or damaged.
+urban_nav_core::StampNs readHeaderStamp(const RecordedMessage& message);
 
-/// Returns the smallest and the largest header stamp of the first and last messages of a view: about its span.
-std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs> findStampSpan(rosbag::View& view);
+/// Returns the smallest and the largest header stamp of the first and last messages of a selection, about its span.
+/// Reads the selection to its end.
+std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs> findStampSpan(MessageSelection& messages);
 
 /// Looks at a few hundred messages of the topics, evenly distributed over the part of the bags within `range`.
-StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
-                         const ReceiptRange& range = {});
+StampSurvey surveyStamps(Recording& recording, const std::vector<std::string>& topics, const ReceiptRange& range = {});
 
 /// Messages of some bags one after another: as they were received, or in the order of their header stamps, those of
 /// equal stamps as they were received. Sorting reads all of them once, keeps some 60 bytes for each, and requires
 /// topics whose messages have headers. Messages received outside `range` are left out.
 class BagMessages {
  public:
-  BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted,
+  BagMessages(const std::vector<RecordingFile*>& bags, const std::vector<std::string>& topics, bool is_sorted,
               const ReceiptRange& range = {});
 
   /// Returns null at the end; the message is valid until the next call.
-  const rosbag::MessageInstance* next();
+  const RecordedMessage* next();
 
  private:
-  rosbag::View view_;
-  rosbag::View::iterator position_;
-  std::optional<rosbag::MessageInstance> message_;
+  MessageSelection selection_;
+  std::optional<RecordedMessage> message_;
   bool is_sorted_;
-  std::vector<rosbag::MessageInstance> all_;                            // if they are sorted
+  std::vector<RecordedMessage> all_;                                    // if they are sorted
   std::vector<std::pair<urban_nav_core::StampNs, std::size_t>> order_;  // of them
   std::size_t next_ = 0;
 };

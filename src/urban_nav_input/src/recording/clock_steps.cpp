@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "recording/bag_order.hpp"
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
@@ -22,13 +21,14 @@ constexpr StampNs kSameStep = 1'000'000'000;  // ns between the receipts of two 
 /// Messages of one topic in the order of receipt; headers are read on demand.
 class TopicStamps {
  public:
-  TopicStamps(std::list<rosbag::Bag>& bags, const std::string& topic) {
-    for (rosbag::Bag& bag : bags) view_.addQuery(bag, rosbag::TopicQuery(topic));
-    for (const rosbag::MessageInstance& message : view_) messages_.push_back(message);
+  TopicStamps(Recording& recording, const std::string& topic) {
+    MessageSelection selection = recording.select(std::vector<std::string>{topic});
+    messages_.reserve(selection.size());
+    while (const std::optional<RecordedMessage> message = selection.next()) messages_.push_back(*message);
   }
 
   std::size_t size() const { return messages_.size(); }
-  StampNs receipt(std::size_t i) const { return urban_nav_ros::toStampNs(messages_[i].getTime()); }
+  StampNs receipt(std::size_t i) const { return messages_[i].receipt(); }
   StampNs stamp(std::size_t i) {
     const auto [known, is_new] = stamps_.try_emplace(i, 0);
     if (is_new) known->second = readHeaderStamp(messages_[i]);  // reads the whole message
@@ -37,8 +37,7 @@ class TopicStamps {
   StampNs delay(std::size_t i) { return receipt(i) - stamp(i); }
 
  private:
-  rosbag::View view_;
-  std::vector<rosbag::MessageInstance> messages_;
+  std::vector<RecordedMessage> messages_;
   std::map<std::size_t, StampNs> stamps_;  // read so far
 };
 
@@ -79,21 +78,10 @@ std::optional<ClockStep> findStepBetween(TopicStamps& topic, std::size_t before,
 
 }  // namespace
 
-void addToView(rosbag::View& view, rosbag::Bag& bag, const std::vector<std::string>& topics,
-               const ReceiptRange& range) {
-  const auto toTime = [](StampNs stamp) {
-    ros::Time time;
-    time.fromNSec(static_cast<std::uint64_t>(stamp));
-    return time;
-  };
-  view.addQuery(bag, rosbag::TopicQuery(topics), range.begin == 0 ? ros::TIME_MIN : toTime(range.begin),
-                range.end == 0 ? ros::TIME_MAX : toTime(range.end - 1));
-}
-
-std::vector<ClockStep> findClockSteps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics) {
+std::vector<ClockStep> findClockSteps(Recording& recording, const std::vector<std::string>& topics) {
   std::vector<ClockStep> found;
   for (const std::string& name : topics) {
-    TopicStamps topic(bags, name);
+    TopicStamps topic(recording, name);
     if (topic.size() < 2) continue;
     const std::size_t stride = std::max<std::size_t>(1, topic.size() / kProbes);
     const StampNs interval = usualInterval(topic, stride);

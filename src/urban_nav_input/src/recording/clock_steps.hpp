@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
-#include <list>
 #include <string>
 #include <vector>
 
 #include "urban_nav_core/types/stamp.hpp"
-#include "urban_nav_input/recording/receipt_range.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav_input {
-
-/// Adds the messages of some topics of a bag that were received within a range to a view.
-void addToView(rosbag::View& view, rosbag::Bag& bag, const std::vector<std::string>& topics, const ReceiptRange& range);
 
 /// Place in a recording at which a clock was set back.
 struct ClockStep {
@@ -25,6 +18,6 @@ struct ClockStep {
 /// Returns the places at which the stamps of a topic step back by more than a second while times of receipt ascend, in
 /// the order of receipt. Steps of several topics less than a second apart are one. Reads the headers of a few hundred
 /// messages per topic, evenly distributed: of several steps between two of them at most one is found.
-std::vector<ClockStep> findClockSteps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics);
+std::vector<ClockStep> findClockSteps(Recording& recording, const std::vector<std::string>& topics);
 
 }  // namespace urban_nav_input

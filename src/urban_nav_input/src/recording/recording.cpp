@@ -1,88 +1,99 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/recording/recording.hpp"
 
-#include <fstream>
+#include <stdexcept>
+#include <utility>
 
 #include "recording/bag_contents.hpp"
-#include "recording/clock_steps.hpp"
+#include "recording/message/connection_definition.hpp"
+#include "recording/recording_file.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
-using urban_nav_core::DataError;
-using urban_nav_core::UserError;
-
-void throwDamaged(const std::string& path, const std::exception& found) {
-  throw DataError(path, std::string("cannot be read: ") + found.what(),
-                  "a whole bag (`rosbag reindex` mends one that was cut off)");
-}
-
-bool isBagFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string magic(7, '\0');
-  return file.read(magic.data(), 7) && magic == "#ROSBAG";
-}
-
-urban_nav_core::StampNs RecordedMessage::receipt() const { return urban_nav_ros::toStampNs(instance_.getTime()); }
-
-RecordedMessages::RecordedMessages(Recording& recording, const std::vector<std::string>& topics,
-                                   const ReceiptRange& range) {
-  auto path = recording.paths().begin();
-  for (rosbag::Bag& bag : recording.bags()) {
-    File& file = files_.emplace_back();
-    file.path = &*path++;
-    addToView(file.view, bag, topics, range);
-    size_ += file.view.size();
-  }
-  file_ = files_.begin();
-  if (file_ != files_.end()) position_ = file_->view.begin();
+RecordedMessages::RecordedMessages(std::list<MessageSelection> files) : files_(std::move(files)) {
+  for (const MessageSelection& file : files_) size_ += file.size();
 }
 
 std::optional<RecordedMessage> RecordedMessages::next() {
-  while (file_ != files_.end() && position_ == file_->view.end())
-    if (++file_ != files_.end()) position_ = file_->view.begin();
-  if (file_ == files_.end()) return std::nullopt;
-  try {
-    RecordedMessage message(*position_, *file_->path);
-    ++position_;
-    return message;
-  } catch (const rosbag::BagException& error) {
-    throwDamaged(*file_->path, error);
+  while (!files_.empty()) {
+    if (std::optional<RecordedMessage> message = files_.front().next()) return message;
+    files_.pop_front();
   }
+  return std::nullopt;
 }
 
 Recording::Recording(const std::vector<std::string>& paths) : paths_(paths) {
-  for (const std::string& path : paths_) {
-    if (!isBagFile(path)) throw UserError(path, "is not a recording", "a bag");
-    try {
-      bags_.emplace_back(path, rosbag::bagmode::Read);
-    } catch (const rosbag::BagUnindexedException&) {
-      throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
-    } catch (const rosbag::BagException& error) {
-      throwDamaged(path, error);
-    }
-  }
+  for (const std::string& path : paths_) files_.push_back(std::make_unique<RecordingFile>(path));
 }
 
-std::map<std::string, std::string> Recording::topicTypes() { return urban_nav_input::topicTypes(bags_); }
+Recording::Recording(Recording&& other) noexcept = default;
+Recording::~Recording() = default;
 
-urban_nav_ros::StaticTransforms Recording::transforms() {
+std::string Recording::kind() const { return files_.front()->storage().kind(); }
+
+std::map<std::string, std::string> Recording::topicTypes() const {
+  std::map<std::string, std::string> types;
+  for (const auto& file : files_)
+    for (const Connection& connection : file->storage().connections()) types[connection.topic] = connection.type;
+  return types;
+}
+
+std::vector<Connection> Recording::connections() const {
+  std::vector<Connection> all;
+  for (const auto& file : files_) {
+    const std::vector<Connection>& some = file->storage().connections();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::string Recording::undecoded(const std::string& topic) {
+  MessageSelection selection = select(std::vector<std::string>{topic});
+  const std::optional<RecordedMessage> first = selection.next();
+  if (!first) return {};
+  const Connection& connection = first->connection();
+  if (connection.encoding != "ros1" && connection.encoding != "cdr")
+    return "its messages are encoded as " + (connection.encoding.empty() ? "nothing" : connection.encoding);
   try {
-    return readTransforms(bags_);
-  } catch (const rosbag::BagException& error) {
-    throwDamaged(paths_.front(), error);
+    findDefinition(connection);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
   }
+  if (connection.encoding == "cdr" && !cdrEncoding(first->bytes()))
+    return "its messages are in a form of CDR that is not understood (XCDR2 or parameter lists)";
+  return {};
 }
 
-urban_nav_core::StampNs Recording::begin() {
-  rosbag::View view;
-  for (rosbag::Bag& bag : bags_) view.addQuery(bag);
-  return view.size() == 0 ? 0 : urban_nav_ros::toStampNs(view.getBeginTime());
-}
+std::size_t Recording::count(const std::string& topic) { return select(std::vector<std::string>{topic}).size(); }
+
+urban_nav_ros::StaticTransforms Recording::transforms() { return readTransforms(*this); }
+
+urban_nav_core::StampNs Recording::begin() { return select(std::nullopt).first(); }
+
+urban_nav_core::StampNs Recording::end() { return select(std::nullopt).last(); }
 
 RecordedMessages Recording::messages(const std::vector<std::string>& topics, const ReceiptRange& range) {
-  return RecordedMessages(*this, topics, range);
+  std::list<MessageSelection> selections;
+  for (RecordingFile* file : files()) selections.emplace_back(std::vector<RecordingFile*>{file}, topics, range);
+  return RecordedMessages(std::move(selections));
+}
+
+MessageSelection Recording::select(const std::optional<std::vector<std::string>>& topics, const ReceiptRange& range) {
+  return {files(), topics, range};
+}
+
+std::vector<std::string> Recording::warnings() const {
+  std::vector<std::string> all;
+  for (const auto& file : files_)
+    for (const std::string& warning : file->storage().warnings()) all.push_back(file->path() + ": " + warning);
+  return all;
+}
+
+std::vector<RecordingFile*> Recording::files() const {
+  std::vector<RecordingFile*> files;
+  for (const auto& file : files_) files.push_back(file.get());
+  return files;
 }
 
 }  // namespace urban_nav_input

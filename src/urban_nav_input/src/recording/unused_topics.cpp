@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/unused_topics.hpp"
 
-#include <rosbag/view.h>
-
 #include <map>
 #include <utility>
 
@@ -22,18 +20,10 @@ std::string bareTopic(const std::string& topic) {
 
 }  // namespace
 
-std::string describeUnusedTopics(std::list<rosbag::Bag>& bags, const std::set<std::string>& used) {
+std::string describeUnusedTopics(Recording& recording, const std::set<std::string>& used) {
   std::map<std::string, std::pair<std::string, std::size_t>> unused;  // type and messages by name
-  for (rosbag::Bag& bag : bags) {
-    std::set<std::string> counted;
-    for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
-      const std::string& name = connection->topic;
-      if (used.count(name) > 0 || ownTopics().count(bareTopic(name)) > 0 || !counted.insert(name).second) continue;
-      std::pair<std::string, std::size_t>& entry = unused[name];
-      entry.first = connection->datatype;
-      entry.second += rosbag::View(bag, rosbag::TopicQuery(name)).size();
-    }
-  }
+  for (const auto& [name, type] : recording.topicTypes())
+    if (used.count(name) == 0 && ownTopics().count(bareTopic(name)) == 0) unused[name] = {type, recording.count(name)};
   std::string sentence;
   for (const auto& [name, entry] : unused)
     sentence += (sentence.empty() ? "not used: " : ", ") + name + " (" + entry.first + ", " +

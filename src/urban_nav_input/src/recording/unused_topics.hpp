@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/bag.h>
-
-#include <list>
 #include <set>
 #include <string>
 
+#include "urban_nav_input/recording/recording.hpp"
+
 namespace urban_nav_input {
 
-/// Returns a sentence that names the topics of bags that are not in `used`, with type and number of messages, in the
-/// order of their names; empty if there are none. Topics of ROS itself (/rosout, /clock, /diagnostics, /tf) are left
-/// out.
-std::string describeUnusedTopics(std::list<rosbag::Bag>& bags, const std::set<std::string>& used);
+/// Returns a sentence that names the topics of a recording that are not in `used`, with type and number of messages, in
+/// the order of their names; empty if there are none. Topics of ROS itself (/rosout, /clock, /diagnostics, /tf) are
+/// left out.
+std::string describeUnusedTopics(Recording& recording, const std::set<std::string>& used);
 
 }  // namespace urban_nav_input

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/bag_calibration.hpp"
 
-#include <rosbag/view.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "recording/bag_order.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/rectification_choice.hpp"
-#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
@@ -22,10 +19,9 @@ constexpr StampNs kPartner = 5'000'000;          // ns, between the stamps of a 
 constexpr StampNs kReceiptPartner = 25'000'000;  // ns, between the times of receipt of a pair without stamps
 
 /// Returns grey values in the depth of the image.
-cv::Mat decodeGrey(const rosbag::MessageInstance& message) {
-  if (const auto image = message.instantiate<sensor_msgs::Image>())
-    return urban_nav_ros::toDeepGrey(*image).pixels.clone();
-  if (const auto packed = message.instantiate<sensor_msgs::CompressedImage>())
+cv::Mat decodeGrey(const RecordedMessage& message) {
+  if (const auto image = message.as<sensor_msgs::Image>()) return urban_nav_ros::toDeepGrey(*image).pixels.clone();
+  if (const auto packed = message.as<sensor_msgs::CompressedImage>())
     return urban_nav_ros::toDeepGrey(*packed).pixels.clone();
   return {};
 }
@@ -44,21 +40,22 @@ void toEightBits(std::vector<ImagePair>& pairs) {
 class StampedMessages {
  public:
   /// `by_receipt`: stamps are not set, and times of receipt replace them.
-  StampedMessages(std::list<rosbag::Bag>& bags, const std::string& topic, const ReceiptRange& part, bool by_receipt)
+  StampedMessages(Recording& recording, const std::string& topic, const ReceiptRange& part, bool by_receipt)
       : by_receipt_(by_receipt) {
-    for (rosbag::Bag& bag : bags) addToView(view_, bag, {topic}, part);
-    for (const rosbag::MessageInstance& message : view_) messages_.push_back(message);
+    MessageSelection messages = recording.select(std::vector<std::string>{topic}, part);
+    messages_.reserve(messages.size());
+    while (const std::optional<RecordedMessage> message = messages.next()) messages_.push_back(*message);
   }
 
   std::size_t size() const { return messages_.size(); }
-  const rosbag::MessageInstance& operator[](std::size_t i) const { return messages_[i]; }
+  const RecordedMessage& operator[](std::size_t i) const { return messages_[i]; }
   StampNs stamp(std::size_t i) const {
-    return by_receipt_ ? urban_nav_ros::toStampNs(messages_[i].getTime()) : readHeaderStamp(messages_[i]);
+    return by_receipt_ ? messages_[i].receipt() : readHeaderStamp(messages_[i]);
   }
 
   /// Returns the message whose stamp is nearest to `stamp`, if within the tolerance of a pair: by bisection, since
   /// stamps mostly ascend, then among the neighbours.
-  const rosbag::MessageInstance* find(StampNs stamp) const {
+  const RecordedMessage* find(StampNs stamp) const {
     constexpr std::size_t kNeighbours = 8;
     std::size_t low = 0, high = messages_.size();
     while (low < high) {
@@ -66,7 +63,7 @@ class StampedMessages {
       if (this->stamp(middle) < stamp) low = middle + 1;
       else high = middle;
     }
-    const rosbag::MessageInstance* found = nullptr;
+    const RecordedMessage* found = nullptr;
     StampNs least = by_receipt_ ? kReceiptPartner : kPartner;
     for (std::size_t i = low > kNeighbours ? low - kNeighbours : 0; i < std::min(size(), low + kNeighbours); ++i) {
       const StampNs apart = std::abs(this->stamp(i) - stamp);
@@ -79,8 +76,7 @@ class StampedMessages {
 
  private:
   bool by_receipt_;
-  rosbag::View view_;
-  std::vector<rosbag::MessageInstance> messages_;
+  std::vector<RecordedMessage> messages_;
 };
 
 /// Returns the indices of about `count` of `size` images, one from each part of the recording but at no fixed interval,
@@ -97,14 +93,15 @@ std::vector<std::size_t> drawIndices(std::size_t size, int count) {
 }
 
 /// Returns at most `count` decoded pairs of a recording; fewer where partners are not found by their stamps.
-std::vector<ImagePair> samplePairs(std::list<rosbag::Bag>& bags, const StereoTopics& topics, const ReceiptRange& part,
+std::vector<ImagePair> samplePairs(Recording& recording, const StereoTopics& topics, const ReceiptRange& part,
                                    int count) {
-  const StampSurvey survey = surveyStamps(bags, {topics.left, topics.right}, part);
+  const StampSurvey survey = surveyStamps(recording, {topics.left, topics.right}, part);
   const bool by_receipt = survey.unset || survey.constant;
-  const StampedMessages left(bags, topics.left, part, by_receipt), right(bags, topics.right, part, by_receipt);
+  const StampedMessages left(recording, topics.left, part, by_receipt),
+      right(recording, topics.right, part, by_receipt);
   std::vector<ImagePair> pairs;
   for (const std::size_t i : drawIndices(left.size(), count)) {
-    const rosbag::MessageInstance* partner = right.find(left.stamp(i) + topics.right_delay);
+    const RecordedMessage* partner = right.find(left.stamp(i) + topics.right_delay);
     if (partner == nullptr) continue;
     ImagePair pair{decodeGrey(left[i]), decodeGrey(*partner)};
     if (!pair.first.empty() && pair.second.size() == pair.first.size()) pairs.push_back(std::move(pair));
@@ -115,7 +112,7 @@ std::vector<ImagePair> samplePairs(std::list<rosbag::Bag>& bags, const StereoTop
 
 }  // namespace
 
-urban_nav_ros::StereoCalibration makeCalibration(std::list<rosbag::Bag>& bags, const StereoTopics& topics,
+urban_nav_ros::StereoCalibration makeCalibration(Recording& recording, const StereoTopics& topics,
                                                  const ReceiptRange& part, bool named_as_rectified,
                                                  const StereoInfos& infos, std::vector<std::string>& notes) {
   using urban_nav_ros::StereoCalibration;
@@ -123,7 +120,7 @@ urban_nav_ros::StereoCalibration makeCalibration(std::list<rosbag::Bag>& bags, c
   const StereoCalibration rectifying(infos.left, infos.right, false, infos.where);
   if (!rectifying.rectifies()) return as_named;
   const urban_nav_ros::RectificationChoice choice =
-      urban_nav_ros::chooseRectification(samplePairs(bags, topics, part, urban_nav_ros::kJudgedPairs), rectifying);
+      urban_nav_ros::chooseRectification(samplePairs(recording, topics, part, urban_nav_ros::kJudgedPairs), rectifying);
   if (std::string note = choice.contradiction(named_as_rectified); !note.empty()) notes.push_back(std::move(note));
   return {infos.left, infos.right, choice.isRectified(named_as_rectified), infos.where};
 }

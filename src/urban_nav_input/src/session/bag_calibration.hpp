@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/bag.h>
-
-#include <list>
 #include <string>
 #include <vector>
 
-#include "recording/clock_steps.hpp"
 #include "urban_nav_core/camera/camera_info.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/stereo_calibration.hpp"
 
 namespace urban_nav_input {
@@ -29,7 +26,7 @@ struct StereoInfos {
 /// Returns the calibration of the images of a recording. Whether they are rectified already is judged by what they
 /// show; `named_as_rectified` decides where that is not clear. Appends a note where the name misleads. Throws
 /// UserError, as StereoCalibration.
-urban_nav_ros::StereoCalibration makeCalibration(std::list<rosbag::Bag>& bags, const StereoTopics& topics,
+urban_nav_ros::StereoCalibration makeCalibration(Recording& recording, const StereoTopics& topics,
                                                  const ReceiptRange& part, bool named_as_rectified,
                                                  const StereoInfos& infos, std::vector<std::string>& notes);
 

@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <list>
 #include <set>
 #include <tuple>
 
-#include "recording/bag_contents.hpp"
 #include "recording/bag_groups.hpp"
 #include "recording/bag_order.hpp"
-#include "recording/clock_steps.hpp"
 #include "recording/unused_topics.hpp"
 #include "session/bag_calibration.hpp"
+#include "session/bag_sensors.hpp"
+#include "session/given_transforms.hpp"
 #include "session/pair_delay.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/sensors/topic_examination.hpp"
 #include "urban_nav_input/session/bag_panorama.hpp"
 #include "urban_nav_input/session/calibration_file.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
-#include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
@@ -58,8 +55,8 @@ class BagSource : public Source {
  public:
   BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* after,
             const ReceiptRange& part)
-      : options_(options), part_(part), name_(paths.front()), recording_(paths), bags_(recording_.bags()) {
-    topics_ = chooseTopics(topicTypes(bags_), options.topics);
+      : options_(options), part_(part), name_(paths.front()), recording_(paths) {
+    topics_ = chooseTopics(recording_.topicTypes(), options.topics);
     if (!topics_.find(Role::Left) || !topics_.find(Role::Right))
       throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
@@ -75,29 +72,24 @@ class BagSource : public Source {
   const SourceInfo& info() const override { return info_; }
 
   std::optional<SourceItem> next() override {
-    try {
-      while (true) {
-        if (std::optional<urban_nav_ros::DecodedPair> pair = feed_->take()) {
-          SourceItem input(std::move(*pair));
-          input.bag_end = std::exchange(bag_end_, nullptr);
-          input.scans = std::exchange(scans_, {});
-          input.panoramas = std::exchange(panoramas_, {});
-          return input;
-        }
-        if (ended_) return std::nullopt;
-        if (const rosbag::MessageInstance* message = messages_ ? messages_->next() : nullptr) add(*message);
-        else endGroup();
+    while (true) {
+      if (std::optional<urban_nav_ros::DecodedPair> pair = feed_->take()) {
+        SourceItem input(std::move(*pair));
+        input.bag_end = std::exchange(bag_end_, nullptr);
+        input.scans = std::exchange(scans_, {});
+        input.panoramas = std::exchange(panoramas_, {});
+        return input;
       }
-    } catch (const rosbag::BagException& error) {
-      throw DataError(name_, std::string("is damaged: ") + error.what(), "");
-    } catch (const ros::serialization::StreamOverrunException& error) {
-      throw DataError(name_, std::string("holds a message that is damaged: ") + error.what(), "");
+      if (ended_) return std::nullopt;
+      if (const RecordedMessage* message = messages_ ? messages_->next() : nullptr) add(*message);
+      else endGroup();
     }
   }
 
   std::vector<LaserInput> scans() const override { return scans_; }
   std::vector<urban_nav_ros::Panorama> panoramas() const override { return panoramas_; }
-  std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
+  std::vector<urban_nav_core::SpecificForce> forces() const override { return sensors_.forces(); }
+  std::vector<Finding> sensorFindings() const override { return sensors_.findings(); }
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
   std::vector<std::string> closingFaults() const override {
@@ -118,18 +110,15 @@ class BagSource : public Source {
     };
     count(urban_nav_ros::Side::Left, Role::Left);
     count(urban_nav_ros::Side::Right, Role::Right);
-    for (std::size_t i = 0; i < laser_topics_.size(); ++i)
-      if (refused_scans_[i] > 0)
-        faults.push_back(laser_topics_[i] + ": " + std::to_string(refused_scans_[i]) +
-                         " scans have no stamp, or angles or times that are not finite, and were dropped");
     for (std::string& fault : panorama_.faults()) faults.push_back(std::move(fault));
+    for (std::string& warning : recording_.warnings()) faults.push_back(std::move(warning));
     return faults;
   }
 
  private:
   std::string listing() {
     std::string text;
-    for (const auto& [topic, type] : topicTypes(bags_)) {
+    for (const auto& [topic, type] : recording_.topicTypes()) {
       if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
     }
     return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
@@ -191,14 +180,18 @@ class BagSource : public Source {
                                   : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
     const StereoTopics topics{left.name, topics_.find(Role::Right)->name,
                               static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay)};
-    calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(
-        makeCalibration(bags_, topics, part_, isRectifiedName(left.name), {left_info, right_info, where}, info_.notes));
+    calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(makeCalibration(
+        recording_, topics, part_, isRectifiedName(left.name), {left_info, right_info, where}, info_.notes));
     info_.camera = calibration_->camera();
     if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
   }
 
   void place() {
-    const urban_nav_ros::StaticTransforms transforms = readTransforms(bags_);
+    urban_nav_ros::StaticTransforms transforms = recording_.transforms();
+    giveTransforms(options_.transforms, transforms);
+    for (const std::string& given : options_.transforms) info_.notes.push_back("--transform " + given);
+    sensors_.add(readerFindings(transforms.faults()));
+    sensors_.add(topicFindings(recording_.topicTypes(), topics_));
     if (const std::optional<urban_nav_core::Pose> T_base_optical =
             transforms.lookup(frames::kBaseLink, camera_frame_)) {
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
@@ -219,25 +212,24 @@ class BagSource : public Source {
       if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
         laser_topics_.push_back(topic->name);
+        sensors_.addLaser(topic->name);
       } else {
         info_.notes.push_back("no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
                               " is not used");
       }
     }
-    refused_scans_.resize(laser_topics_.size(), 0);
     panorama_ = BagPanorama(recording_, topics_, transforms);
     info_.panorama = panorama_.cameras();
   }
 
   /// What is read, and what becomes of it: from the topics and from where the IMU stands.
   void listen() {
+    if (R_base_imu_) sensors_.placeImu(*R_base_imu_);
     wheels_.emplace(options_.wheel_noise);
     gyroscope_.emplace(options_.gyro_noise, R_base_imu_.value_or(urban_nav_core::Matrix3d::Identity()));
     names_ = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
-    if (options_.motion_input != "none")
-      names_.push_back(topics_.find(options_.motion_input == "wheels" ? Role::Wheels : Role::Imu)->name);
-    if (R_base_imu_ && options_.motion_input != "gyroscope" && topics_.find(Role::Imu))
-      names_.push_back(topics_.find(Role::Imu)->name);
+    for (const Role role : {Role::Imu, Role::Wheels, Role::Gps})
+      if (topics_.find(role)) names_.push_back(topics_.find(role)->name);
     names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
     for (std::string& name : panorama_.topics()) names_.push_back(std::move(name));
   }
@@ -252,7 +244,7 @@ class BagSource : public Source {
         throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
       feed.motion = true;
     }
-    const StampSurvey survey = surveyStamps(bags_, images, part_);
+    const StampSurvey survey = surveyStamps(recording_, images, part_);
     stamps_are_receipts_ = survey.unset || survey.constant;
     is_sorted_ = survey.needs_sorting;
     if (stamps_are_receipts_) {
@@ -269,31 +261,26 @@ class BagSource : public Source {
     feed_.emplace(feed, calibration_);
     listen();
     noteUnused();
-    groups_ = groupBags(bags_);
+    groups_ = groupBags(recording_);
     if (is_sorted_ && groups_.size() > 1) groups_ = asOneGroup(groups_);
-    rosbag::View stereo;
-    for (rosbag::Bag& bag : bags_) {
-      rosbag::View left;
-      addToView(left, bag, {images.front()}, part_);
-      info_.frames += left.size();
-      addToView(stereo, bag, images, part_);
-    }
+    info_.frames += recording_.select(std::vector<std::string>{images.front()}, part_).size();
+    MessageSelection stereo = recording_.select(images, part_);
     if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
-    if (stamps_are_receipts_) {
-      info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
-      info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
-    } else {
-      std::tie(info_.first, info_.last) = findStampSpan(stereo);
-    }
+    std::tie(info_.first, info_.last) =
+        stamps_are_receipts_ ? std::make_pair(stereo.first(), stereo.last()) : findStampSpan(stereo);
     expectRange(images);
   }
 
   void noteUnused() {
     std::set<std::string> used(names_.begin(), names_.end());
     used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
-    for (const auto& [role, topic] : topics_.chosen)
-      if (role != Role::Wheels && role != Role::Imu) used.insert(topic.name);  // these are read only if they are of use
-    if (std::string sentence = describeUnusedTopics(bags_, used); !sentence.empty())
+    for (const auto& [role, topic] : topics_.chosen) used.insert(topic.name);
+    const auto leave = [&](Role role, bool is_of_use) {  // it is examined all the same
+      if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
+    };
+    leave(Role::Wheels, options_.motion_input == "wheels");
+    leave(Role::Imu, R_base_imu_ || options_.motion_input == "gyroscope");
+    if (std::string sentence = describeUnusedTopics(recording_, used); !sentence.empty())
       info_.notes.push_back(std::move(sentence));
   }
 
@@ -301,14 +288,12 @@ class BagSource : public Source {
   void expectRange(const std::vector<std::string>& topics) {
     urban_nav_ros::GreyRange range;
     for (const std::string& topic : topics) {
-      std::size_t seen = 0;
-      for (rosbag::Bag& bag : bags_) {
-        rosbag::View view(bag, rosbag::TopicQuery(topic));
-        for (auto message = view.begin(); message != view.end() && seen < kDepthSamples; ++message, ++seen) {
-          if (const auto image = message->instantiate<sensor_msgs::Image>()) range.add(*image);
-          else if (const auto packed = message->instantiate<sensor_msgs::CompressedImage>()) range.add(*packed);
-        }
-        if (seen >= kDepthSamples) break;
+      RecordedMessages messages = recording_.messages({topic});
+      for (std::size_t seen = 0; seen < kDepthSamples; ++seen) {
+        const std::optional<RecordedMessage> message = messages.next();
+        if (!message) break;
+        if (const auto image = message->as<sensor_msgs::Image>()) range.add(*image);
+        else if (const auto packed = message->as<sensor_msgs::CompressedImage>()) range.add(*packed);
       }
     }
     range.settle();
@@ -352,18 +337,13 @@ class BagSource : public Source {
       for (const auto& [topic, place] : lasers) {
         laser_topics_.push_back(topic);
         info_.lasers.push_back({place.first, place.second});
+        sensors_.addLaser(topic);
       }
-      refused_scans_.resize(laser_topics_.size(), 0);
     }
     archive(panorama_);
     info_.panorama = panorama_.cameras();
     if (archive.isReading()) listen();
-    std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::Vector3d>> forces;
-    for (const urban_nav_core::SpecificForce& sample : forces_) forces.emplace_back(sample.stamp, sample.force);
-    archive(forces, *wheels_, *gyroscope_, *feed_);
-    if (!archive.isReading()) return;
-    forces_.clear();
-    for (const auto& [stamp, force] : forces) forces_.push_back({stamp, force});
+    archive(sensors_, *wheels_, *gyroscope_, *feed_);
   }
 
   /// After bags that need not exist any more: what stood only in them is taken from the state, and what stands in
@@ -392,36 +372,42 @@ class BagSource : public Source {
     if (!is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) info_.notes.pop_back();  // they say the place
   }
 
-  void add(const rosbag::MessageInstance& instance) {
-    const std::string& topic = instance.getTopic();
+  void add(const RecordedMessage& instance) {
+    const std::string& topic = instance.topic();
     if (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name) {
       const urban_nav_ros::Side side =
           topic == topics_.find(Role::Left)->name ? urban_nav_ros::Side::Left : urban_nav_ros::Side::Right;
-      if (const auto image = instance.instantiate<sensor_msgs::Image>()) {
+      if (const auto image = instance.as<sensor_msgs::Image>()) {
         setStamp(side, instance, image->header);
         feed_->add(side, sensor_msgs::ImageConstPtr(image));
-      } else if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>()) {
+      } else if (const auto compressed = instance.as<sensor_msgs::CompressedImage>()) {
         setStamp(side, instance, compressed->header);
         feed_->add(side, sensor_msgs::CompressedImageConstPtr(compressed));
       }
-    } else if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+    } else if (const auto odometry = instance.as<nav_msgs::Odometry>()) {
+      sensors_.add(*odometry, topic, instance.receipt());
+      if (options_.motion_input != "wheels") return;
       if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
-    } else if (const auto imu = instance.instantiate<sensor_msgs::Imu>()) {
-      feel(*imu);
+    } else if (const auto imu = instance.as<sensor_msgs::Imu>()) {
+      sensors_.add(*imu, topic, instance.receipt());
       if (const auto motion = gyroscope_->add(*imu); motion && options_.motion_input == "gyroscope")
         feed_->add(*motion);
-    } else if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
-      add(topic, *scan);
-    } else if (panorama_.add(RecordedMessage(instance, name_))) {
+    } else if (const auto scan = instance.as<sensor_msgs::LaserScan>()) {
+      add(instance, *scan);
+    } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
+      sensors_.add(*fix);
+    } else if (panorama_.add(instance)) {
       takePanoramas();
     }
   }
 
   /// Puts right what is known to be wrong with an image's stamp, and remembers the first stamps of each side.
-  void setStamp(urban_nav_ros::Side side, const rosbag::MessageInstance& instance, std_msgs::Header& header) {
+  void setStamp(urban_nav_ros::Side side, const RecordedMessage& instance, std_msgs::Header& header) {
     constexpr std::size_t kRemembered = 400;
     const bool is_right = side == urban_nav_ros::Side::Right;
-    if (stamps_are_receipts_) header.stamp = instance.getTime();
+    if (!is_right)
+      sensors_.addImage(instance.topic(), urban_nav_ros::toStampNs(header.stamp), instance.receipt());
+    if (stamps_are_receipts_) header.stamp = urban_nav_ros::toRosTime(instance.receipt());
     if (is_right && options_.right_delay != 0.0)
       header.stamp = urban_nav_ros::toRosTime(urban_nav_ros::toStampNs(header.stamp) -
                                               static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay));
@@ -433,27 +419,18 @@ class BagSource : public Source {
     for (urban_nav_ros::Panorama& panorama : panorama_.take()) panoramas_.push_back(std::move(panorama));
   }
 
-  void add(const std::string& topic, const sensor_msgs::LaserScan& message) {
+  void add(const RecordedMessage& instance, const sensor_msgs::LaserScan& message) {
+    const std::string& topic = instance.topic();
     const auto laser =
         static_cast<std::size_t>(std::find(laser_topics_.begin(), laser_topics_.end(), topic) - laser_topics_.begin());
-    if (const auto planar = urban_nav_ros::toPlanarScan(message))
+    if (const auto planar = sensors_.read(laser, message, instance.receipt()))
       scans_.push_back({laser, urban_nav_core::toScan(*planar)});
-    else ++refused_scans_[laser];
-  }
-
-  void feel(const sensor_msgs::Imu& imu) {
-    // sensor_msgs/Imu: element 0 is -1 where there is no accelerometer.
-    if (!R_base_imu_ || imu.linear_acceleration_covariance[0] < 0.0) return;
-    const urban_nav_core::Vector3d force(imu.linear_acceleration.x, imu.linear_acceleration.y,
-                                         imu.linear_acceleration.z);
-    if (force.allFinite()) forces_.push_back({urban_nav_ros::toStampNs(imu.header.stamp), *R_base_imu_ * force});
   }
 
   const SourceOptions options_;
   const ReceiptRange part_;
   const std::string name_;
   Recording recording_;
-  std::list<rosbag::Bag>& bags_;  // of recording_; a view points at them
   BagTopics topics_;
   SourceInfo info_;
   std::string camera_frame_;
@@ -461,10 +438,9 @@ class BagSource : public Source {
   std::optional<urban_nav_ros::WheelMotion> wheels_;
   std::optional<urban_nav_ros::GyroMotion> gyroscope_;
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
-  std::vector<urban_nav_core::SpecificForce> forces_;
-  std::vector<std::string> laser_topics_;    // of info_.lasers
-  std::vector<std::int64_t> refused_scans_;  // likewise
-  std::vector<LaserInput> scans_;            // since the pair or end of a bag before
+  std::vector<std::string> laser_topics_;  // in the order of info_.lasers
+  BagSensors sensors_{options_, topics_};
+  std::vector<LaserInput> scans_;  // since the pair or end of a bag before
   BagPanorama panorama_;
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the pair or end of a bag before
   std::optional<StereoFeed> feed_;
@@ -484,12 +460,7 @@ class BagSource : public Source {
 
 std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options,
                                  const BagEnd* after, const ReceiptRange& part) {
-  try {
-    return std::make_unique<BagSource>(paths, options, after, part);
-  } catch (const rosbag::BagException& error) {
-    throw DataError(paths.front(), std::string("cannot be read: ") + error.what(),
-                    "a whole bag (`rosbag reindex` mends one that was cut off)");
-  }
+  return std::make_unique<BagSource>(paths, options, after, part);
 }
 
 }  // namespace urban_nav_input

@@ -8,12 +8,12 @@ namespace urban_nav_input {
 
 /// What lies at a path that is no input of the suite, and what makes an input of it.
 struct ForeignInput {
-  std::string found;   ///< follows the path in a sentence: "is a ROS 2 bag (MCAP)"
+  std::string found;   ///< follows the path in a sentence: "is compressed by gzip"
   std::string remedy;  ///< a command, or the input that was probably meant
 };
 
-/// Recognises bags of ROS 2 (folder, .db3, .mcap), stores of the suite, compressed bags, and folders of bags by their
-/// contents. Returns nullopt for anything else.
+/// Recognises stores of the suite, other databases, compressed bags, Git LFS pointers, empty files, and folders of
+/// bags by their contents. Returns nullopt for anything else.
 std::optional<ForeignInput> recogniseForeignInput(const std::string& path);
 
 }  // namespace urban_nav_input

@@ -1,27 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/session/input_parameters.hpp"
 
+#include <cmath>
+
+#include "urban_nav_core/inertial/axis_map.hpp"
+#include "urban_nav_core/types/error.hpp"
+
 namespace urban_nav_input {
 
 using urban_nav_core::Table;
 
 InputParameters::InputParameters() { inputTable().setDefaults(*this); }
 
+namespace {
+
+using P = InputParameters;
+
+constexpr double kLongestDelay = 1e13;  // ms: of a clock that was never set
+
+urban_nav_core::Row<P> delayRow(const char* name, double P::*member, const std::string& what) {
+  return {name,
+          member,
+          "ms",
+          0.0,
+          -kLongestDelay,
+          kLongestDelay,
+          {},
+          "How much later " + what + " are stamped than they were measured; it is taken from their stamps.",
+          "docs/files.md"};
+}
+
+urban_nav_core::Row<P> scaleRow(const char* name, double P::*member, const char* unit, const std::string& sentence) {
+  return {name, member, unit, 1.0, 1e-6, 1e6, {}, sentence, "docs/files.md"};
+}
+
+std::vector<urban_nav_core::Row<P>> ownRows() {
+  return {
+      {"right_delay",
+       &P::right_delay,
+       "ms",
+       0.0,
+       -1000.0,
+       1000.0,
+       {},
+       "how much later the right images of a bag are stamped than the left ones, though they are exposed "
+       "together; it is taken from their stamps",
+       "docs/files.md"},
+      {"accelerometer_axes",
+       &P::accelerometer_axes,
+       "",
+       "x,y,z",
+       false,
+       false,
+       {},
+       "Which axis of the messages of the IMU is x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x "
+       "for exchanged axes.",
+       "docs/files.md"},
+      scaleRow("accelerometer_scale", &P::accelerometer_scale, "m/s2",
+               "Specific force of 1 in the messages of the IMU: 9.80665 where they state it in g."),
+      delayRow("imu_delay", &P::imu_delay, "messages of the IMU"),
+      delayRow("laser_left_delay", &P::laser_left_delay, "scans of laser_left"),
+      delayRow("laser_right_delay", &P::laser_right_delay, "scans of laser_right"),
+      scaleRow("laser_left_range_scale", &P::laser_left_range_scale, "m",
+               "Range of 1 in the messages of laser_left: 0.001 where they state millimetres."),
+      scaleRow("laser_right_range_scale", &P::laser_right_range_scale, "m",
+               "Range of 1 in the messages of laser_right: 0.001 where they state millimetres."),
+      scaleRow("laser_left_angle_scale", &P::laser_left_angle_scale, "rad",
+               "Angle of 1 in the messages of laser_left: 0.0174532925 where they state degrees."),
+      scaleRow("laser_right_angle_scale", &P::laser_right_angle_scale, "rad",
+               "Angle of 1 in the messages of laser_right: 0.0174532925 where they state degrees.")};
+}
+
+}  // namespace
+
 const Table<InputParameters>& inputTable() {
-  using P = InputParameters;
-  static const Table<P> table(
-      "input", urban_nav_core::withMotionInput<P>(
-                   {{"right_delay",
-                     &P::right_delay,
-                     "ms",
-                     0.0,
-                     -1000.0,
-                     1000.0,
-                     {},
-                     "how much later the right images of a bag are stamped than the left ones, though they are exposed "
-                     "together; it is taken from their stamps",
-                     "docs/files.md"}}));
+  static const Table<P> table("input", urban_nav_core::withMotionInput<P>(ownRows()));
   return table;
+}
+
+void apply(const InputParameters& parameters, SourceOptions& options) {
+  options.motion_input = parameters.motion_input;
+  options.wheel_noise = parameters.wheel_noise;
+  options.gyro_noise = parameters.gyro_noise;
+  options.right_delay = parameters.right_delay;
+  const auto axes = urban_nav_core::parseAxisMap(parameters.accelerometer_axes);
+  if (!axes)
+    throw urban_nav_core::UserError("input.accelerometer_axes", "\"" + parameters.accelerometer_axes + "\"",
+                                    "x, y and z in any order, each with or without a minus, such as -x,-y,-z");
+  options.accelerometer = {*axes, parameters.accelerometer_scale};
+  options.imu_delay = parameters.imu_delay;
+  const auto toNs = [](double ms) { return static_cast<urban_nav_core::StampNs>(std::llround(1e6 * ms)); };
+  options.lasers = {
+      {{parameters.laser_left_range_scale, parameters.laser_left_angle_scale, toNs(parameters.laser_left_delay)},
+       {parameters.laser_right_range_scale, parameters.laser_right_angle_scale, toNs(parameters.laser_right_delay)}}};
 }
 
 }  // namespace urban_nav_input

@@ -16,7 +16,8 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr const char* kKnownInputs =
-    "a bag, a KITTI folder (image_0/, image_1/, calib.txt; image_00/data/ too), a EuRoC folder (mav0/), or a New "
+    "a recording (ROS 1 bag, MCAP, .db3, folder of rosbag2), a KITTI folder "
+    " (image_0/, image_1/, calib.txt; image_00/data/ too), a EuRoC folder (mav0/), or a New "
     "College folder (*.alog, StereoImages/)";
 
 bool hasAlog(const std::string& folder) {
@@ -31,14 +32,16 @@ bool hasAlog(const std::string& folder) {
 InputKind inputKind(const std::string& path) {
   if (!fs::exists(path)) throw UserError(path, "is not there", kKnownInputs);
   if (!fs::is_directory(path)) {
-    if (isBagFile(path)) return InputKind::Bag;
+    if (!fs::is_regular_file(path)) throw UserError(path, "is neither a file nor a folder", kKnownInputs);
+    if (isRecording(path)) return InputKind::Bag;
     if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
-    throw UserError(path, "is no bag (its first line is not #ROSBAG)", kKnownInputs);
+    throw UserError(path, "is no recording (neither a ROS 1 bag, nor MCAP, nor a .db3 of rosbag2)", kKnownInputs);
   }
   if (findKittiLayout(path)) return InputKind::KittiFolder;
   if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0"))
     return InputKind::EurocFolder;
   if (fs::is_directory(fs::path(path) / "StereoImages") || hasAlog(path)) return InputKind::NewCollegeFolder;
+  if (isRecording(path)) return InputKind::Bag;
   if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
   throw UserError(path, "holds nothing that is known", kKnownInputs);
 }

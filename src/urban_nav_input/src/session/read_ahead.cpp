@@ -50,6 +50,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->closingFaults() : std::vector<std::string>();
   }
 
+  std::vector<Finding> sensorFindings() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->sensorFindings() : std::vector<Finding>();
+  }
+
   std::shared_ptr<const BagEnd> bagEnd() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->bagEnd() : nullptr;

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/session/sessions.hpp"
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <list>
 #include <map>
 #include <optional>
 #include <utility>
 
-#include "recording/bag_contents.hpp"
 #include "recording/bag_extent.hpp"
 #include "recording/clock_steps.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -28,17 +23,16 @@ namespace {
 
 /// Returns the places at which the stamps of the stereo images of a recording step back.
 std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, const std::vector<std::string>& wishes) {
-  std::list<rosbag::Bag> bags;
-  for (const std::string& path : paths) bags.emplace_back(path, rosbag::bagmode::Read);
+  Recording recording(paths);
   std::vector<std::string> topics;
   try {
-    const BagTopics chosen = chooseTopics(topicTypes(bags), wishes);
+    const BagTopics chosen = chooseTopics(recording.topicTypes(), wishes);
     for (const Role role : {Role::Left, Role::Right})
       if (const std::optional<ChosenTopic> topic = chosen.find(role)) topics.push_back(topic->name);
   } catch (const urban_nav_core::UserError&) {
     return {};  // reported by the reader of the bags
   }
-  return findClockSteps(bags, topics);
+  return findClockSteps(recording, topics);
 }
 
 /// Returns the bags of a session that hold messages of a part of it.
@@ -121,7 +115,9 @@ std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, c
 std::string plainName(const std::string& input) {
   std::filesystem::path path = std::filesystem::absolute(input).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
-  return (path.extension() == ".bag" ? path.stem() : path.filename()).string();
+  if (const std::string ending = path.extension().string(); ending == ".zstd" || ending == ".zst") path = path.stem();
+  const std::string ending = path.extension().string();
+  return (ending == ".bag" || ending == ".mcap" || ending == ".db3" ? path.stem() : path.filename()).string();
 }
 
 std::string uniqueName(const std::string& plain, const std::vector<std::string>& taken) {

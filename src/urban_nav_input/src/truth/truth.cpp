@@ -2,20 +2,16 @@
 #include "urban_nav_input/truth/truth.hpp"
 
 #include <geometry_msgs/PoseStamped.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <cstdint>
 #include <filesystem>
-#include <list>
 
-#include "recording/bag_contents.hpp"
-#include "recording/clock_steps.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -69,22 +65,18 @@ std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const Source
 }
 
 std::optional<TrajectoryFile> bagTruth(const InputSession& session, const SourceOptions& options) {
-  std::list<rosbag::Bag> bags;
-  for (const std::string& path : session.paths) bags.emplace_back(path, rosbag::bagmode::Read);
-  const std::optional<ChosenTopic> topic = chooseTopics(topicTypes(bags), options.topics).find(Role::Truth);
+  Recording recording(session.paths);
+  const std::optional<ChosenTopic> topic = chooseTopics(recording.topicTypes(), options.topics).find(Role::Truth);
   if (!topic) return std::nullopt;
   Trajectory trajectory;
   std::int64_t not_finite = 0, out_of_order = 0;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view;
-    addToView(view, bag, {topic->name}, session.part);
-    for (const rosbag::MessageInstance& instance : view) {
-      const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
-      if (!message) continue;
-      const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose);
-      if (!pose) ++not_finite;
-      else if (!trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose)) ++out_of_order;
-    }
+  RecordedMessages messages = recording.messages({topic->name}, session.part);
+  while (const std::optional<RecordedMessage> each = messages.next()) {
+    const auto message = each->as<geometry_msgs::PoseStamped>();
+    if (!message) continue;
+    const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose);
+    if (!pose) ++not_finite;
+    else if (!trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose)) ++out_of_order;
   }
   const std::string where = session.paths.front() + ", topic " + topic->name;
   if (trajectory.size() < 2) throw UserError(where, "holds no two poses", "");

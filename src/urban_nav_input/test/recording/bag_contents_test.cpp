@@ -2,6 +2,7 @@
 #include "recording/bag_contents.hpp"
 
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "urban_nav_input/testing/folders.hpp"
@@ -32,15 +33,14 @@ TEST(BagContents, LinksOfTfThatDoNotChangeComplementTheStaticOnes) {
       bag.write("/tf", time, linkMessage("base_link", "head", i < 1500 ? 0.1 : 0.3));
     }
   }
-  std::list<rosbag::Bag> bags;
-  bags.emplace_back(folder.file("a.bag"), rosbag::bagmode::Read);
-  const urban_nav_ros::StaticTransforms transforms = readTransforms(bags);
+  Recording recording(folder.file("a.bag"));
+  const urban_nav_ros::StaticTransforms transforms = readTransforms(recording);
   ASSERT_TRUE(transforms.lookup("base_link", "camera"));
   EXPECT_DOUBLE_EQ(transforms.lookup("base_link", "camera")->t().x(), 0.2);
   EXPECT_DOUBLE_EQ(transforms.lookup("base_link", "imu")->t().x(), 0.5);
   EXPECT_FALSE(transforms.lookup("base_link", "head")) << "it moves";
   EXPECT_FALSE(transforms.lookup("odom", "camera")) << "the robot moves";
-  EXPECT_EQ(topicTypes(bags).at("/tf"), "tf2_msgs/TFMessage");
+  EXPECT_EQ(recording.topicTypes().at("/tf"), "tf2_msgs/TFMessage");
 }
 
 }  // namespace

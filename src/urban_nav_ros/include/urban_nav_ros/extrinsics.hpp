@@ -14,12 +14,17 @@
 namespace urban_nav_ros {
 
 /// Static transforms as they come on /tf_static, from the robot description or a bag: a forest of frames. The later of
-/// two transforms to the same child wins. Names are taken without a leading slash (tf's of 2008 have one).
+/// two transforms to the same child wins, unless the first was given by the user, and both are named in faults() if
+/// they differ. Names are taken without a leading slash (tf's of 2008 have one).
 class StaticTransforms {
  public:
-  /// Transforms that are no rigid motion are left out and named in faults().
+  /// Transforms that are no rigid motion are left out and named in faults(). Quaternions of another length than 1 are
+  /// normalised and named, unless their length is too far from 1 for a rotation.
   void add(const tf2_msgs::TFMessage& message);
   void add(const geometry_msgs::TransformStamped& transform);
+
+  /// Adds a transform that takes precedence over all others to its child.
+  void give(const geometry_msgs::TransformStamped& transform);
 
   /// T_to_from: takes coordinates in `from` to coordinates in `to`. Empty where the tree does not connect them. A frame
   /// is connected to itself.
@@ -35,7 +40,9 @@ class StaticTransforms {
   struct Link {
     std::string parent;
     urban_nav_core::Pose T_parent_child;
+    bool is_given = false;
   };
+  void addFault(const std::string& fault);
   struct Climb {
     std::string root;
     urban_nav_core::Pose T_root_frame;

@@ -23,6 +23,7 @@ namespace urban_nav {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.29577951308232;
+constexpr double kLevelDeg = 5.0;  // standard deviation of a map that is called aligned
 
 /// Returns the closures that the store holds between previous sessions and continued ones.
 PreviousClosures previousClosures(const MapContext& context) {
@@ -147,21 +148,27 @@ class GraphStage final : public Stage {
     };
   }
 
+  static std::string describeLevel(const pose_graph::Level& level) {
+    if (!level.known()) return "map not aligned with gravity: " + level.sentence;
+    const std::string by = pose_graph::isFromGround(level) ? "the ground" : "gravity";
+    const double sigma_deg = kDegreesPerRadian * level.sigma;
+    const std::string sigma = urban_nav_core::formatNumber(sigma_deg, 2) + " deg";
+    if (sigma_deg < kLevelDeg) return "map aligned with " + by + " (sigma " + sigma + ")";
+    return "map roughly upright: the direction of " + by + " is known to " + sigma + " only";
+  }
+
   std::vector<std::string> describeRun() const {
     const pose_graph::Relaxed& relaxed = run_->relaxed;
     const VerdictCounts closures = run_->closureVerdicts(), planes = run_->planeVerdicts();
     const pose_graph::Level& level = run_->levels.front();
     const pose_graph::FixUse& fixes = run_->graph.fixUse();
-    std::vector<std::string> lines = {
-        "graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(closures.all()) + " closures, " +
-            std::to_string(closures.accepted) + " accepted; cost " +
-            urban_nav_core::formatNumber(relaxed.cost_before, 5) + " -> " +
-            urban_nav_core::formatNumber(relaxed.cost_after, 5) + " in " + urban_nav_core::formatNumber(run_->ms, 3) +
-            " ms",
-        level.known()
-            ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
-                  " (sigma " + urban_nav_core::formatNumber(kDegreesPerRadian * level.sigma, 2) + " deg)"
-            : "map not aligned with gravity: " + level.sentence};
+    std::vector<std::string> lines = {"graph: " + std::to_string(relaxed.poses) + " poses, " +
+                                          std::to_string(closures.all()) + " closures, " +
+                                          std::to_string(closures.accepted) + " accepted; cost " +
+                                          urban_nav_core::formatNumber(relaxed.cost_before, 5) + " -> " +
+                                          urban_nav_core::formatNumber(relaxed.cost_after, 5) + " in " +
+                                          urban_nav_core::formatNumber(run_->ms, 3) + " ms",
+                                      describeLevel(level)};
     if (planes.all() + run_->planes.shared > 0)
       lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
                       std::to_string(planes.accepted) + " accepted" +

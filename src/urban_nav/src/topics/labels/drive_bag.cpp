@@ -127,7 +127,8 @@ void readSides(urban_nav_input::Recording& recording, const std::array<SideTopic
 const char* toString(DriveSide side) { return side == DriveSide::Left ? "left" : "right"; }
 
 bool isBag(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".bag" && !std::filesystem::is_directory(path);
+  const bool is_named = std::filesystem::path(path).extension() == ".bag" && !std::filesystem::is_directory(path);
+  return is_named || urban_nav_input::isRecording(path);
 }
 
 void readDrive(const std::string& bag, const DriveOptions& options, Console& console,

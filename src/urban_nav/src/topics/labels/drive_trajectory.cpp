@@ -51,10 +51,7 @@ Trajectory readDriveTrajectory(const std::string& bag, const DriveOptions& optio
   const urban_nav_input::InputParameters& input = options.parameters->get(urban_nav_input::inputTable());
   urban_nav_input::SourceOptions source_options;
   source_options.topics = options.topics;
-  source_options.motion_input = input.motion_input;
-  source_options.wheel_noise = input.wheel_noise;
-  source_options.gyro_noise = input.gyro_noise;
-  source_options.right_delay = input.right_delay;
+  apply(input, source_options);
   std::string reason;
   try {
     const auto source = urban_nav_input::openSource({bag}, source_options);

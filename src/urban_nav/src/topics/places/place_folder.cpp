@@ -9,6 +9,7 @@
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav {
 
@@ -88,8 +89,8 @@ class PlaceFolder : public PlaceSource {
 std::unique_ptr<PlaceSource> openPlaceFolder(const std::string& path) { return std::make_unique<PlaceFolder>(path); }
 
 std::unique_ptr<PlaceSource> openPlaceSource(const std::string& path, const std::vector<std::string>& topics) {
-  if (fs::is_directory(path)) return openPlaceFolder(path);
-  if (!fs::exists(path)) throw UserError(path, "does not exist", "a folder of images or a bag");
+  if (!fs::exists(path)) throw UserError(path, "does not exist", "a folder of images or a recording");
+  if (fs::is_directory(path) && !urban_nav_input::isRecording(path)) return openPlaceFolder(path);
   return openPlaceBag(path, topics);
 }
 

@@ -7,7 +7,20 @@
 namespace urban_nav_input {
 
 /// What a defect of an input concerns.
-enum class FindingKind { Stamps, Pairs, Rectification, Depth, Calibration, Tf, Rates };
+enum class FindingKind {
+  Stamps,
+  Pairs,
+  Rectification,
+  Depth,
+  Calibration,
+  Tf,
+  Rates,
+  Imu,
+  Lasers,
+  Gps,
+  Wheels,
+  Topics
+};
 const char* toString(FindingKind kind);
 
 /// A defect of an input.

@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "urban_nav_core/sequence/motion_input_parameters.hpp"
+#include "urban_nav_input/session/open.hpp"
 
 namespace urban_nav_input {
 
 /// Parameters of the readers of recordings: `input.motion_input` and so on. One member per row of inputTable().
 struct InputParameters : urban_nav_core::MotionInputParameters {
-  double right_delay;  // ms
+  double right_delay;                                      // ms
+  std::string accelerometer_axes;                          // as parseAxisMap() reads
+  double accelerometer_scale;                              // m/s2
+  double imu_delay;                                        // ms
+  double laser_left_delay, laser_right_delay;              // ms
+  double laser_left_range_scale, laser_right_range_scale;  // m
+  double laser_left_angle_scale, laser_right_angle_scale;  // rad
 
   InputParameters();
 };
 
 const urban_nav_core::Table<InputParameters>& inputTable();
+
+/// Sets the options that parameters state. Throws UserError for unknown axes.
+void apply(const InputParameters& parameters, SourceOptions& options);
 
 }  // namespace urban_nav_input

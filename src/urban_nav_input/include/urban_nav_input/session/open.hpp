@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/inertial/accelerometer_check.hpp"
+#include "urban_nav_core/laser/scan_check.hpp"
 #include "urban_nav_input/recording/receipt_range.hpp"
 #include "urban_nav_input/session/source.hpp"
 
@@ -12,14 +15,18 @@ namespace urban_nav_input {
 
 /// What the user said about inputs.
 struct SourceOptions {
-  std::vector<std::string> topics;               ///< ROLE:=NAME, for bags
-  std::string calibration;                       ///< file for bags and KITTI folders; empty: their own
-  double rate = 0.0;                             ///< Hz of an image folder without stamps; 0: 10 Hz
-  std::string motion_input = "none";             ///< as input.motion_input
-  double wheel_noise = 0.0;                      ///< as input.wheel_noise
-  double gyro_noise = 0.0;                       ///< as input.gyro_noise
-  double right_delay = 0.0;                      ///< ms, as input.right_delay
-  std::vector<std::string> read_elsewhere = {};  ///< topics of bags that do not count as unused
+  std::vector<std::string> topics;                             ///< ROLE:=NAME, for bags
+  std::string calibration;                                     ///< file for bags and KITTI folders; empty: their own
+  double rate = 0.0;                                           ///< Hz of an image folder without stamps; 0: 10 Hz
+  std::string motion_input = "none";                           ///< as input.motion_input
+  double wheel_noise = 0.0;                                    ///< as input.wheel_noise
+  double gyro_noise = 0.0;                                     ///< as input.gyro_noise
+  double right_delay = 0.0;                                    ///< ms, as input.right_delay
+  std::vector<std::string> read_elsewhere = {};                ///< topics of bags that do not count as unused
+  double imu_delay = 0.0;                                      ///< ms, as input.imu_delay
+  std::array<urban_nav_core::LaserConvention, 2> lasers = {};  ///< left, right: as input.laser_left_delay and so on
+  std::vector<std::string> transforms = {};  ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, which take precedence over tf
+  urban_nav_core::AccelerometerConvention accelerometer = {};  ///< as input.accelerometer_axes and _scale
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };

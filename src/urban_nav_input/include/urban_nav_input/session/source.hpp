@@ -14,6 +14,7 @@
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/types/specific_force.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_input/examination/finding.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
@@ -81,6 +82,8 @@ class Source {
   virtual std::optional<SourceItem> next() = 0;
   /// What was wrong with the input as a whole: complete when next() has come to the end.
   virtual std::vector<std::string> closingFaults() const { return {}; }
+  /// Returns what is wrong with the sensors of the input. Valid after next() has returned nullopt.
+  virtual std::vector<Finding> sensorFindings() const { return {}; }
   /// Returns the end of a bag that no pair follows; null if there is none. Valid after next() has returned nullopt.
   virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
   /// Returns scans that no pair and no end of a bag follow. Valid after next() has returned nullopt.
@@ -88,7 +91,7 @@ class Source {
   /// Returns panoramas that no pair and no end of a bag follow. Valid after next() has returned nullopt.
   virtual std::vector<urban_nav_ros::Panorama> panoramas() const { return {}; }
   /// Returns the specific forces of the input's accelerometer; complete once next() has returned nullopt. Empty without
-  /// an accelerometer, or if its extrinsics are not known.
+  /// an accelerometer, if its extrinsics are not known, or if it measures no gravity upwards (sensorFindings()).
   virtual std::vector<urban_nav_core::SpecificForce> forces() const { return {}; }
 };
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/laser/scan_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace urban_nav_core {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kMostTurn = 2.0 * kPi * 1.02;  // rad: some drivers count the first beam twice
+constexpr std::size_t kFewRanges = 10;
+constexpr double kMostMedian = 150.0;  // m: no surroundings are so far away on median
+constexpr double kLeastRange = 0.2;    // m, of a median
+constexpr double kMostReach = 130.0;   // m, of planar lasers outdoors
+
+double medianRange(const PlanarScan& scan) {
+  std::vector<float> valid;
+  for (const float range : scan.ranges)
+    if (std::isfinite(range) && range > 0.0F && static_cast<double>(range) >= scan.range_min &&
+        static_cast<double>(range) <= scan.range_max)
+      valid.push_back(range);
+  if (valid.size() < kFewRanges) return 0.0;
+  const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() / 2);
+  std::nth_element(valid.begin(), middle, valid.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+ScanVerdict checkUnits(const PlanarScan& scan) {
+  const double span = std::abs(scan.angle_step) * static_cast<double>(std::max<std::size_t>(1, scan.ranges.size()) - 1);
+  if (span > kMostTurn) return {ScanFault::AngleUnit, span, span * kPi / 180.0 <= kMostTurn ? kPi / 180.0 : 1.0};
+  const double median = medianRange(scan);
+  if (median <= kMostMedian) return {};
+  for (const double scale : {0.001, 0.01})
+    if (median * scale > kLeastRange && median * scale < kMostReach) return {ScanFault::RangeUnit, median, scale};
+  return {ScanFault::RangeUnit, median, 1.0};
+}
+
+}  // namespace urban_nav_core

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/inertial/accelerometer_check.hpp"
+#include "urban_nav_input/examination/finding.hpp"
+
+namespace urban_nav_input {
+
+/// Returns what is wrong with the accelerometer on a topic; nothing if it is sound. `present`: the convention by which
+/// its messages were read. The options state the convention that repairs them.
+std::vector<Finding> accelerometerFindings(const std::string& topic,
+                                           const urban_nav_core::AccelerometerVerdict& verdict,
+                                           const urban_nav_core::AccelerometerConvention& present);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/LaserScan.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/laser/scan_check.hpp"
+#include "urban_nav_input/examination/finding.hpp"
+
+namespace urban_nav_input {
+
+/// Counts what is wrong with the scans of one laser. Not thread-safe.
+class LaserExamination {
+ public:
+  /// `role`: "laser_left" or "laser_right", as in `input.laser_left_delay`. `convention`: by which its messages are
+  /// read.
+  LaserExamination(std::string role, std::string topic, const urban_nav_core::LaserConvention& convention)
+      : role_(std::move(role)), topic_(std::move(topic)), convention_(convention) {}
+
+  /// Returns the scan of a message; nullopt, and counted, where its beams cannot be placed.
+  std::optional<urban_nav_core::PlanarScan> read(const sensor_msgs::LaserScan& message);
+  const std::string& role() const { return role_; }
+  std::vector<Finding> findings() const;
+  void archive(urban_nav_core::Archive& archive) {
+    archive(scans_, used_, no_stamp_, not_finite_, no_limit_, no_time_, unit_scans_, unit_fault_, unit_value_,
+            unit_repair_, no_limit_value_, beams_, valid_);
+  }
+
+ private:
+  Finding unitFinding() const;
+  std::string share(std::int64_t count) const;
+
+  std::string role_, topic_;
+  urban_nav_core::LaserConvention convention_;
+  std::int64_t scans_ = 0, used_ = 0;
+  std::int64_t no_stamp_ = 0, not_finite_ = 0;    // scans without a stamp, with angles or times that are not finite
+  std::int64_t no_limit_ = 0, no_time_ = 0;       // scans without a usable range_max, without a finite scan_time
+  std::int64_t unit_scans_ = 0, unit_fault_ = 0;  // in other units; the ScanFault of the first of them
+  double unit_value_ = 0.0, unit_repair_ = 1.0, no_limit_value_ = 0.0;  // values in the first of them
+  std::int64_t beams_ = 0, valid_ = 0;
+};
+
+}  // namespace urban_nav_input

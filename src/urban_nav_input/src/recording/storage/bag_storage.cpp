@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <boost/make_unique.hpp>
+#include <utility>
+
+#include "recording/storage/storage.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_input {
+
+namespace {
+
+/// Buffer for a message of librosbag: grows, and is not set to zero.
+class MessageBuffer {
+ public:
+  std::uint8_t* advance(std::uint32_t size) {
+    if (size > capacity_) {
+      bytes_ = boost::make_unique_noinit<std::uint8_t[]>(size);
+      capacity_ = size;
+    }
+    size_ = size;
+    return bytes_.get();
+  }
+  void clear() { size_ = 0; }
+  ByteView view() {
+    if (!bytes_) advance(1), clear();
+    return {bytes_.get(), size_};
+  }
+
+ private:
+  std::unique_ptr<std::uint8_t[]> bytes_;
+  std::uint32_t size_ = 0, capacity_ = 0;
+};
+
+/// ROS 1 bag, read by librosbag.
+class BagStorage : public Storage {
+ public:
+  explicit BagStorage(std::string path) : path_(std::move(path)) {
+    try {
+      bag_.open(path_, rosbag::bagmode::Read);
+      for (const rosbag::ConnectionInfo* info : rosbag::View(bag_).getConnections()) addConnection(*info);
+    } catch (const rosbag::BagUnindexedException&) {
+      throw urban_nav_core::DataError(
+          path_, "has no index: the recording was cut off (rosbag reindex " + path_ + " repairs that)", "");
+    } catch (const std::exception& error) {
+      throwDamaged(path_, error);
+    }
+  }
+
+  const char* kind() const override { return "bag"; }
+  const std::vector<Connection>& connections() const override { return connections_; }
+
+  const std::vector<MessageEntry>& index(std::size_t connection) override {
+    Index& index = indexes_[connection];
+    if (index.is_read) return index.entries;
+    index.is_read = true;
+    try {
+      const std::uint32_t id = index.id;
+      rosbag::View view(bag_, [id](const rosbag::ConnectionInfo* info) { return info->id == id; });
+      index.entries.reserve(view.size());
+      index.instances.reserve(view.size());
+      for (const rosbag::MessageInstance& instance : view) {
+        index.entries.push_back({urban_nav_ros::toStampNs(instance.getTime()), index.instances.size()});
+        index.instances.push_back(instance);
+      }
+    } catch (const std::exception& error) {
+      throwDamaged(path_, error);
+    }
+    return index.entries;
+  }
+
+  ByteView read(std::size_t connection, const MessageEntry& entry) override {
+    try {
+      buffer_.clear();
+      indexes_[connection].instances[entry.place].write(buffer_);
+      return buffer_.view();
+    } catch (const std::exception& error) {
+      throwDamaged(path_, error);
+    }
+  }
+
+ private:
+  struct Index {
+    std::uint32_t id = 0;  // id of the connection in the bag
+    bool is_read = false;
+    std::vector<MessageEntry> entries;
+    std::vector<rosbag::MessageInstance> instances;
+  };
+
+  void addConnection(const rosbag::ConnectionInfo& info) {
+    Connection connection;
+    connection.topic = info.topic;
+    connection.type = info.datatype;
+    connection.md5 = info.md5sum;
+    connection.definition = info.msg_def;
+    connection.definition_encoding = "ros1msg";
+    connection.encoding = "ros1";
+    const auto header = [&](const char* key) {
+      const auto found = info.header->find(key);
+      return found == info.header->end() ? std::string() : found->second;
+    };
+    connection.caller_id = header("callerid");
+    connection.is_latched = header("latching") == "1";
+    connections_.push_back(std::move(connection));
+    indexes_.emplace_back().id = info.id;
+  }
+
+  std::string path_;
+  rosbag::Bag bag_;
+  std::vector<Connection> connections_;
+  std::vector<Index> indexes_;  // index: connection
+  MessageBuffer buffer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Storage> openBagStorage(const std::string& path) { return std::make_unique<BagStorage>(path); }
+
+}  // namespace urban_nav_input

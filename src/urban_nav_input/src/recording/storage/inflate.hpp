@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "urban_nav_input/recording/byte_view.hpp"
+
+namespace urban_nav_input {
+
+/// Bytes without compression.
+struct Inflated {
+  std::unique_ptr<std::uint8_t[]> memory;
+  std::size_t size = 0;
+  bool is_whole = false;  ///< all bytes that were expected, and nothing was damaged
+
+  ByteView bytes() const { return {memory.get(), size}; }
+};
+
+/// Returns whether "zstd", "lz4" or whatever a file names can be decompressed; "" is no compression.
+bool isKnownCompression(const std::string& compression);
+
+/// Decompresses frames of zstd or lz4 to `size` bytes. What is cut off or damaged is inflated as far as it goes, to
+/// whole blocks. Requires a known compression that is not "".
+Inflated inflate(const std::string& compression, ByteView packed, std::size_t size);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <string>
+#include <vector>
+
+#include "recording/storage/inflate.hpp"
+#include "recording/storage/mcap_contents.hpp"
+
+namespace urban_nav_input {
+
+/// The chunks of an MCAP file without compression; those used last are kept. Not thread-safe.
+class McapChunkCache {
+ public:
+  explicit McapChunkCache(const std::vector<McapChunk>& chunks) : chunks_(chunks), states_(chunks.size()) {}
+
+  /// Returns the records of a chunk, valid until the next call; no data if it is damaged. A checksum is compared once.
+  ByteView records(std::size_t chunk);
+  /// Returns what is wrong with chunks that were asked for.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  enum class State : std::uint8_t { Unknown, Good, Damaged };
+  struct Kept {
+    std::size_t chunk;
+    Inflated inflated;
+  };
+
+  ByteView inflateChunk(std::size_t chunk);
+  void makeRoom();
+
+  const std::vector<McapChunk>& chunks_;
+  std::vector<State> states_;
+  std::list<Kept> kept_;  // the one used last first
+  std::size_t kept_bytes_ = 0;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace urban_nav_input

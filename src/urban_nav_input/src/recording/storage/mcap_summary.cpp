@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recording/storage/mcap_summary.hpp"
+
+#include <algorithm>
+
+#include "recording/storage/byte_reader.hpp"
+#include "recording/storage/crc32.hpp"
+
+namespace urban_nav_input {
+
+using mcap::Op;
+
+namespace {
+
+/// Returns the records of the summary with the right checksum.
+std::optional<ByteView> findSummary(ByteView file) {
+  const std::size_t tail = mcap::kFooterSize + mcap::kMagic.size();
+  if (file.size < mcap::kMagic.size() + tail) return std::nullopt;
+  const std::size_t footer_begin = file.size - tail;
+  if (std::memcmp(file.data + file.size - mcap::kMagic.size(), mcap::kMagic.data(), mcap::kMagic.size()) != 0)
+    return std::nullopt;
+  const std::optional<mcap::Record> record = mcap::RecordWalk(file, footer_begin).next();
+  if (!record || record->op != Op::Footer) return std::nullopt;
+  const std::optional<mcap::Footer> footer = mcap::parseFooter(record->content);
+  if (!footer || footer->summary < mcap::kMagic.size() || footer->summary >= footer_begin) return std::nullopt;
+  const std::size_t hashed = footer_begin + mcap::kFooterSize - sizeof(footer->crc) - footer->summary;
+  if (footer->crc != 0 && crc32({file.data + footer->summary, hashed}) != footer->crc) return std::nullopt;
+  return ByteView{file.data + footer->summary, footer_begin - footer->summary};
+}
+
+/// Returns the number of messages that the indexes of a chunk name; nullopt if one of them is not there.
+std::optional<std::uint64_t> countIndexed(ByteView file, const McapChunk& chunk) {
+  std::uint64_t count = 0;
+  for (const auto& [channel, offset] : chunk.indexes) {
+    const std::optional<mcap::Record> record = mcap::RecordWalk(file, offset).next();
+    if (!record || record->op != Op::MessageIndex) return std::nullopt;
+    const std::optional<mcap::MessageIndex> index = mcap::parseMessageIndex(record->content);
+    if (!index || index->channel != channel) return std::nullopt;
+    count += index->entries.size / mcap::kIndexEntry;
+  }
+  return count;
+}
+
+std::optional<McapChunk> findChunk(ByteView file, const mcap::ChunkIndex& index) {
+  const std::optional<mcap::Record> record = mcap::RecordWalk(file, index.offset).next();
+  if (!record || record->op != Op::Chunk) return std::nullopt;
+  std::optional<mcap::Chunk> chunk = mcap::parseChunk(record->content);
+  if (!chunk || chunk->packed.size != chunk->packed_size) return std::nullopt;
+  return McapChunk{index.offset, std::move(*chunk), index.indexes};
+}
+
+}  // namespace
+
+std::optional<McapContents> readMcapSummary(ByteView file) {
+  const std::optional<ByteView> summary = findSummary(file);
+  if (!summary) return std::nullopt;
+  McapContents contents;
+  contents.is_indexed = true;
+  std::optional<mcap::Statistics> statistics;
+  std::uint64_t messages = 0;
+  mcap::RecordWalk walk(*summary);
+  while (const std::optional<mcap::Record> record = walk.next()) {
+    if (record->op == Op::Schema) {
+      if (auto schema = mcap::parseSchema(record->content)) contents.schemas[schema->id] = std::move(*schema);
+    } else if (record->op == Op::Channel) {
+      if (auto channel = mcap::parseChannel(record->content)) contents.channels[channel->id] = std::move(*channel);
+    } else if (record->op == Op::Statistics) {
+      statistics = mcap::parseStatistics(record->content);
+    } else if (record->op == Op::ChunkIndex) {
+      const std::optional<mcap::ChunkIndex> index = mcap::parseChunkIndex(record->content);
+      std::optional<McapChunk> chunk = index ? findChunk(file, *index) : std::nullopt;
+      const std::optional<std::uint64_t> count = chunk ? countIndexed(file, *chunk) : std::nullopt;
+      if (!count) return std::nullopt;
+      messages += *count;
+      contents.chunks.push_back(std::move(*chunk));
+    }
+  }
+  // Without statistics, messages outside of chunks would not be noticed.
+  if (!statistics || statistics->messages != messages || statistics->channels != contents.channels.size())
+    return std::nullopt;
+  for (const McapChunk& chunk : contents.chunks)
+    for (const auto& [channel, offset] : chunk.indexes)
+      if (contents.channels.count(channel) == 0) return std::nullopt;
+  std::sort(contents.chunks.begin(), contents.chunks.end(),
+            [](const McapChunk& a, const McapChunk& b) { return a.begin < b.begin; });
+  return contents;
+}
+
+}  // namespace urban_nav_input

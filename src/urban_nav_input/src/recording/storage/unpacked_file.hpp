@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_input/recording/byte_view.hpp"
+
+namespace urban_nav_input {
+
+/// Returns the first bytes of a file that zstd compressed, at most `size`; fewer if it is damaged or shorter.
+std::string peekZstdFile(const std::string& path, std::size_t size);
+
+/// File that zstd compressed, decompressed to a temporary one (in TMPDIR), which is removed with this object.
+class UnpackedFile {
+ public:
+  /// Throws DataError naming the file if it cannot be read or written. A file that is cut off or damaged is
+  /// decompressed as far as it goes.
+  explicit UnpackedFile(const std::string& path);
+  ~UnpackedFile();
+  UnpackedFile(const UnpackedFile&) = delete;
+  UnpackedFile& operator=(const UnpackedFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  bool isWhole() const { return is_whole_; }
+
+ private:
+  std::string path_;
+  bool is_whole_ = false;
+};
+
+}  // namespace urban_nav_input

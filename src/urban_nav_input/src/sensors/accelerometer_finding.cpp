@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_input/sensors/accelerometer_finding.hpp"
+
+#include "urban_nav_core/inertial/axis_map.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+
+namespace urban_nav_input {
+
+using urban_nav_core::AccelerometerConvention;
+using urban_nav_core::AccelerometerFault;
+using urban_nav_core::AccelerometerVerdict;
+
+namespace {
+
+/// Returns the arguments that state a convention, those of its parts that differ from `present` alone.
+std::vector<std::string> toOptions(const AccelerometerConvention& convention, const AccelerometerConvention& present) {
+  std::vector<std::string> options;
+  if (convention.axes != present.axes) {
+    options.emplace_back("--set");
+    options.push_back("input.accelerometer_axes=" + urban_nav_core::printAxisMap(convention.axes));
+  }
+  if (convention.scale != present.scale) {
+    options.emplace_back("--set");
+    options.push_back("input.accelerometer_scale=" + urban_nav_core::printNumber(convention.scale));
+  }
+  return options;
+}
+
+}  // namespace
+
+std::vector<Finding> accelerometerFindings(const std::string& topic, const AccelerometerVerdict& verdict,
+                                           const AccelerometerConvention& present) {
+  if (verdict.sound()) return {};
+  Finding finding{FindingKind::Imu, topic + ": " + verdict.sentence() + "; the accelerometer is not used", ""};
+  if (verdict.repair) {
+    finding.options = toOptions({verdict.repair->axes * present.axes, verdict.repair->scale * present.scale}, present);
+    for (std::size_t i = 0; i < finding.options.size(); ++i) finding.remedy += (i > 0 ? " " : "") + finding.options[i];
+    finding.remedy +=
+        "; for later recordings let the driver state specific force in m/s2 in the axes of its frame, "
+        "9.81 upwards at rest";
+  } else if (verdict.fault == AccelerometerFault::NoGravity) {
+    finding.remedy = "record the topic of the driver that contains gravity (imu/data_raw, not linear acceleration)";
+  } else if (verdict.fault == AccelerometerFault::Direction) {
+    finding.remedy =
+        "check the place of the device in /tf_static; --transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW states it";
+  } else {
+    finding.remedy = "check the driver and the calibration of the device";
+  }
+  return {finding};
+}
+
+}  // namespace urban_nav_input

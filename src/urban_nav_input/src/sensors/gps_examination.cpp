@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_input/sensors/gps_examination.hpp"
+
+#include <cmath>
+
+namespace urban_nav_input {
+
+namespace {
+
+constexpr std::int64_t kFewFixes = 20;
+
+}  // namespace
+
+void GpsExamination::add(const sensor_msgs::NavSatFix& fix) {
+  ++messages_;
+  if (fix.header.stamp.isZero()) ++no_stamp_;
+  if (fix.status.status < sensor_msgs::NavSatStatus::STATUS_FIX) {
+    ++no_fix_;
+    return;
+  }
+  if (!(std::abs(fix.latitude) <= 90.0) || !(std::abs(fix.longitude) <= 360.0)) ++no_angles_;
+  else if (fix.latitude == 0.0 && fix.longitude == 0.0) ++at_zero_;
+  else if (!std::isfinite(fix.altitude)) ++no_altitude_;
+  const std::array<double, 3> now = {{fix.latitude, fix.longitude, fix.altitude}};
+  repeated_ += now == last_ ? 1 : 0;
+  last_ = now;
+}
+
+std::vector<Finding> GpsExamination::findings(const std::string& topic) const {
+  std::vector<Finding> findings;
+  const auto add = [&](std::int64_t count, const std::string& what, const std::string& remedy) {
+    if (count > 0)
+      findings.push_back({FindingKind::Gps,
+                          topic + ": " + std::to_string(count) + " of " + std::to_string(messages_) + " fixes " + what,
+                          remedy});
+  };
+  add(no_stamp_, "have no stamp and are not used", "let the driver of the receiver stamp its fixes");
+  add(no_angles_,
+      "have a latitude or longitude that is no angle in degrees (NaN, or radians times a factor) and are not used",
+      "check the driver of the receiver");
+  add(at_zero_,
+      "lie at latitude 0, longitude 0 and are not used: the receiver had no fix, although its status is that of a fix",
+      "let the driver set status -1 without a fix");
+  add(no_altitude_, "have no altitude (NaN); their horizontal position is used, their height is not",
+      "nothing has to be done; for later recordings let the receiver output its altitude (NMEA GGA)");
+  if (no_fix_ > 0 && 2 * no_fix_ > messages_)
+    add(no_fix_, "have a status below 0 (no fix) and are not used", "check the antenna and its view of the sky");
+  if (messages_ >= kFewFixes && 2 * repeated_ > messages_)
+    add(repeated_, "repeat the position before to all digits: the receiver or its driver is frozen",
+        "restart the driver, and publish each fix once");
+  return findings;
+}
+
+}  // namespace urban_nav_input

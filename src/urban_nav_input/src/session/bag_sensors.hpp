@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_input/sensors/clock_examination.hpp"
+#include "urban_nav_input/sensors/gps_examination.hpp"
+#include "urban_nav_input/sensors/laser_examination.hpp"
+#include "urban_nav_input/sensors/reading_examination.hpp"
+#include "urban_nav_input/session/open.hpp"
+#include "urban_nav_ros/accelerometer.hpp"
+
+namespace urban_nav_input {
+
+/// Reads the messages of all sensors but the cameras by the conventions that the user states, and examines them. Not
+/// thread-safe.
+class BagSensors {
+ public:
+  BagSensors(const SourceOptions& options, const BagTopics& topics) : options_(options), topics_(topics) {}
+
+  /// Adds findings that are known before the first message.
+  void add(const std::vector<Finding>& findings) {
+    findings_.insert(findings_.end(), findings.begin(), findings.end());
+  }
+  /// Adds the laser of a role, whose place is known.
+  void addLaser(const std::string& topic);
+  void placeImu(const urban_nav_core::Matrix3d& R_base_imu) {
+    accelerometer_.emplace(R_base_imu, options_.accelerometer);
+  }
+
+  /// Adds an image; stamp and receipt in ns.
+  void addImage(const std::string& topic, urban_nav_core::StampNs stamp, urban_nav_core::StampNs receipt) {
+    clocks_.add("images", topic, stamp, receipt);
+  }
+  /// Corrects the stamp of a message of the IMU, and takes its specific force.
+  void add(sensor_msgs::Imu& imu, const std::string& topic, urban_nav_core::StampNs receipt);
+  void add(const nav_msgs::Odometry& wheels, const std::string& topic, urban_nav_core::StampNs receipt);
+  void add(const sensor_msgs::NavSatFix& fix) { gps_.add(fix); }
+  /// Returns the scan of a message of the n-th laser; nullopt where its beams cannot be placed.
+  std::optional<urban_nav_core::PlanarScan> read(std::size_t laser, const sensor_msgs::LaserScan& message,
+                                                 urban_nav_core::StampNs receipt);
+
+  /// Returns the specific forces in the axes of base_link; none of an accelerometer that is not sound.
+  std::vector<urban_nav_core::SpecificForce> forces() const;
+  std::vector<Finding> findings() const;
+  /// Reads or writes the state between two messages, of the same lasers and the same IMU.
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  std::optional<double> findDelay(const std::string& role) const;
+
+  const SourceOptions& options_;
+  const BagTopics& topics_;
+  std::vector<Finding> findings_;
+  std::optional<urban_nav_ros::Accelerometer> accelerometer_;
+  std::vector<urban_nav_core::SpecificForce> forces_;
+  std::vector<std::string> laser_topics_;
+  std::vector<LaserExamination> lasers_;  // as laser_topics_
+  ReadingExamination imu_, wheels_;
+  GpsExamination gps_;
+  ClockExamination clocks_;
+};
+
+}  // namespace urban_nav_input

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <sensor_msgs/Imu.h>
+
+#include "recording/storage/mcap_records.hpp"
+#include "recording_samples.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/recording/recording_writer.hpp"
+#include "urban_nav_input/testing/folders.hpp"
+
+namespace urban_nav_input {
+namespace {
+
+using testing::Contents;
+using testing::kSamples;
+using testing::McapForm;
+using testing::TemporaryFolder;
+
+class McapStorage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    testing::writeSampleBag(folder_.file("a.bag"));
+    convert("a.bag", "a.mcap");
+    written_ = testing::readFile(folder_.file("a.mcap"));
+  }
+
+  void convert(const std::string& from, const std::string& to) {
+    Recording recording(folder_.file(from));
+    const std::unique_ptr<RecordingWriter> writer = createRecording(folder_.file(to));
+    MessageSelection selection = recording.select(std::nullopt);
+    while (const std::optional<RecordedMessage> message = selection.next())
+      writer->write(message->connection(), message->receipt(), message->bytes());
+    writer->commit();
+  }
+  std::string write(const std::string& bytes) {
+    testing::writeFile(folder_.file("b.mcap"), bytes);
+    return folder_.file("b.mcap");
+  }
+
+  TemporaryFolder folder_;
+  std::string written_;
+};
+
+std::size_t countMessages(const Contents& contents) {
+  std::size_t count = 0;
+  for (const auto& [topic, messages] : contents) count += messages.size();
+  return count;
+}
+
+TEST_F(McapStorage, HoldsTheMessagesOfTheBagInEveryForm) {
+  const Contents bag = testing::readContents(folder_.file("a.bag"));
+  ASSERT_EQ(countMessages(bag), 3U * kSamples + 1U);
+  EXPECT_EQ(testing::readContents(folder_.file("a.mcap")), bag);
+  for (const char* compression : {"", "lz4", "zstd"})
+    for (const bool has_indexes : {true, false})
+      for (const bool has_summary : {true, false}) {
+        const McapForm form{compression, true, has_indexes, has_summary};
+        const std::string path = write(testing::rewriteMcap(written_, form));
+        EXPECT_EQ(testing::readContents(path), bag) << compression << has_indexes << has_summary;
+        EXPECT_EQ(Recording(path).warnings().empty(), has_summary);
+      }
+  EXPECT_EQ(testing::readContents(write(testing::rewriteMcap(written_, {"", false, false, true}))), bag);
+  convert("a.mcap", "back.bag");
+  EXPECT_EQ(testing::readContents(folder_.file("back.bag")), bag);
+}
+
+TEST_F(McapStorage, TypesHaveTheNamesOfRos1AndMd5SumsOfTheDefinition) {
+  Recording recording(folder_.file("a.mcap"));
+  EXPECT_EQ(recording.kind(), "mcap");
+  EXPECT_EQ(recording.topicTypes().at("/imu"), "sensor_msgs/Imu");
+  EXPECT_EQ(recording.count("/imu"), static_cast<std::size_t>(kSamples));
+}
+
+TEST_F(McapStorage, WholeMessagesUpToACutAreUsed) {
+  const Contents whole = testing::readContents(folder_.file("a.bag"));
+  for (const McapForm& form : {McapForm{"", false, false, true}, McapForm{"", true, true, true},
+                               McapForm{"lz4", true, true, true}, McapForm{"zstd", true, true, true}}) {
+    const std::string bytes = testing::rewriteMcap(written_, form);
+    std::size_t before = 0;
+    for (std::size_t size = bytes.size() / 10; size < bytes.size() - 30; size += bytes.size() / 13) {
+      const std::string path = write(bytes.substr(0, size));
+      const Contents some = testing::readContents(path);
+      for (const auto& [topic, messages] : some)
+        for (std::size_t i = 0; i < messages.size(); ++i) ASSERT_EQ(messages[i], whole.at(topic)[i]) << topic;
+      EXPECT_GE(countMessages(some), before) << size;
+      before = countMessages(some);
+      const std::vector<std::string> warnings = Recording(path).warnings();
+      ASSERT_EQ(warnings.size(), 1U);
+      EXPECT_NE(warnings[0].find("cut off"), std::string::npos) << warnings[0];
+      EXPECT_NE(warnings[0].find(std::to_string(before)), std::string::npos) << warnings[0];
+    }
+    EXPECT_GT(before, static_cast<std::size_t>(kSamples)) << form.compression;
+  }
+}
+
+TEST_F(McapStorage, AChunkWithAWrongChecksumIsNamedAndLeftOut) {
+  for (const bool has_summary : {true, false}) {
+    std::string bytes = testing::rewriteMcap(written_, {"", true, true, has_summary});
+    bytes[bytes.find("message 7")] = 'M';
+    Recording recording(write(bytes));
+    RecordedMessages messages = recording.messages({"/imu"});
+    while (const auto message = messages.next()) EXPECT_FALSE(message->as<sensor_msgs::Imu>());
+    ASSERT_FALSE(recording.warnings().empty());
+    EXPECT_NE(recording.warnings()[0].find("checksum"), std::string::npos) << recording.warnings()[0];
+  }
+}
+
+TEST_F(McapStorage, AnUnknownCompressionIsNamed) {
+  std::string bytes = written_;
+  for (std::size_t at = 0; (at = bytes.find("zstd", at)) != std::string::npos;) bytes.replace(at, 4, "zpaq");
+  try {
+    Recording recording(write(bytes));
+    FAIL() << "is read";
+  } catch (const urban_nav_core::UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("zpaq"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(McapStorage, DamagedFilesAreRefusedOrCounted) {
+  std::vector<std::string> seeds;
+  for (const McapForm& form : {McapForm{"", false, false, true}, McapForm{"", true, true, true},
+                               McapForm{"lz4", true, false, true}, McapForm{"zstd", true, true, false}})
+    seeds.push_back(testing::rewriteMcap(written_, form));
+  const auto read = [](const std::string& path) {
+    try {
+      testing::readContents(path);
+    } catch (const urban_nav_core::DataError&) {
+      return;
+    }
+  };
+  EXPECT_EQ(urban_nav_core::testing::fuzzFile(seeds, "a.mcap", read).failure.substr(0, 200), "");
+}
+
+}  // namespace
+}  // namespace urban_nav_input

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Free of ROS: compiled under the sanitizers too.
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "recording/message/transcoder.hpp"
+#include "recording/storage/byte_writer.hpp"
+#include "recording/storage/mcap_records.hpp"
+#include "recording/storage/storage.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/mcap_writer.hpp"
+
+namespace urban_nav_input {
+namespace {
+
+namespace fs = std::filesystem;
+using mcap::Op;
+
+constexpr const char* kDefinition = "string data\nfloat64[] values\nuint8 last\n";
+
+std::string makeMessage(int i) {
+  ByteWriter message;
+  const std::string text = "message " + std::to_string(i) + std::string(1, '\0');
+  message.bytes(std::string("\0\1\0\0", 4)).text(text);
+  while (message.size() % 4 != 0) message.number(std::uint8_t{0});
+  message.number(std::uint32_t{1});
+  while ((message.size() - 4) % 8 != 0) message.number(std::uint8_t{0});
+  message.number(std::uint64_t{0x3ff0000000000000}).number(std::uint8_t{7});
+  return message.str();
+}
+
+std::string readWhole(const std::string& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+std::string makeChunked() {
+  const std::string path =
+      (fs::temp_directory_path() / ("storage_fuzz_" + std::to_string(getpid()))).string() + ".mcap";
+  McapWriter writer(path);
+  const std::uint16_t channel = writer.addChannel({"/a", "test_msgs/msg/A", "ros2msg", kDefinition, "cdr", {}});
+  for (int i = 0; i < 20; ++i) {
+    const std::string message = makeMessage(i);
+    writer.write(channel, 1000 + i, {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
+  }
+  writer.commit();
+  std::string bytes = readWhole(path);
+  fs::remove(path);
+  return bytes;
+}
+
+std::string makeUnchunked() {
+  ByteWriter out;
+  const auto append = [&](Op op, const ByteWriter& content) {
+    out.number(static_cast<std::uint8_t>(op)).number(static_cast<std::uint64_t>(content.size())).bytes(content.str());
+  };
+  ByteWriter header, schema, channel, end;
+  out.bytes(std::string(mcap::kMagic));
+  header.text("ros2").text("");
+  append(Op::Header, header);
+  schema.number(std::uint16_t{1}).text("test_msgs/msg/A").text("ros2msg").text(kDefinition);
+  append(Op::Schema, schema);
+  channel.number(std::uint16_t{0}).number(std::uint16_t{1}).text("/a").text("cdr").text("");
+  append(Op::Channel, channel);
+  for (int i = 0; i < 20; ++i) {
+    ByteWriter message;
+    message.number(std::uint16_t{0}).number(std::uint32_t{0}).number(std::uint64_t{5}).number(std::uint64_t{5});
+    append(Op::Message, message.bytes(makeMessage(i)));
+  }
+  append(Op::DataEnd, end.number(std::uint32_t{0}));
+  return out.str();
+}
+
+std::string makeDb3() {
+  const std::string path = (fs::temp_directory_path() / ("storage_fuzz_" + std::to_string(getpid()))).string() + ".db3";
+  sqlite3* database = nullptr;
+  sqlite3_open(path.c_str(), &database);
+  std::string sql =
+      "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT, qos TEXT);"
+      "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB);"
+      "INSERT INTO topics VALUES(1, '/a', 'test_msgs/msg/A', 'cdr', '');";
+  for (int i = 0; i < 20; ++i)
+    sql += "INSERT INTO messages VALUES(" + std::to_string(i + 1) + ", 1, " + std::to_string(100 + i) +
+           ", x'0001000003000000686900000000000000000000')" + ";";
+  sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  std::string bytes = readWhole(path);
+  fs::remove(path);
+  return bytes;
+}
+
+/// Reads all messages by their own definition.
+void readAll(Storage& storage) {
+  for (std::size_t i = 0; i < storage.connections().size(); ++i) {
+    const Connection& connection = storage.connections()[i];
+    std::optional<Transcoder> transcoder;
+    try {
+      const MessageDefinition definition = parseDefinition(
+          connection.type, connection.definition.empty() ? std::string(kDefinition) : connection.definition);
+      transcoder.emplace(definition, withSequence(definition));
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    for (const MessageEntry& entry : storage.index(i)) {
+      const ByteView bytes = storage.read(i, entry);
+      const std::optional<MessageEncoding> encoding = cdrEncoding(bytes);
+      if (!encoding) continue;
+      try {
+        transcoder->convert(bytes, *encoding, MessageEncoding::Ros1);
+        transcoder->convert(bytes, MessageEncoding::Ros1, MessageEncoding::CdrLittleEndian);
+      } catch (const std::runtime_error&) {
+        continue;
+      }
+    }
+  }
+  storage.warnings();
+}
+
+template <typename Open>
+void expectToSurvive(const std::vector<std::string>& seeds, const Open& open) {
+  const auto read = [&](const std::string& path) {
+    try {
+      readAll(*open(path));
+    } catch (const urban_nav_core::DataError&) {
+      return;
+    }
+  };
+  EXPECT_EQ(urban_nav_core::testing::fuzzFile(seeds, "a", read).failure.substr(0, 300), "");
+}
+
+TEST(StorageFuzz, DamagedMcap) { expectToSurvive({makeChunked(), makeUnchunked()}, openMcapStorage); }
+
+TEST(StorageFuzz, DamagedDb3) { expectToSurvive({makeDb3()}, openDb3Storage); }
+
+TEST(StorageFuzz, SeedsAreReadWhole) {
+  const std::string path = (fs::temp_directory_path() / ("storage_fuzz_" + std::to_string(getpid()))).string();
+  std::ofstream(path, std::ios::binary) << makeUnchunked();
+  const std::unique_ptr<Storage> mcap = openMcapStorage(path);
+  EXPECT_EQ(mcap->index(0).size(), 20U);
+  std::ofstream(path, std::ios::binary) << makeDb3();
+  const std::unique_ptr<Storage> db3 = openDb3Storage(path);
+  EXPECT_EQ(db3->index(0).size(), 20U);
+  EXPECT_EQ(db3->read(0, db3->index(0).front()).size, 20U);
+  fs::remove(path);
+}
+
+TEST(StorageFuzz, DamagedDefinitions) {
+  const auto read = [](const std::string& text) {
+    try {
+      const MessageDefinition definition = parseDefinition("a/B", text);
+      parseDefinition("a/B", printRos2(definition));
+      computeMd5(definition);
+    } catch (const std::invalid_argument&) {
+      return;
+    }
+  };
+  const std::vector<std::string> seeds = {
+      "std_msgs/Header header\nstring<=5 x \"a\"\nfloat64[9] k\nint8 A=1\nC[<=3] c\n====\nMSG: a/C\nint16 v\n"
+      "====\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n"};
+  EXPECT_EQ(urban_nav_core::testing::fuzzText(seeds, read).failure.substr(0, 300), "");
+}
+
+}  // namespace
+}  // namespace urban_nav_input
