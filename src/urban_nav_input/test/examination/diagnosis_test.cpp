@@ -235,8 +235,11 @@ void writeDoctorBag(const std::string& path, const BagRecipe& recipe) {
     if (!recipe.laser_gap || i < 10 || i > 38)
       for (int k = 0; k < 2; ++k) add("/laser_left/scan", sensor_msgs::LaserScan(), receipt + 0.02 * k, left, "laser");
   }
-  for (int i = 0; i < 2 * recipe.imu_rate; ++i)
-    add("/imu/data", sensor_msgs::Imu(), 1.5e9 + i / recipe.imu_rate, 1.5e9 + i / recipe.imu_rate, "imu");
+  for (int i = 0; i < 2 * recipe.imu_rate; ++i) {
+    sensor_msgs::Imu imu;
+    imu.linear_acceleration.z = 9.8 + 0.01 * (i % 7);
+    add("/imu/data", imu, 1.5e9 + i / recipe.imu_rate, 1.5e9 + i / recipe.imu_rate, "imu");
+  }
 }
 
 JudgedInput judgeBag(const std::function<void(BagRecipe&)>& change) {

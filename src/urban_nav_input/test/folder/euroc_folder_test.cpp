@@ -83,12 +83,12 @@ TEST(EurocFolder, GivesSpecificForce) {
   makeEuroc(folder.file("in"));
   EXPECT_TRUE(openEurocFolder(folder.file("in"), {})->forces().empty());
   const std::string imu = folder.file("in/mav0/imu0/data.csv");
-  writeFile(imu, "#timestamp,wx,wy,wz,ax,ay,az\n1403715273262142976,0,0,0,9.8,0.1,-0.2\n");
+  writeFile(imu, "#timestamp,wx,wy,wz,ax,ay,az\n1403715273262142976,0,0,0,0.1,-0.2,9.8\n");
   const auto forces = openEurocFolder(folder.file("in"), {})->forces();
   ASSERT_EQ(forces.size(), 1U);
   EXPECT_EQ(forces[0].stamp, 1403715273262142976);
   const urban_nav_core::Pose T_base_body = readEurocRig(folder.file("in/mav0")).T_base_body;
-  EXPECT_LT((forces[0].force - T_base_body.R() * urban_nav_core::Vector3d(9.8, 0.1, -0.2)).norm(), 1e-12);
+  EXPECT_LT((forces[0].force - T_base_body.R() * urban_nav_core::Vector3d(0.1, -0.2, 9.8)).norm(), 1e-12);
   writeFile(imu, "#timestamp,wx,wy,wz,ax,ay,az\n1403715273262142976,0,0,0,rubbish,0.1,-0.2\n");
   const auto source = openEurocFolder(folder.file("in"), {});
   EXPECT_TRUE(source->forces().empty());
