@@ -61,7 +61,7 @@ class SimulateCamera : public ::testing::Test {
 
 TEST_F(SimulateCamera, FramesHoldTheImagesOfTheBagAndTheIndexTheirTimes) {
   ASSERT_EQ(simulate(), static_cast<std::int64_t>(kCameraPairs));
-  const std::string raw = urban_nav_core::readTextFile(job_.source);
+  const std::string raw = urban_nav_core::readBytes(job_.source);
   ASSERT_EQ(raw.size(), kCameraPairs * segway_drivers::kBb2FrameSize);
   const auto index = urban_nav_core::CsvTable::read(job_.source + ".csv");
   const auto truth = urban_nav_core::CsvTable::read(job_.truth);
@@ -87,7 +87,7 @@ TEST_F(SimulateCamera, ASessionIsSimulatedWhereThereIsNoBag) {
   job_.bag.clear();
   job_.session.duration = 0.2;
   EXPECT_EQ(simulate(), 4);
-  EXPECT_EQ(urban_nav_core::readTextFile(job_.source).size(), 4 * segway_drivers::kBb2FrameSize);
+  EXPECT_EQ(urban_nav_core::readBytes(job_.source).size(), 4 * segway_drivers::kBb2FrameSize);
   job_.kind = "ladybug2";
   EXPECT_EQ(simulate(), 1);
 }
@@ -95,9 +95,9 @@ TEST_F(SimulateCamera, ASessionIsSimulatedWhereThereIsNoBag) {
 TEST_F(SimulateCamera, TheSameJobGivesTheSameBytes) {
   job_.options.faults = {urban_nav_sim::parseDeviceFault("unplug:0.5:0.5")};
   EXPECT_NEAR(static_cast<double>(simulate()), 30.0, 1.0);
-  const std::string first = urban_nav_core::readTextFile(job_.source);
+  const std::string first = urban_nav_core::readBytes(job_.source);
   simulate();
-  EXPECT_TRUE(first == urban_nav_core::readTextFile(job_.source));
+  EXPECT_TRUE(first == urban_nav_core::readBytes(job_.source));
 }
 
 TEST_F(SimulateCamera, FaultsOfSerialDevicesAndBagsWithoutImagesAreRefused) {

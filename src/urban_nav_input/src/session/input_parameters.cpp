@@ -16,6 +16,7 @@ namespace {
 
 using P = InputParameters;
 
+constexpr urban_nav_core::Audience kRepair = urban_nav_core::Audience::Experts;  // doctor states it with its value
 constexpr double kLongestDelay = 1e13;  // ms: of a clock that was never set
 
 urban_nav_core::Row<P> delayRow(const char* name, double P::*member, const std::string& what) {
@@ -27,11 +28,13 @@ urban_nav_core::Row<P> delayRow(const char* name, double P::*member, const std::
           kLongestDelay,
           {},
           "How much later " + what + " are stamped than they were measured; it is taken from their stamps.",
-          "docs/files.md"};
+          "docs/files.md",
+          {},
+          kRepair};
 }
 
 urban_nav_core::Row<P> scaleRow(const char* name, double P::*member, const char* unit, const std::string& sentence) {
-  return {name, member, unit, 1.0, 1e-6, 1e6, {}, sentence, "docs/files.md"};
+  return {name, member, unit, 1.0, 1e-6, 1e6, {}, sentence, "docs/files.md", {}, kRepair};
 }
 
 std::vector<urban_nav_core::Row<P>> ownRows() {
