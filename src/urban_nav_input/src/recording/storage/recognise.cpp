@@ -79,7 +79,10 @@ bool isRecording(const std::string& path) { return recogniseStorage(path).has_va
 std::unique_ptr<Storage> openStorage(const std::string& path) {
   const std::optional<StorageKind> kind = recogniseStorage(path);
   if (!kind)
-    throw urban_nav_core::UserError(path, "is not a recording", "a ROS 1 bag, MCAP, a .db3 or a folder of rosbag2");
+    throw urban_nav_core::UserError(path, fs::path(path).extension() == ".zstd"
+                                              ? "is not a recording that zstd compressed"
+                                              : "is not a recording",
+                                    "a ROS 1 bag, MCAP, a .db3 or a folder of rosbag2");
   switch (*kind) {
     case StorageKind::Bag: return openBagStorage(path);
     case StorageKind::Mcap: return openMcapStorage(path);
