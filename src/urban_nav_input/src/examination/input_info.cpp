@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "recording/bag_order.hpp"
+#include "recording/message/connection_definition.hpp"
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
@@ -61,13 +62,13 @@ class Counter {
 class TopicCounter {
  public:
   explicit TopicCounter(const Connection& connection)
-      : has_header_(beginsWithHeader(connection.definition)),
+      : has_header_(beginsWithHeader(connection)),
         stamps_(connection.topic, connection.type),
         receipts_(connection.topic, connection.type) {}
 
   void add(const RecordedMessage& message) {
     receipts_.add(message.receipt());
-    if (has_header_) stamps_.add(readHeaderStamp(message));
+    if (has_header_ && message.bytes().data != nullptr) stamps_.add(readHeaderStamp(message));
   }
 
   StreamInfo info() const { return hasStamps() ? stamps_.info() : receipts_.info(); }
@@ -89,17 +90,15 @@ class TopicCounter {
   }
 
  private:
-  /// Whether a definition begins with a field of type Header.
-  static bool beginsWithHeader(const std::string& definition) {
-    bool has_header = false, has_ended = false;
-    urban_nav_core::forEachLine(definition, [&](std::string_view line, int) {
-      const std::string_view text = urban_nav_core::trimmed(line.substr(0, line.find('#')));
-      if (has_ended || text.empty()) return;
-      const std::string_view type = text.substr(0, text.find_first_of(" \t"));
-      has_header = type == "Header" || type == "std_msgs/Header" || type == "std_msgs/msg/Header";
-      has_ended = true;
-    });
-    return has_header;
+  /// Whether the messages of a connection begin with a header.
+  static bool beginsWithHeader(const Connection& connection) {
+    try {
+      const MessageDefinition definition = findDefinition(connection);
+      const std::vector<MessageField>& fields = definition.layouts.front().fields;
+      return !fields.empty() && fields.front().type == "std_msgs/Header";
+    } catch (const std::invalid_argument&) {
+      return false;  // reported as undecoded
+    }
   }
 
   bool hasStamps() const {

@@ -60,7 +60,9 @@ std::string Recording::undecoded(const std::string& topic) {
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
-  if (connection.encoding == "cdr" && !cdrEncoding(first->bytes()))
+  const ByteView bytes = first->bytes();
+  if (bytes.data == nullptr) return "the first of its messages is damaged";
+  if (connection.encoding == "cdr" && !cdrEncoding(bytes))
     return "its messages are in a form of CDR that is not understood (XCDR2 or parameter lists)";
   return {};
 }

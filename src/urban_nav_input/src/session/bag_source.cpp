@@ -153,6 +153,9 @@ class BagSource : public Source {
 
   std::pair<CameraInfo, CameraInfo> makeInfos() {
     const auto left = findInfo(Role::LeftInfo), right = findInfo(Role::RightInfo);
+    const std::vector<std::string> damage = recording_.warnings();
+    if ((!left || !right) && !damage.empty())
+      throw DataError(name_, "no camera_info can be read: " + damage.front(), "a recording that is not damaged");
     if (!left && !right)
       throw UserError(name_, "has no camera_info for the left and the right images",
                       "--calibration FILE, or --topic left_info:=NAME --topic right_info:=NAME");
