@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(rospkg.RosPack().get_path("urban_nav")) / "test" / "
 import drive  # noqa: E402
 
 ALL_SENSORS = tuple(drive.TOPICS)
-PATIENCE = 90.0  # seconds for what takes two on an idle machine; a test that passes does not wait for them to end
+PATIENCE = 300.0  # seconds for what takes two on an idle machine; a test that passes does not wait for them to end
 
 # What a display of rviz reads, and the property that names it.
 DISPLAYS = {

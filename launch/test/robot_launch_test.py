@@ -17,7 +17,7 @@ from launch_case import ALL_SENSORS, LaunchCase  # noqa: E402
 
 TOPICS = {"/laser_left/scan": LaserScan, "/laser_right/scan": LaserScan, "/imu/data": Imu, "/wheel_odom": Odometry, "/gps/fix": NavSatFix,
           "/stereo/left/image_raw": Image, "/ladybug/raw": RawFrame, "/ladybug/camera2/image_raw/compressed": CompressedImage, "/vo/odometry": Odometry}
-SECONDS = 14
+SECONDS = 24  # the tests end long before, but not on a machine that takes ten seconds to start all nodes
 STEREO_TOPICS = {"/tf_static", *(f"/stereo/{side}/{topic}" for side in ("left", "right") for topic in ("image_raw", "camera_info"))}
 
 

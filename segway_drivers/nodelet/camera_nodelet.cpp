@@ -74,7 +74,7 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
 
 void CameraNodelet::run() {
   TimeNs wait = kLeastCameraPause;
-  while (!stop_) {
+  while (!stop_ && !source_->isFinished()) {
     std::string error;
     if (!start(error)) {
       setState(openings_ == 0 ? DriverState::Absent : DriverState::Lost, error);
@@ -88,13 +88,14 @@ void CameraNodelet::run() {
     source_->stop();
     pause(wait);
   }
+  if (!stop_) setState(DriverState::Lost, "the recording has ended");
 }
 
 /// Until the camera vanishes or its stream stalls. It streams from its first frame on.
 void CameraNodelet::stream(FrameSource& source) {
   TimeNs last = steadyTime();
   bool streams = false;
-  while (!stop_ && !source.isGone() && steadyTime() - last < stalledAfter()) {
+  while (!stop_ && !source.isGone() && !source.isFinished() && steadyTime() - last < stalledAfter()) {
     const std::int64_t frames = counters().frames;
     step(kFrameWait);
     if (counters().frames != frames) {
@@ -106,7 +107,7 @@ void CameraNodelet::stream(FrameSource& source) {
     for (const DriverEvent& event : takeEvents()) NODELET_WARN("%s", event.text.c_str());
     setState(streams ? DriverState::Streaming : DriverState::Configuring, "");
   }
-  if (!stop_) setState(source.isGone() ? DriverState::Lost : DriverState::Stalled, "no image");
+  if (!stop_ && !source.isFinished()) setState(source.isGone() ? DriverState::Lost : DriverState::Stalled, "no image");
 }
 
 void CameraNodelet::pause(TimeNs duration) const {

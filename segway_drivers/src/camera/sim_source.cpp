@@ -12,7 +12,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double kRingS = 0.4;  // s for which a frame waits in the ring of buffers
+constexpr TimeNs kRing = 400'000'000;  // ns for which a frame waits in the ring of buffers
 constexpr std::uint64_t kSimPattern = 0x1040, kSimDataFormat = 0x1048, kSimEmbedded = 0x12F8, kSimSensor = 0x1F28,
                         kSimBaseSerial = 0x1F20, kSimHeadSerial = 0x1F80;
 constexpr std::size_t kLadybugSequenceAt = 0x20;
@@ -100,17 +100,30 @@ bool SimSource::start(const CameraFormat&, std::string& error) {
     return false;
   }
   streams_ = true;
+  started_ = clock_.now();
+  in_ring_ = std::max(in_ring_, started_);
   return true;
 }
 
+TimeNs SimSource::dueTime(const SimFrame& frame) const {
+  return begin_.value_or(0) + static_cast<TimeNs>(1e9 * (frame.time + options_.transfer));
+}
+
+/// A camera exposes while its driver works; a recording is decoded in the driver's own time. What decoding takes is
+/// therefore added to the time at which the frame is in the ring: a slow machine delays the session and loses nothing.
+void SimSource::read() {
+  const TimeNs begin = clock_.now();
+  waiting_ = read_();
+  if (waiting_) in_ring_ = std::max(in_ring_, dueTime(*waiting_)) + (clock_.now() - begin);
+}
+
 std::optional<CameraFrame> SimSource::next(TimeNs timeout) {
-  const TimeNs deadline = clock_.now() + timeout;
+  const TimeNs asked = clock_.now(), deadline = asked + timeout;
   while (true) {
     if (isFaulty(SimCameraFault::Kind::Power, elapsed())) was_off_ = true;
-    if (!waiting_ && !finished_) waiting_ = read_();
+    if (!waiting_ && !finished_) read();
     finished_ = finished_ || !waiting_;
-    const TimeNs due =
-        waiting_ && begin_ ? *begin_ + static_cast<TimeNs>(1e9 * (waiting_->time + options_.transfer)) : deadline + 1;
+    const TimeNs due = waiting_ && begin_ ? dueTime(*waiting_) : deadline + 1;
     if (due > deadline || !streams_ || isGone()) {
       clock_.sleep(deadline);
       return std::nullopt;
@@ -119,7 +132,7 @@ std::optional<CameraFrame> SimSource::next(TimeNs timeout) {
     SimFrame frame = std::move(*waiting_);
     waiting_.reset();
     const bool lost = isGone() || isOffBus(frame.time) || isFaulty(SimCameraFault::Kind::Silence, frame.time) ||
-                      elapsed() > frame.time + options_.transfer + kRingS;
+                      due < started_ || asked > in_ring_ + kRing;
     if (!lost) embed(frame);
     ++sequence_;
     if (lost) continue;

@@ -193,5 +193,36 @@ TEST(SimSource, FramesThatNobodyFetchesAreLost) {
   EXPECT_NEAR(static_cast<double>(camera.counters().gaps), 52.0, 3.0);
 }
 
+TEST(SimSource, AMachineThatDecodesSlowlyDelaysTheSessionAndLosesNothing) {
+  TimeNs now = kSimBegin;
+  int sent = 0;
+  const FrameReader read = [&]() -> std::optional<SimFrame> {
+    now += 80'000'000;  // for a frame each 50 ms
+    if (sent == 100) return std::nullopt;
+    return SimFrame{0.05 * sent++, Bytes(kBb2FrameSize)};
+  };
+  SimSource source(read, makeStereoOptions({}),
+                   {[&] { return now; }, [&](TimeNs until) { now = std::max(now, until); }});
+  Bb2Camera camera(source, {});
+  std::string error;
+  ASSERT_TRUE(camera.start(error));
+  int pairs = 0;
+  while (!source.isFinished()) pairs += camera.next(100'000'000) ? 1 : 0;
+  EXPECT_GE(pairs, 95);  // the driver needs a few to set its clock
+  EXPECT_EQ(camera.counters().gaps, 0);
+}
+
+TEST(SimSource, FramesFromBeforeTheStartAreNotGiven) {
+  SimCameraOptions options = makeStereoOptions({});
+  options.begin = kSimBegin - 2'000'000'000;
+  SteppedCamera stepped(options, Bytes(kBb2FrameSize), 0.05, 100);
+  Bb2Camera camera(stepped.source, {});
+  std::string error;
+  ASSERT_TRUE(camera.start(error));
+  int pairs = 0;
+  while (!stepped.source.isFinished()) pairs += camera.next(100'000'000) ? 1 : 0;
+  EXPECT_NEAR(pairs, 58, 3);  // the driver needs a few of them to set its clock
+}
+
 }  // namespace
 }  // namespace segway_drivers

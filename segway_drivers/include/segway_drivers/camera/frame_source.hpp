@@ -46,6 +46,8 @@ class FrameSource {
   virtual void stop() = 0;
   /// Whether the camera has vanished.
   virtual bool isGone() const = 0;
+  /// Whether no image will ever come: the end of a recording or of a simulation.
+  virtual bool isFinished() const { return false; }
 };
 
 /// Camera of a bus by its GUID in hexadecimal, or the only one whose model begins with `model` if `guid` is empty.

@@ -52,7 +52,8 @@ struct SimCameraOptions {
 
 /// A camera on a simulated bus: a map of registers, frames at their times, and the clock of the bus, which wraps after
 /// 128 s. A frame holds the embedded words that its register asks for. `read` gives the frames in order of time, and
-/// nothing after the last. Frames that nobody fetched for 0.4 s are lost, as in a ring of buffers. Not thread-safe.
+/// nothing after the last; its own duration delays frames. Frames that nobody fetched for 0.4 s are lost, as in a ring
+/// of buffers, and so are those from before the stream was started. Not thread-safe.
 class SimSource : public FrameSource {
  public:
   SimSource(FrameReader read, SimCameraOptions options, SimClock clock);
@@ -65,8 +66,7 @@ class SimSource : public FrameSource {
   std::optional<CameraCycle> readCycle() override;
   void stop() override { streams_ = false; }
   bool isGone() const override;
-  /// Whether all frames have been given.
-  bool isFinished() const { return finished_; }
+  bool isFinished() const override { return finished_; }
 
  private:
   double elapsed() const;
@@ -75,12 +75,15 @@ class SimSource : public FrameSource {
   double busTime(double elapsed_s) const;
   void powerOn();
   void embed(SimFrame& frame) const;
+  TimeNs dueTime(const SimFrame& frame) const;
+  void read();
 
   FrameReader read_;
   SimCameraOptions options_;
   SimClock clock_;
   std::optional<TimeNs> begin_;
   std::optional<SimFrame> waiting_;
+  TimeNs started_ = 0, in_ring_ = 0;  // of the stream; of the newest frame
   std::map<std::uint64_t, std::uint32_t> registers_;
   std::uint32_t sequence_ = 0;
   bool streams_ = false, finished_ = false, was_off_ = false;
