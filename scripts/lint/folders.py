@@ -10,7 +10,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
     ["evaluation", "convert", "device"],
     ["map", "simulate"],
     ["topics"],
-    ["inspect"],
+    ["inspect", "join"],
     ["commands"],
 ]
 

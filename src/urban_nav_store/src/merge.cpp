@@ -12,6 +12,8 @@
 #include "file/header.hpp"
 #include "schema/row.hpp"
 #include "store_implementation.hpp"
+#include "tables/graph_tables.hpp"
+#include "tables/session_tables.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -40,13 +42,14 @@ struct LessByText {
 /// Puts the rows of one source after the other into a target.
 class Merger {
  public:
-  explicit Merger(Connection& target) : target_(target) {}
+  Merger(Connection& target, MergeContent content) : target_(target), content_(content) {}
 
   void add(Connection& source) {
     source_ = source.name();
     const int version = schema::version(source);
     for (const Table* table : schema::tables())
-      if (table->since <= version) addTable(source, schema::atVersion(*table, version), *table);
+      if (table->since <= version && (content_ == MergeContent::All || !table->of_graph))
+        addTable(source, schema::atVersion(*table, version), *table);
   }
 
   /// DataError where rows contradict each other.
@@ -64,8 +67,18 @@ class Merger {
   /// `stored`: the table as the source has it.
   void addTable(Connection& source, const Table& stored, const Table& table) {
     RowReader reader(source, stored, "");
-    while (reader.next()) addRow(table, completed(readRow(reader), stored, table));
+    while (reader.next()) {
+      const Row row = completed(readRow(reader), stored, table);
+      if (content_ == MergeContent::All || !isClosure(table, row)) addRow(table, row);
+    }
     verifyTally(source, stored);
+  }
+
+  /// Returns whether a row is an edge that a relaxation of several sessions has written.
+  static bool isClosure(const Table& table, const Row& row) {
+    if (&table != &declaredTable<EdgeRow>()) return false;
+    const std::optional<EdgeKind> kind = parseEdgeKind(row[indexOf(table, "kind")].bytes);
+    return kind && *kind != EdgeKind::Odometry && *kind != EdgeKind::Asserted;
   }
 
   void addRow(const Table& table, const Row& row) {
@@ -82,7 +95,8 @@ class Merger {
 
   void addDifferent(const Table& table, const Row& there, const Row& row) {
     switch (table.merge) {
-      case MergeRule::Contradiction: return contradict(table, row);
+      case MergeRule::Contradiction:
+        return isOfRun(table, row) ? keepLesser(table, there, row) : contradict(table, row);
       case MergeRule::LatestRevision: return addRevision(table, there, row);
       case MergeRule::CompleteInAll: return addPart(table, there, row);
       case MergeRule::DropDifferent: break;
@@ -90,8 +104,22 @@ class Merger {
     dropped_.emplace(&table, Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(table.keys) - 1));
   }
 
+  /// Returns whether a row describes the run that read a session, not the session: the path of its input, the options
+  /// of the run.
+  static bool isOfRun(const Table& table, const Row& row) {
+    if (&table != &declaredTable<PropertyRow>()) return false;
+    const std::string& name = row[indexOf(table, "name")].bytes;
+    return name.rfind("run/", 0) == 0 || name.rfind("input/", 0) == 0;
+  }
+
+  void keepLesser(const Table& table, const Row& there, const Row& row) {
+    const std::size_t value = indexOf(table, "value");
+    ++result_.identical;
+    if (row[value].bytes < there[value].bytes) write(table, row);
+  }
+
   void addRevision(const Table& table, const Row& there, const Row& row) {
-    const std::size_t revision = indexOfRevision(table);
+    const std::size_t revision = indexOf(table, "revision");
     if (there[revision].integer == row[revision].integer) return contradict(table, row);
     ++result_.outdated;
     if (there[revision].integer < row[revision].integer) write(table, row);
@@ -118,9 +146,9 @@ class Merger {
     }
   }
 
-  static std::size_t indexOfRevision(const Table& table) {
+  static std::size_t indexOf(const Table& table, const std::string& name) {
     const auto found = std::find_if(table.columns.begin(), table.columns.end(),
-                                    [](const Column& column) { return column.name == "revision"; });
+                                    [&](const Column& column) { return column.name == name; });
     return static_cast<std::size_t>(found - table.columns.begin());
   }
 
@@ -155,6 +183,7 @@ class Merger {
   }
 
   Connection& target_;
+  const MergeContent content_;
   std::string source_, named_;
   std::int64_t contradictions_ = 0;
   /// Rows of which different ones were found: the table, and all keys but the last.
@@ -176,7 +205,7 @@ void replace(const std::string& path, urban_nav_core::PartialFile& partial) {
 
 }  // namespace
 
-MergeResult merge(const std::vector<std::string>& sources, const std::string& given) {
+MergeResult merge(const std::vector<std::string>& sources, const std::string& given, MergeContent content) {
   const std::string path = resolved(given);
   refuseOtherFiles(path);
   urban_nav_core::PartialFile partial(path, ".merging");
@@ -185,7 +214,7 @@ MergeResult merge(const std::vector<std::string>& sources, const std::string& gi
   {
     Store target(partial.path(), Access::Write);
     Connection& connection = target.implementation().connection;
-    Merger merger(connection);
+    Merger merger(connection, content);
     for (const std::string& source : sources) {
       Store opened(source, Access::Snapshot);
       merger.add(opened.implementation().connection);

@@ -6,6 +6,7 @@
 #include "device/device_command.hpp"
 #include "evaluation/evaluate_command.hpp"
 #include "inspect/inspect.hpp"
+#include "join/join_command.hpp"
 #include "map/map_command.hpp"
 #include "simulate/simulate_command.hpp"
 #include "topics/graph/graph.hpp"
@@ -18,10 +19,22 @@
 namespace urban_nav {
 
 std::vector<Command> allCommands() {
-  return {mapCommand(makeStages), convertCommand(), evaluateCommand(), infoCommand(),
-          exportCommand(),        mergeCommand(),   relaxCommand(),    icpCommand(),
-          disparityCommand(),     doctorCommand(),  placesCommand(),   labelsCommand(runOdometry),
-          simulateCommand(),      deviceCommand(),  whyCommand()};
+  return {mapCommand(makeStages),
+          convertCommand(),
+          evaluateCommand(),
+          infoCommand(),
+          exportCommand(),
+          mergeCommand(),
+          joinCommand(makeStages),
+          relaxCommand(),
+          icpCommand(),
+          disparityCommand(),
+          doctorCommand(),
+          placesCommand(),
+          labelsCommand(runOdometry),
+          simulateCommand(),
+          deviceCommand(),
+          whyCommand()};
 }
 
 }  // namespace urban_nav

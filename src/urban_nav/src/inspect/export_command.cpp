@@ -9,6 +9,9 @@
 #include "base/parameters.hpp"
 #include "inspect/inspect.hpp"
 #include "inspect/store_export.hpp"
+#include "inspect/store_results.hpp"
+#include "map/output_folder.hpp"
+#include "map/stage_result.hpp"
 #include "topics/labels/labelled_map.hpp"
 #include "topics/lasers/map_crs.hpp"
 #include "topics/lasers/map_export.hpp"
@@ -46,10 +49,11 @@ MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
 
 void checkFormats(const Arguments& arguments) {
   const bool any = mapFilePaths(arguments, 0).any() || arguments.has("tum") || arguments.has("kitti") ||
-                   arguments.has("g2o") || arguments.has("places");
+                   arguments.has("g2o") || arguments.has("places") || arguments.has("results");
   if (!any)
-    throw UserError("urban_nav export", "no format is asked for",
-                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE, or --places DIR");
+    throw UserError(
+        "urban_nav export", "no format is asked for",
+        "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE, or --places or --results DIR");
   if (arguments.has("crs")) {
     parseCrs(arguments.get("crs"));
     if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
@@ -82,6 +86,7 @@ class Written {
     file["content"] = what;
     json_["files"].append(file);
   }
+  void leftOut(const std::string& sentence) { console_.info("left out: " + sentence); }
   /// Where a map lies on the earth.
   void noteReference(const ExportedMap& made) {
     console_.info(made.crs);
@@ -126,6 +131,25 @@ void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Writt
   }
 }
 
+/// Writes the files of `map` into a folder.
+void writeResults(Store& store, const Maps& maps, const Arguments& arguments, Written& written) {
+  if (arguments.has("session"))
+    throw UserError("--results", "not with --session", "--results for all sessions, or a format of its own");
+  const OutputFolder folder(arguments.get("results"));
+  const StoredResults results = readResults(store);
+  for (const StoredResults::File& file : results.files)
+    written.write(folder.file(file.name), file.content, "as map writes it");
+  for (const std::string& sentence : results.left_out) written.leftOut(sentence);
+  const double memory_mb = kMapImageShare * loadParameters(arguments).get(commandTable()).memory_mb;
+  for (const std::vector<StoredTrajectory>& map : maps) {
+    if (!holdsMap(store, map)) continue;
+    MapFilePaths paths;
+    paths.ply = folder.file("map" + fileSuffix(numberOfSession(store, map.front().map)) + ".ply");
+    for (const std::string& path : exportMap(store, map, paths, memory_mb, labelAttributes).files)
+      written.note(path, describe(map));
+  }
+}
+
 int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
@@ -154,6 +178,7 @@ int runExport(const Arguments& arguments, Console& console) {
       written.note(path,
                    std::to_string(places.places) + " places, " + std::to_string(places.thumbnails) + " thumbnails");
   }
+  if (arguments.has("results")) writeResults(store, maps, arguments, written);
   if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());
   return 0;
@@ -195,6 +220,14 @@ Command exportCommand() {
       {"--places",
        "DIR",
        "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
+       false,
+       false,
+       {}},
+      {"--results",
+       "DIR",
+       "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, with the "
+       "bytes "
+       "that map wrote",
        false,
        false,
        {}},

@@ -79,7 +79,7 @@ int runInfo(const Arguments& arguments, Console& console) {
   Json all = Json::array();
   for (const std::string& input : arguments.all("INPUT")) {
     if (urban_nav_store::isStore(input) || fs::path(input).extension() == ".db") {
-      const StoreInfo info = lookIntoStore(input);
+      const StoreInfo info = readStoreInfo(input);
       console.print(toText(info));
       all.append(toJson(info));
       continue;

@@ -12,6 +12,11 @@ namespace urban_nav {
 
 namespace {
 
+std::string mapsSentence(std::size_t maps) {
+  if (maps == 1) return "1 map\n";
+  return std::to_string(maps) + " maps: urban_nav join makes one of those that show the same places\n";
+}
+
 int runMerge(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const std::string output = arguments.get("output");
@@ -19,8 +24,8 @@ int runMerge(const Arguments& arguments, Console& console) {
   console.info(
       std::to_string(result.rows) + " rows, " + std::to_string(result.identical) + " that several files hold" +
       (result.outdated > 0 ? ", " + std::to_string(result.outdated) + " poses of an earlier relaxation left out" : ""));
-  const StoreInfo info = lookIntoStore(output);
-  console.print(toText(info));
+  const StoreInfo info = readStoreInfo(output);
+  console.print(toText(info) + mapsSentence(info.joined.size()));
   if (arguments.has("json")) {
     Json json = toJson(info);
     json["rows"] = result.rows;

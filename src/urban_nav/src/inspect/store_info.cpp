@@ -123,7 +123,7 @@ std::string toText(const StoredSession& each) {
 
 }  // namespace
 
-StoreInfo lookIntoStore(const std::string& path) {
+StoreInfo readStoreInfo(const std::string& path) {
   Store store(path, urban_nav_store::Access::Snapshot);
   StoreInfo info;
   info.path = path;

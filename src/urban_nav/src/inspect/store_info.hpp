@@ -42,7 +42,7 @@ struct StoreInfo {
 };
 
 /// Reads the store whole; errors as urban_nav_store has them.
-StoreInfo lookIntoStore(const std::string& path);
+StoreInfo readStoreInfo(const std::string& path);
 
 std::string toText(const StoreInfo& info);
 Json toJson(const StoreInfo& info);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/closure_rows.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 namespace urban_nav {
 
 using urban_nav_core::ClosureMethod;
@@ -62,6 +66,33 @@ ClosureRow toRow(const MetricClosure& closure, const ClosureAssessment& assessme
   row.reason = assessment.reason;
   row.weight = assessment.weight;
   return row;
+}
+
+void sortClosures(const std::vector<std::string>& names, std::vector<MetricClosure>& closures,
+                  std::vector<ClosureAssessment>& assessments) {
+  std::vector<std::size_t> order(closures.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const MetricClosure& closure = closures[i];
+    return closurePlace(names, closure.a, closure.b, closure.method);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<MetricClosure> sorted;
+  std::vector<ClosureAssessment> sorted_assessments;
+  for (const std::size_t i : order) {
+    sorted.push_back(closures[i]);
+    if (i < assessments.size()) sorted_assessments.push_back(assessments[i]);
+  }
+  closures = std::move(sorted);
+  assessments = std::move(sorted_assessments);
+}
+
+ClosurePlace closurePlace(const std::vector<std::string>& names, const urban_nav_core::PoseRef& a,
+                          const urban_nav_core::PoseRef& b, ClosureMethod method) {
+  const auto place = [&](const std::string& session) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), session) - names.begin());
+  };
+  return {place(b.session), b.stamp, place(a.session), a.stamp, static_cast<int>(method)};
 }
 
 std::string printClosureRows(const std::vector<MetricClosure>& closures,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "urban_nav_core/io/closures_csv.hpp"
@@ -39,5 +40,15 @@ urban_nav_core::ClosureRow toRow(const urban_nav_core::MetricClosure& closure, c
 /// Returns closures.csv. `assessments`: one for each closure, or none before the pose graph.
 std::string printClosureRows(const std::vector<urban_nav_core::MetricClosure>& closures,
                              const std::vector<ClosureAssessment>& assessments);
+
+/// Place of a closure in closures.csv: numbers of the session of b, its stamp, those of a, and the method.
+using ClosurePlace = std::tuple<std::size_t, urban_nav_core::StampNs, std::size_t, urban_nav_core::StampNs, int>;
+ClosurePlace closurePlace(const std::vector<std::string>& names, const urban_nav_core::PoseRef& a,
+                          const urban_nav_core::PoseRef& b, urban_nav_core::ClosureMethod method);
+
+/// Sorts closures, and with them their assessments, as closures.csv has them: by the session and time of b, then of a,
+/// sessions in the order of `names`. Closures between sessions without a name come last.
+void sortClosures(const std::vector<std::string>& names, std::vector<urban_nav_core::MetricClosure>& closures,
+                  std::vector<ClosureAssessment>& assessments);
 
 }  // namespace urban_nav

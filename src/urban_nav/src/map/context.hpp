@@ -13,6 +13,7 @@
 #include "map/previous_sessions.hpp"
 #include "map/session_trajectory.hpp"
 #include "urban_nav_input/session/sessions.hpp"
+#include "urban_nav_registration/keyframe/mounted_camera.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
@@ -43,7 +44,8 @@ struct MapContext {
   Console& console;
   urban_nav_store::Store* store = nullptr;  ///< session.db of the run; set before the first session
   std::vector<MapSession> sessions;
-  PreviousSessions previous;       ///< of the store given by --store, if a stage uses them
+  PreviousSessions previous;  ///< of the store given by --store, if a stage uses them
+  bool joins = false;  ///< no session is read: places of the previous ones are recognised anew, closures measured anew
   std::vector<std::string> names;  ///< over all sessions, as closures.csv names them
 
   std::vector<urban_nav_core::MetricClosure> closures;  ///< candidates, then with transforms; those of previous runs
@@ -58,6 +60,9 @@ struct MapContext {
   /// Return odometry and store keys over all sessions.
   std::vector<const SessionOdometry*> runs() const;
   std::vector<urban_nav_store::SessionId> ids() const;
+  /// Returns the camera of the last session; that of a stored session is the one with which it was read. Throws
+  /// DataError if the store does not have it.
+  urban_nav_registration::MountedCamera lastCamera() const;
 };
 
 }  // namespace urban_nav

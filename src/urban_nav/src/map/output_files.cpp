@@ -65,7 +65,12 @@ void writeOutputFiles(const OutputFolder& folder, const MapContext& context,
   const std::vector<const SessionOdometry*> runs = context.runs();
   std::vector<OutputFile> files = trajectoryFiles(runs, context.trajectories);
   if (usesClosures(selected))
-    files.push_back({kClosuresFile, [&] { return printClosureRows(context.closures, context.assessments); }});
+    files.push_back({kClosuresFile, [&] {
+                       std::vector<urban_nav_core::MetricClosure> closures = context.closures;
+                       std::vector<ClosureAssessment> assessments = context.assessments;
+                       sortClosures(context.names, closures, assessments);
+                       return printClosureRows(closures, assessments);
+                     }});
   for (const StageResult& result : results) files.insert(files.end(), result.files.begin(), result.files.end());
   std::set<std::string> written;
   for (const StageResult& result : results) written.insert(result.written_files.begin(), result.written_files.end());

@@ -44,7 +44,7 @@ SessionOdometry makeChain(Store& store, const SessionId& id) {
     SmoothedFrame settled;
     settled.frame = static_cast<std::int64_t>(run.settled.size());
     settled.stamp = node.stamp;
-    settled.T_odom_base.pose = node.T_odom_base;
+    settled.T_odom_base = {node.T_odom_base, node.covariance_from_first};
     settled.status.health = node.status;
     urban_nav_core::RelativePose& step = settled.from_previous;
     step.from = run.settled.empty() ? node.stamp : run.settled.back().stamp;

@@ -13,8 +13,8 @@ namespace urban_nav {
 struct PreviousSessions {
   std::vector<urban_nav_store::SessionId> ids;
   std::vector<std::string> names;  ///< as closures.csv names them
-  /// Odometry chains with bit-exact numbers, rows of dropped frames, specific forces and the camera's extrinsics; other
-  /// members are empty.
+  /// Odometry chains and covariances with bit-exact numbers, rows of dropped frames, specific forces and the camera's
+  /// extrinsics; other members are empty.
   std::vector<SessionOdometry> runs;
   std::int64_t revision = 0;  ///< highest revision of their anchors
 };

@@ -68,7 +68,7 @@ class StoreCommands : public ::testing::Test {
 std::unique_ptr<TemporaryFolder> StoreCommands::shared_;
 
 TEST_F(StoreCommands, InfoSaysWhatIsInAStore) {
-  const StoreInfo info = lookIntoStore(file("both/session.db"));
+  const StoreInfo info = readStoreInfo(file("both/session.db"));
   ASSERT_EQ(info.sessions.size(), 2U);
   EXPECT_EQ(info.joined.size(), 2U) << "nothing joins them";
   const StoredSession& session = info.sessions.front().nodes == 16 ? info.sessions.front() : info.sessions.back();
@@ -108,7 +108,7 @@ TEST_F(StoreCommands, ExportsTheBytesThatMapWrote) {
 TEST_F(StoreCommands, MapGoesOnFromAStore) {
   const std::string first = dumpStore(file("a/session.db"));
   ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
-  const auto sessionsIn = [](const std::string& path) { return lookIntoStore(path).sessions.size(); };
+  const auto sessionsIn = [](const std::string& path) { return readStoreInfo(path).sessions.size(); };
   EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
   EXPECT_TRUE(dumpStore(file("a/session.db")) == first) << "it is only read";
   EXPECT_EQ(readFile(file("on/trajectory.tum")), readFile(file("b/trajectory.tum")));
@@ -161,7 +161,7 @@ TEST_F(StoreCommands, MapRelaxesTheSessionsOfAStoreWithNewOnes) {
           << name << ", " << closures;
     EXPECT_EQ(urban_nav_core::parseClosures(readFile(out + "/closures.csv"), "").size(), 6U);
     EXPECT_TRUE(readFile(out + "/trajectory_2.tum").empty()) << "it joined";
-    const auto joined = [&](const std::string& db) { return lookIntoStore(db).joined; };
+    const auto joined = [&](const std::string& db) { return readStoreInfo(db).joined; };
     EXPECT_EQ(joined(out + "/session.db").size(), joined(file("at_once/session.db")).size());
   }
   EXPECT_TRUE(dumpStore(file("day1/session.db")) == day1) << "it is only read";
@@ -255,7 +255,7 @@ TEST_F(StoreCommands, RelaxedSessionsOfOneMapAreExportedTogether) {
   EXPECT_EQ(urban_nav_core::parseG2o(graph.text, "x").edges.front().to, 3);
   store.commit();
   store.close();
-  const StoreInfo info = lookIntoStore(file("joined.db"));
+  const StoreInfo info = readStoreInfo(file("joined.db"));
   EXPECT_EQ(info.joined.size(), 1U);
   EXPECT_NE(toText(info).find("joined by closures"), std::string::npos);
 }

@@ -75,7 +75,7 @@ TEST_F(Killed, EndsWithTheBytesOfAnUnbrokenRun) {
       if (status) break;
       ++kills;
       if (!fs::exists(cut + "/session.db")) continue;
-      const StoreInfo info = lookIntoStore(cut + "/session.db");
+      const StoreInfo info = readStoreInfo(cut + "/session.db");
       std::int64_t now = 0;
       bool ended = info.sessions.size() == inputs.size();  // killed on its way out: nothing is left to go on from
       for (const StoredSession& session : info.sessions) {
@@ -88,7 +88,7 @@ TEST_F(Killed, EndsWithTheBytesOfAnUnbrokenRun) {
     EXPECT_EQ(status, 0) << log();
     took = std::min(took, used);
     expectSame(whole, cut);
-    const StoreInfo a = lookIntoStore(whole + "/session.db"), b = lookIntoStore(cut + "/session.db");
+    const StoreInfo a = readStoreInfo(whole + "/session.db"), b = readStoreInfo(cut + "/session.db");
     ASSERT_EQ(a.sessions.size(), 3U);
     ASSERT_EQ(b.sessions.size(), 3U);
     for (std::size_t i = 0; i < a.sessions.size(); ++i) {

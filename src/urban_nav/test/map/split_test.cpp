@@ -76,7 +76,7 @@ class Split : public ::testing::Test {
     for (const std::string& name : kSameWhenSplit)
       EXPECT_TRUE(readFile(whole() + "/" + name) == readFile(out + "/" + name)) << name;
     EXPECT_TRUE(forcesIn(whole() + "/session.db") == forcesIn(out + "/session.db"));
-    const StoreInfo a = lookIntoStore(whole() + "/session.db"), b = lookIntoStore(out + "/session.db");
+    const StoreInfo a = readStoreInfo(whole() + "/session.db"), b = readStoreInfo(out + "/session.db");
     ASSERT_EQ(b.sessions.size(), 1U);
     EXPECT_EQ(a.sessions[0].session, b.sessions[0].session);
     EXPECT_EQ(a.sessions[0].nodes, b.sessions[0].nodes);
@@ -117,7 +117,7 @@ TEST_F(Split, GoesOnInAnotherFolder) {
   map({part(0)}, folder.file("first"));
   map({part(1), part(2)}, folder.file("rest"), folder.file("first"));
   expectWhole(folder.file("rest"));
-  EXPECT_EQ(lookIntoStore(folder.file("first/session.db")).sessions[0].nodes,
+  EXPECT_EQ(readStoreInfo(folder.file("first/session.db")).sessions[0].nodes,
             static_cast<std::int64_t>(urban_nav_core::readTum(folder.file("first/trajectory.tum")).size()))
       << "a store to go on from is only read";
   const std::string said =
@@ -205,16 +205,16 @@ TEST_F(Split, IsAnotherSessionWhereItCannotGoOn) {
   const auto other_window = [](MapOptions& request) { request.parameters.set("swf_vo.window=7"); };
   const std::string said = map({part(1)}, folder.file("other"), out, other_window);
   EXPECT_NE(said.find("does not continue session part_0.bag: other parameters"), std::string::npos) << said;
-  EXPECT_EQ(lookIntoStore(folder.file("other/session.db")).sessions.size(), 2U);
+  EXPECT_EQ(readStoreInfo(folder.file("other/session.db")).sessions.size(), 2U);
   urban_nav_input::testing::delayBag(part(1), folder.file("late.bag"), 100.0);
   map({folder.file("late.bag")}, folder.file("late"), out);
-  const StoreInfo info = lookIntoStore(folder.file("late/session.db"));
+  const StoreInfo info = readStoreInfo(folder.file("late/session.db"));
   ASSERT_EQ(info.sessions.size(), 2U);
   EXPECT_FALSE(info.sessions[0].next_bag) << "what comes now goes on in the last one";
   EXPECT_TRUE(info.sessions[1].next_bag);
   map({part(0)}, out, out);
   EXPECT_TRUE(readFile(out + "/trajectory.tum") == first) << "mapped again, it is replaced";
-  EXPECT_EQ(lookIntoStore(out + "/session.db").sessions.size(), 1U);
+  EXPECT_EQ(readStoreInfo(out + "/session.db").sessions.size(), 1U);
 }
 
 /// Without times of day and durations.

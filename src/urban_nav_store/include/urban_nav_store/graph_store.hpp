@@ -26,6 +26,8 @@ struct Node {
   urban_nav_core::Health status = urban_nav_core::Health::Ok;
   /// Sensitivity of the motion since the previous node to constants of the rig (RelativePose::constants).
   urban_nav_core::ConsideredConstants constants{};
+  /// Covariance of the pose relative to the first node, in the axes of that node; zero: unknown.
+  urban_nav_core::Matrix6d covariance_from_first = urban_nav_core::Matrix6d::Zero();
 };
 
 /// Optimised pose of a node.
@@ -33,6 +35,8 @@ struct RelaxedPose {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_map_base;
   std::int64_t revision = 0;  ///< of the graph when the pose last changed
+  /// Covariance of the pose relative to the first pose of its map, in the axes of `map`; zero: unknown.
+  urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
 };
 
 struct NodeRef {

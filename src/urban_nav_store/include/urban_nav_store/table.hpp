@@ -61,6 +61,7 @@ struct Table {
   int since = 1;         ///< first version of the schema that has the table
   bool wide = false;     ///< rows of more than some 200 bytes: stored apart from the index of their keys
   bool kept_by_clear = false;  ///< measurements, which stay when the results of a session are cleared
+  bool of_graph = false;       ///< computed from all sessions of a graph together; a join of stores computes it anew
   MergeRule merge = MergeRule::Contradiction;
   std::string other_session{};    ///< name of another column that refers to a session; rows go with that session too
   std::vector<Column> columns{};  ///< filled in by declaredTable()

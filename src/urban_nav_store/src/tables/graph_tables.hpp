@@ -19,6 +19,8 @@ struct NodeRow {
     columns.matrix6("drift", node.drift_covariance);
     columns.since(6);
     columns.constants("constants", node.constants);
+    columns.since(7);
+    columns.matrix6("from_first", node.covariance_from_first);
   }
 };
 
@@ -27,6 +29,7 @@ struct RelaxedRow {
   RelaxedPose relaxed;
   static Table table() {
     Table table{"relaxed", 2};
+    table.of_graph = true;
     table.merge = MergeRule::LatestRevision;
     return table;
   }
@@ -35,6 +38,8 @@ struct RelaxedRow {
     columns.integer("stamp_ns", relaxed.stamp);
     columns.pose(relaxed.T_map_base);
     columns.integer("revision", relaxed.revision);
+    columns.since(7);
+    columns.matrix6("covariance", relaxed.covariance);
   }
 };
 
@@ -77,6 +82,7 @@ struct EvidenceRow {
   static Table table() {
     Table table{"evidence", 6};
     table.wide = true;
+    table.of_graph = true;
     table.other_session = "session_b";
     return table;
   }

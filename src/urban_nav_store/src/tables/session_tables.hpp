@@ -27,6 +27,7 @@ struct AnchorRow {
   Anchor anchor;
   static Table table() {
     Table table{"anchor"};
+    table.of_graph = true;
     table.merge = MergeRule::LatestRevision;
     table.other_session = "map";
     return table;

@@ -5,6 +5,10 @@
 #include <map>
 
 #include "pose_graph/stored_graph.hpp"
+#include "topics/graph/graph_g2o.hpp"
+#include "urban_nav_store/deflate.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_graph.hpp"
 
 namespace urban_nav {
 
@@ -55,6 +59,10 @@ void removeClosures(Store& store, const SessionId& id) {
   for (const Edge& edge : earlier) store.graph().remove(edge);
 }
 
+void putFile(Store& store, const SessionId& id, const GraphRun& run) {
+  urban_nav_store::TableStore<urban_nav_store::StoredGraph>(store).put({id, urban_nav_store::deflated(graphG2o(run))});
+}
+
 }  // namespace
 
 void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
@@ -64,11 +72,16 @@ void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun
     const Track* track = run.graph.track(run.sessions[s]);
     if (track == nullptr || track->stamps.empty()) continue;
     const urban_nav_core::Trajectory trajectory = run.trajectory(s);
-    for (const urban_nav_core::StampedPose& pose : trajectory)
-      store.graph().put(ids[s], urban_nav_store::RelaxedPose{pose.stamp, pose.pose, revision});
+    const std::vector<urban_nav_core::Matrix6d>& covariances = run.covariances[s];
+    for (std::size_t i = 0; i < trajectory.size(); ++i) {
+      urban_nav_store::RelaxedPose relaxed{trajectory[i].stamp, trajectory[i].pose, revision};
+      if (i < covariances.size()) relaxed.covariance = covariances[i];
+      store.graph().put(ids[s], relaxed);
+    }
     store.sessions().put(urban_nav_store::Anchor{ids[s], ids[run.findMap(s)], revision,
                                                  trajectory.front().pose * track->odom.front().inverse()});
   }
+  if (!ids.empty()) putFile(store, ids.front(), run);
   std::map<pose_graph::ClosureId, std::size_t> index_of;
   for (std::size_t i = 0; i < run.closures.size(); ++i) index_of[run.assessments[i].id] = i;
   for (const auto& [id, closure] : run.graph.closures()) {

@@ -8,10 +8,10 @@
 
 namespace urban_nav {
 
-/// Writes the result of a relaxation to a store: a pose in `map` for every node, each closure of the graph as an edge
-/// with its verdict, and an anchor for each session. `ids`: the store's keys of run.sessions. Replaces closures and
-/// poses of an earlier relaxation of these sessions; `revision`: the highest of theirs. The evidence of a closure is
-/// the row of closures.csv with which it was added. Does not commit.
+/// Writes the result of a relaxation to a store: a pose in `map` with its covariance for every node, each closure of
+/// the graph as an edge with its verdict, an anchor for each session, and graph.g2o. `ids`: the store's keys of
+/// run.sessions. Replaces closures and poses of an earlier relaxation of these sessions; `revision`: the highest of
+/// theirs. The evidence of a closure is the row of closures.csv with which it was added. Does not commit.
 void exportGraph(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids, const GraphRun& run,
                  std::int64_t revision = 0);
 

@@ -20,15 +20,11 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-/// By odometry as it was at each time, which live odometry publishes; of previous sessions, as the store has it.
-TravelledDistance travelledDistance(const SessionOdometry& run, bool is_previous) {
+/// Distances along the smoothed odometry, which the store keeps: a session gives the same places whether it was read
+/// just now or by an earlier run.
+TravelledDistance travelledDistance(const SessionOdometry& run) {
   TravelledDistance travelled;
-  if (is_previous) {
-    for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());
-  } else {
-    for (const OdometryFrame& row : run.frames)
-      if (row.accepted) travelled.add(row.stamp, row.T_odom_base.t());
-  }
+  for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());
   return travelled;
 }
 
@@ -50,11 +46,11 @@ class PlaceRecognitionRun {
 
   PlacesRun run() {
     const std::vector<const SessionOdometry*> runs = context_.runs();
-    const std::size_t previous = context_.previous.runs.size();
+    const std::size_t known = context_.joins ? 0 : context_.previous.runs.size();
     result_.beliefs.resize(ids_.size());
     for (std::size_t s = 0; s < ids_.size(); ++s) {
       map_.beginSession(context_.names[s]);
-      addSession(s, ids_[s], travelledDistance(*runs[s], s < previous), s < previous);
+      addSession(s, ids_[s], travelledDistance(*runs[s]), s < known);
     }
     result_.places = map_.places();
     if (other_model_ > 0)
@@ -65,14 +61,14 @@ class PlaceRecognitionRun {
 
  private:
   void addSession(std::size_t s, const urban_nav_store::SessionId& id, const TravelledDistance& travelled,
-                  bool is_previous) {
+                  bool is_known) {
     TableStore<StoredPlace>(*context_.store).forEach(id, [&](const StoredPlace& row) {
       if (row.model != model_.hash) {
         ++other_model_;
         return;
       }
       const auto description = fabmap_node::toPlaceDescription(row, model_.model.vocabulary.size());
-      if (is_previous) return map_.addPlace(row.stamp, description, travelled.at(row.stamp));
+      if (is_known) return map_.addPlace(row.stamp, description, travelled.at(row.stamp));
       const auto begin = std::chrono::steady_clock::now();
       fabmap_node::PlaceOutput output = map_.process(row.stamp, description, travelled.at(row.stamp));
       result_.ms_inference.push_back(

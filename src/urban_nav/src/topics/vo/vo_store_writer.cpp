@@ -22,7 +22,7 @@ void VoStoreWriter::write(const VoRun& run) {
         id_, urban_nav_store::Node{settled.stamp, settled.T_odom_base.pose,
                                    first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
                                    first ? Matrix6d(Matrix6d::Zero()) : step.drift_covariance, settled.status.health,
-                                   step.constants});
+                                   step.constants, settled.T_odom_base.covariance});
     if (first) continue;
     Edge edge{{id_, step.from},         {id_, step.to},
               EdgeKind::Odometry,       kVoStage,

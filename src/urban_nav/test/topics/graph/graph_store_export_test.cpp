@@ -77,7 +77,7 @@ TEST(GraphRows, AStoreHoldsTheRelaxedMap) {
     const auto anchor = store.sessions().anchor("t");
     EXPECT_NEAR(anchor->T_map_odom.t().y(), 2.0, 0.01);
   }
-  const StoreInfo info = lookIntoStore(path);
+  const StoreInfo info = readStoreInfo(path);
   EXPECT_EQ(info.joined.size(), 2U);
   std::int64_t accepted = 0;
   for (const StoredSession& each : info.sessions)

@@ -21,6 +21,7 @@ struct MapChunk {
     Table table{"chunk", 2};
     table.since = 3;
     table.wide = true;
+    table.of_graph = true;
     table.merge = MergeRule::DropDifferent;
     return table;
   }

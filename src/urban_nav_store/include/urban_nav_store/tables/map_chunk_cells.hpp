@@ -18,6 +18,7 @@ struct MapChunkCells {
     Table table{"chunk_cells", 3};
     table.since = 3;
     table.wide = true;
+    table.of_graph = true;
     table.merge = MergeRule::DropDifferent;
     return table;
   }
