@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <iosfwd>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct Beam {
   Eigen::Vector3f direction = Eigen::Vector3f::UnitX();  ///< unit vector in the laser's frame
   float range = 0.0F;                                    ///< m; a beam without a valid range is not in a Scan
   float intensity = 0.0F;                                ///< 0...255
+  std::uint16_t ring = 0;    ///< 3D LiDARs: which of the lasers, counted from the lowest elevation; planar scanners: 0
+  std::uint16_t column = 0;  ///< 3D LiDARs: which firing of the sweep, in order of time; planar scanners: 0
 };
 
 /// The beams of one turn of the mirror that have a valid range, in order of time.
