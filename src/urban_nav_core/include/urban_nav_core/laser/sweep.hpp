@@ -17,10 +17,10 @@ struct Sweep {
     Deskewed   ///< the beams were already moved to where `reference` would have seen them; their stamps are `reference`
   };
 
-  StampNs reference = 0;    ///< time that poses of the sweep refer to: its middle, if the source does not define another
-  double duration = 0.0;    ///< s from the first beam to the last; of sweeps without times: the time between sweeps
+  StampNs reference = 0;  ///< time that poses of the sweep refer to: its middle, if the source does not define another
+  double duration = 0.0;  ///< s from the first beam to the last; of sweeps without times: the time between sweeps
   Times times = Times::Unknown;
-  std::vector<Beam> beams;  ///< valid beams in order of time, then of ring; directions in the sensor's frame
+  std::vector<Beam> beams;  ///< valid beams in order of time, column and ring; directions in the frame of the sensor
 };
 
 }  // namespace urban_nav_core
