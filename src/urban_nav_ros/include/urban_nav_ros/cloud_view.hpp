@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include "urban_nav_core/laser/cloud/cloud_view.hpp"
+
+namespace urban_nav_ros {
+
+/// Returns the view of a message, which outlives it. Promises nothing about the bytes (CloudPoints).
+urban_nav_core::CloudView toCloudView(const sensor_msgs::PointCloud2& message);
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <optional>
+#include <vector>
+
+#include "urban_nav_core/laser/cloud/cloud_survey.hpp"
+#include "urban_nav_core/laser/cloud/sweep_reader.hpp"
+
+namespace urban_nav_ros {
+
+/// Turns the clouds of one 3D LiDAR into sweeps, as the reader of recordings does. How they are read is decided from
+/// the first CloudSurvey::kEnough of them; until then they wait. Not thread-safe.
+class SweepFeed {
+ public:
+  explicit SweepFeed(urban_nav_core::CloudOptions options = {});
+
+  /// Returns the sweeps that are ready after a message, in the order of their messages.
+  std::vector<urban_nav_core::ReadSweep> add(const sensor_msgs::PointCloud2ConstPtr& message);
+  /// Returns how clouds are read; nullopt until that is decided.
+  std::optional<urban_nav_core::CloudConvention> convention() const;
+
+ private:
+  static constexpr std::size_t kMostWaiting = 50;  // clouds, with points or without
+
+  urban_nav_core::CloudOptions options_;
+  urban_nav_core::CloudSurvey survey_;
+  std::vector<sensor_msgs::PointCloud2ConstPtr> waiting_;
+  std::optional<urban_nav_core::SweepReader> reader_;
+};
+
+}  // namespace urban_nav_ros
