@@ -50,6 +50,10 @@ class FaultCounter {
 
 std::vector<std::string> describe(const SourceInfo& info) {
   std::vector<std::string> contents = info.notes;
+  if (!info.has_images) {
+    contents.push_back("no images: the session is that of its 3D LiDARs");
+    return contents;
+  }
   const urban_nav_core::Pinhole& left = info.camera.left;
   contents.push_back("stereo: " + std::to_string(left.width) + "x" + std::to_string(left.height) +
                      " px, focal length " + urban_nav_core::formatNumber(left.fx, 4) + " px, baseline " +
@@ -67,6 +71,9 @@ class Reading {
 
   void read(const std::function<void(std::int64_t, std::int64_t)>& progress) {
     while (std::optional<SourceItem> item = source_.next()) {
+      sweeps_ += static_cast<std::int64_t>(item->sweeps.size());
+      if (!source_.info().has_images) progress(sweeps_, source_.info().frames);
+      if (!item->has_pair) continue;
       const auto& pair = item->assembled.pair;
       for (const std::string& fault : item->faults) faults_.add(fault);
       stamps_.push_back(pair.stamp);
@@ -84,6 +91,10 @@ class Reading {
     append(readerFindings(source_.closingFaults()));
     append(source_.sensorFindings());
     append(faults_.findings());
+    if (!source_.info().has_images) {
+      concludeSweeps();
+      return;
+    }
     if (2 * diagnosis_.complete > diagnosis_.pairs) append(checkStamps(stamps_));
     append(images_.findings());
     if (stamps_.size() > 1) {
@@ -104,8 +115,16 @@ class Reading {
   }
 
  private:
+  void concludeSweeps() {
+    if (sweeps_ == 0)
+      diagnosis_.findings.push_back({FindingKind::PointsInvalid, "no sweep has valid points",
+                                     "check the driver and whether the LiDAR is covered", true});
+    diagnosis_.duration_s = urban_nav_core::secondsBetween(source_.info().first, source_.info().last);
+  }
+
   Source& source_;
   Diagnosis& diagnosis_;
+  std::int64_t sweeps_ = 0;
   std::vector<StampNs> stamps_;
   FaultCounter faults_;
   SampledPairs images_;
@@ -148,10 +167,13 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
     diagnosis.name = source->info().name;
     diagnosis.kind = source->info().kind;
     diagnosis.contents = describe(source->info());
+    diagnosis.inputs = source->info().inputs;
     std::vector<std::string> notes = source->info().notes;
     if (!session.note.empty()) notes.push_back(session.note);
     diagnosis.findings = readerFindings(notes);
-    for (const CalibrationFault& fault : checkCalibration(source->info().camera))
+    const bool has_images = source->info().has_images;
+    for (const CalibrationFault& fault :
+         has_images ? checkCalibration(source->info().camera) : std::vector<CalibrationFault>())
       diagnosis.findings.push_back({FindingKind::Calibration, fault.text, fault.remedy});
     for (const std::string& path : session.paths) {
       if (inputKind(path) != InputKind::Bag) continue;

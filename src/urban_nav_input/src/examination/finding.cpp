@@ -70,6 +70,14 @@ const char* toString(FindingKind kind) {
     case FindingKind::Gps: return "gps";
     case FindingKind::Wheels: return "wheels";
     case FindingKind::Topics: return "topics";
+    case FindingKind::SweepTimes: return "sweep_times";
+    case FindingKind::SweepOverlap: return "sweep_overlap";
+    case FindingKind::SweepGap: return "sweep_gap";
+    case FindingKind::RingOrder: return "ring_order";
+    case FindingKind::ClockApart: return "clock_apart";
+    case FindingKind::PointsInvalid: return "points_invalid";
+    case FindingKind::PointsFew: return "points_few";
+    case FindingKind::PointsNear: return "points_near";
   }
   return "";
 }
@@ -87,8 +95,13 @@ std::vector<Finding> readerFindings(const std::vector<std::string>& sentences) {
 
 Finding errorFinding(const std::string& error, const std::string& allowed) {
   Finding finding{FindingKind::Pairs, error, allowed, true};
+  if (contains(error, "no valid points")) {
+    finding.kind = FindingKind::PointsInvalid;
+    if (finding.remedy.empty()) finding.remedy = "check the driver and whether the LiDAR is covered";
+  }
   for (const char* word : {"camera_info", "calib", "baseline", "focal", "distortion", "sensor.yaml", "projection"})
     if (contains(error, word)) finding.kind = FindingKind::Calibration;
+  if (contains(error, "points_time")) finding.kind = FindingKind::SweepTimes;
   if (contains(error, "encoding") || contains(error, "bits")) finding.kind = FindingKind::Depth;
   if (contains(error, "rosbag reindex")) finding.remedy = "rosbag reindex, then doctor again";
   if (!finding.remedy.empty()) return finding;

@@ -15,6 +15,7 @@
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
+#include "urban_nav_input/folder/kitti_sweeps.hpp"
 #include "urban_nav_input/folder/new_college_files.hpp"
 #include "urban_nav_input/folder/new_college_log.hpp"
 #include "urban_nav_input/recording/recording.hpp"
@@ -147,16 +148,33 @@ void lookIntoBag(const std::string& path, InputInfo& info) {
   info.distance_of = topic;
 }
 
+void addKittiStreams(const std::string& path, InputInfo& info) {
+  if (const std::optional<KittiLayout> layout = findKittiLayout(path))
+    info.streams.push_back(toStream("stereo", "image pairs", listKittiFrames(*layout, 0.0).stamps));
+  const std::optional<KittiSweepLayout> sweeps = findKittiSweeps(path);
+  if (!sweeps) return;
+  const std::map<std::int64_t, std::string> files = listKittiSweeps(*sweeps);
+  const KittiLayout layout{path, sweeps->files, sweeps->files, urban_nav_core::KittiPair::Grey};
+  const std::int64_t first = files.begin()->first;
+  std::vector<std::string> notes;  // are those of the source
+  const std::vector<StampNs> all = stampKittiFrames(layout, "sweeps", {first, files.rbegin()->first}, 0.0, notes);
+  std::vector<StampNs> stamps;
+  for (const auto& [number, file] : files) stamps.push_back(all[static_cast<std::size_t>(number - first)]);
+  info.streams.push_back(toStream(sweeps->name, "sweeps", stamps));
+}
+
 void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
   std::vector<StampNs> stamps;
-  const SourceOptions options;
+  SourceOptions options;
+  options.with_sweeps = true;
   const std::unique_ptr<Source> source = openSource({path}, options);
   info.notes = source->info().notes;
   const urban_nav_core::StereoCamera& camera = source->info().camera;
-  info.notes.push_back(std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + ", f " +
-                       std::to_string(camera.left.fx) + " px, baseline " + std::to_string(camera.baseline) + " m");
+  if (source->info().has_images)
+    info.notes.push_back(std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + ", f " +
+                         std::to_string(camera.left.fx) + " px, baseline " + std::to_string(camera.baseline) + " m");
   if (kind == InputKind::KittiFolder) {
-    info.streams.push_back(toStream("stereo", "image pairs", listKittiFrames(*findKittiLayout(path), 0.0).stamps));
+    addKittiStreams(path, info);
   } else {
     for (const EurocPair& pair : readEurocPairs(eurocFolder(path))) stamps.push_back(pair.stamp);
     info.streams.push_back(toStream("stereo", "image pairs", stamps));

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "folder/kitti_sweep_stream.hpp"
 #include "folder/unused_files.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
+#include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/session/calibration_file.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -24,28 +28,40 @@ namespace {
 
 class KittiFolder : public Source {
  public:
-  KittiFolder(const std::string& folder, const SourceOptions& options) : layout_(*findKittiLayout(folder)) {
-    frames_ = listKittiFrames(layout_, options.rate);
+  KittiFolder(const std::string& folder, const SourceOptions& options) {
     info_.name = folder;
     info_.kind = "KITTI folder";
     info_.T_base_camera = urban_nav_ros::opticalInBody();
-    info_.frames = static_cast<std::int64_t>(frames_.numbers.size());
-    info_.first = *std::min_element(frames_.stamps.begin(), frames_.stamps.end());
-    info_.last = *std::max_element(frames_.stamps.begin(), frames_.stamps.end());
-    info_.notes = frames_.notes;
+    const std::optional<KittiLayout> layout = findKittiLayout(folder);
+    info_.has_images = layout.has_value();
+    if (layout) listImages(*layout, options);
+    if (options.with_sweeps) findSweeps(options);
+    if (!layout && !options.with_sweeps)
+      throw urban_nav_core::DataError(folder, "has no images, and the sweeps of its LiDAR are of no use here", "");
+    if (!layout && !sweeps_)
+      throw urban_nav_core::DataError(
+          folder,
+          "has no images, and no sweep that can be used" + (info_.notes.empty() ? "" : ": " + info_.notes.back()), "");
     if (options.motion_input != "none")
       throw urban_nav_core::DataError(
           folder, "holds images alone, nothing for input.motion_input = " + options.motion_input, "");
-    look(options.calibration);
+    if (layout) look(options.calibration);
+    describeInputs();
     noteUnused(folder);
   }
 
   const SourceInfo& info() const override { return info_; }
 
   std::optional<SourceItem> next() override {
-    if (position_ >= frames_.numbers.size()) return std::nullopt;
-    const std::int64_t number = frames_.numbers[position_];
     SourceItem input;
+    const bool has_pair = position_ < frames_.numbers.size();
+    while (sweeps_ && sweeps_->nextStamp() && input.sweeps.size() < kMostSweeps &&
+           (!has_pair || *sweeps_->nextStamp() <= frames_.stamps[position_]))
+      if (std::optional<SweepInput> sweep = sweeps_->next()) input.sweeps.push_back(std::move(*sweep));
+    if (!has_pair && input.sweeps.empty()) return std::nullopt;
+    input.has_pair = has_pair && input.sweeps.size() < kMostSweeps;
+    if (!input.has_pair) return input;
+    const std::int64_t number = frames_.numbers[position_];
     StereoPairWithMotion& assembled = input.assembled;
     assembled.pair.stamp = frames_.stamps[position_];
     std::tie(assembled.pair.left, assembled.left_owner) =
@@ -56,11 +72,60 @@ class KittiFolder : public Source {
     return input;
   }
 
+  std::vector<Finding> sensorFindings() const override {
+    return sweeps_ ? sweeps_->findings() : std::vector<Finding>();
+  }
+
  private:
+  static constexpr std::size_t kMostSweeps = 4;  // of one item
+
+  void listImages(const KittiLayout& layout, const SourceOptions& options) {
+    layout_ = layout;
+    frames_ = listKittiFrames(layout_, options.rate);
+    info_.frames = static_cast<std::int64_t>(frames_.numbers.size());
+    info_.first = *std::min_element(frames_.stamps.begin(), frames_.stamps.end());
+    info_.last = *std::max_element(frames_.stamps.begin(), frames_.stamps.end());
+    info_.notes = frames_.notes;
+  }
+
+  void findSweeps(const SourceOptions& options) {
+    const std::optional<KittiSweepLayout> layout = findKittiSweeps(info_.name);
+    if (!layout) return;
+    sweeps_.emplace(*layout, info_.T_base_camera, options);
+    sweep_files_ = layout->files;
+    info_.notes.insert(info_.notes.end(), sweeps_->notes().begin(), sweeps_->notes().end());
+    if (!sweeps_->isPlaced()) {
+      sweeps_.reset();
+      return;
+    }
+    if (info_.has_images) return;
+    info_.frames = static_cast<std::int64_t>(sweeps_->size());
+    info_.first = sweeps_->first();
+    info_.last = sweeps_->last();
+  }
+
+  void describeInputs() {
+    const auto add = [this](Role role, const std::string& folder, std::size_t files) {
+      if (files == 0) return;
+      InputStream stream;
+      stream.role = toString(role);
+      stream.topic = std::filesystem::path(folder).lexically_relative(info_.name).string();
+      stream.messages = static_cast<std::int64_t>(files);
+      info_.inputs.push_back(std::move(stream));
+    };
+    add(Role::Left, layout_.left, frames_.left.size());
+    add(Role::Right, layout_.right, frames_.right.size());
+    if (sweeps_) info_.inputs.push_back(sweeps_->describe());
+  }
+
   void noteUnused(const std::string& folder) {
     std::set<std::string> used = {"calib.txt", "calib_cam_to_cam.txt", "perspective.txt",
                                   "times.txt", "timestamps.txt",       "poses.txt"};
     for (const std::string& images : {layout_.left, layout_.right}) used.insert(firstPartWithin(folder, images));
+    if (sweeps_) {
+      used.insert("calib_velo_to_cam.txt");
+      used.insert(firstPartWithin(folder, sweep_files_));
+    }
     if (std::string sentence = describeUnusedFiles(folder, used); !sentence.empty())
       info_.notes.push_back(std::move(sentence));
   }
@@ -144,6 +209,8 @@ class KittiFolder : public Source {
   cv::Size size_;                                                // of the images in the folder
   urban_nav_ros::GreyScale scale_;
   std::size_t position_ = 0;
+  std::optional<KittiSweepStream> sweeps_;
+  std::string sweep_files_;  // folder
 };
 
 }  // namespace

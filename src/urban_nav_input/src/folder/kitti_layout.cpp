@@ -117,6 +117,43 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
   return times;
 }
 
+void requireNumberedFrames(const std::string& folder, std::pair<std::int64_t, std::int64_t> numbers,
+                           std::size_t count) {
+  const auto [first, last] = numbers;
+  if (last - first <= kMostMissing + 2 * static_cast<std::int64_t>(count)) return;
+  throw UserError(folder,
+                  "frames " + std::to_string(first) + " to " + std::to_string(last) + ", of which " +
+                      std::to_string(count) + " are there",
+                  "frames numbered one by one");
+}
+
+std::vector<StampNs> stampKittiFrames(const KittiLayout& layout, const std::string& what,
+                                      std::pair<std::int64_t, std::int64_t> numbers, double rate,
+                                      std::vector<std::string>& notes) {
+  const auto [first, last] = numbers;
+  const KittiTimes times = readKittiTimes(layout);
+  const auto rows = static_cast<std::int64_t>(times.stamps.size());
+  std::int64_t row_of_first = first;
+  if (!times.path.empty() && last >= rows) {
+    if (last - first + 1 != rows)
+      throw UserError(
+          times.path,
+          std::to_string(rows) + " stamps for " + what + " " + std::to_string(first) + " to " + std::to_string(last),
+          "one line for each image");
+    row_of_first = 0;
+  }
+  const double step = 1e9 / (rate > 0.0 ? rate : kUsualRate);
+  std::vector<StampNs> stamps;
+  for (std::int64_t i = 0; i <= last - first; ++i)
+    stamps.push_back(times.path.empty() ? static_cast<StampNs>(std::llround(static_cast<double>(i) * step))
+                                        : times.stamps[static_cast<std::size_t>(row_of_first + i)]);
+  if (times.path.empty() && rate <= 0.0) notes.push_back("no times.txt: taken as 10 Hz (--rate says otherwise)");
+  if (!times.path.empty() && row_of_first == first && last + 1 < rows)
+    notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the " + what + " end at number " +
+                    std::to_string(last));
+  return stamps;
+}
+
 KittiFrames listKittiFrames(const KittiLayout& layout, double rate) {
   KittiFrames frames;
   frames.left = listFrames(layout.left);
@@ -127,35 +164,9 @@ KittiFrames listKittiFrames(const KittiLayout& layout, double rate) {
   for (const auto& [number, path] : frames.left) all.insert(number);
   for (const auto& [number, path] : frames.right) all.insert(number);
   const std::int64_t first = *all.begin(), last = *all.rbegin();
-  if (last - first > kMostMissing + 2 * static_cast<std::int64_t>(all.size())) {
-    throw UserError(layout.left,
-                    "images " + std::to_string(first) + " to " + std::to_string(last) + ", of which " +
-                        std::to_string(all.size()) + " are there",
-                    "frames numbered one by one");
-  }
-  const KittiTimes times = readKittiTimes(layout);
-  const auto rows = static_cast<std::int64_t>(times.stamps.size());
-  std::int64_t row_of_first = first;
-  if (!times.path.empty() && last >= rows) {
-    if (last - first + 1 != rows)
-      throw UserError(
-          times.path,
-          std::to_string(rows) + " stamps for images " + std::to_string(first) + " to " + std::to_string(last),
-          "one line for each image");
-    row_of_first = 0;
-  }
-  const double step = 1e9 / (rate > 0.0 ? rate : kUsualRate);
-  for (std::int64_t number = first; number <= last; ++number) {
-    frames.numbers.push_back(number);
-    const std::int64_t i = number - first;
-    frames.stamps.push_back(times.path.empty() ? static_cast<StampNs>(std::llround(static_cast<double>(i) * step))
-                                               : times.stamps[static_cast<std::size_t>(row_of_first + i)]);
-  }
-  if (times.path.empty() && rate <= 0.0) frames.notes.push_back("no times.txt: taken as 10 Hz (--rate says otherwise)");
-  if (!times.path.empty() && row_of_first == first && last + 1 < rows) {
-    frames.notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the images end at number " +
-                           std::to_string(last));
-  }
+  requireNumberedFrames(layout.left, {first, last}, all.size());
+  for (std::int64_t number = first; number <= last; ++number) frames.numbers.push_back(number);
+  frames.stamps = stampKittiFrames(layout, "images", {first, last}, rate, frames.notes);
   return frames;
 }
 

@@ -30,12 +30,22 @@ BagExtent::Span readStamps(MessageSelection& images) {
   return {readHeaderStamp(*first), readHeaderStamp(*last)};
 }
 
+/// Returns the topics of images; without any, those of the clouds of 3D LiDARs.
+std::vector<std::string> findLeadingTopics(const Recording& bag) {
+  for (const auto& is_leading : {isImageType, isCloudType}) {
+    std::vector<std::string> topics;
+    for (const auto& [topic, type] : bag.topicTypes())
+      if (is_leading(type)) topics.push_back(topic);
+    if (!topics.empty()) return topics;
+  }
+  return {};
+}
+
 /// Sets the spans of images by `span_of`. Whether all have one that does not end before it begins.
 template <typename SpanOf>
 bool useImages(Recording& bag, BagExtent& extent, const SpanOf& span_of) {
   extent.images.clear();
-  for (const auto& [topic, type] : bag.topicTypes()) {
-    if (!isImageType(type)) continue;
+  for (const std::string& topic : findLeadingTopics(bag)) {
     MessageSelection images = bag.select(std::vector<std::string>{topic});
     if (images.size() == 0) continue;
     const BagExtent::Span span = span_of(images);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/topics.hpp"
@@ -18,9 +19,9 @@ namespace topics = urban_nav_ros::topics;
 struct RoleNames {
   Role role;
   const char* word;
-  const char* topic;  // of docs/architecture.md
+  const char* topic;  // of docs/architecture.md; null: none
 };
-constexpr std::array<RoleNames, 20> kRoles = {{{Role::Left, "left", topics::kLeftImage},
+constexpr std::array<RoleNames, 24> kRoles = {{{Role::Left, "left", topics::kLeftImage},
                                                {Role::Right, "right", topics::kRightImage},
                                                {Role::LeftInfo, "left_info", topics::kLeftInfo},
                                                {Role::RightInfo, "right_info", topics::kRightInfo},
@@ -30,6 +31,10 @@ constexpr std::array<RoleNames, 20> kRoles = {{{Role::Left, "left", topics::kLef
                                                {Role::LaserRight, "laser_right", topics::kLaserRight},
                                                {Role::Truth, "truth", topics::kTruthPose},
                                                {Role::Gps, "gps", topics::kGpsFix},
+                                               {Role::Points0, "points0", topics::kPoints},
+                                               {Role::Points1, "points1", nullptr},
+                                               {Role::Points2, "points2", nullptr},
+                                               {Role::Points3, "points3", nullptr},
                                                {Role::Panorama0, "panorama0", topics::kPanoramaImages[0]},
                                                {Role::Panorama1, "panorama1", topics::kPanoramaImages[1]},
                                                {Role::Panorama2, "panorama2", topics::kPanoramaImages[2]},
@@ -75,6 +80,10 @@ bool fits(Role role, const std::string& type) {
     case Role::LaserRight: return type == "sensor_msgs/LaserScan";
     case Role::Truth: return type == "geometry_msgs/PoseStamped";
     case Role::Gps: return type == "sensor_msgs/NavSatFix";
+    case Role::Points0:
+    case Role::Points1:
+    case Role::Points2:
+    case Role::Points3: return isCloudType(type);
   }
   return false;
 }
@@ -97,8 +106,9 @@ void take(const std::map<std::string, std::string>& available, const std::string
   if (sign == std::string::npos)
     throw UserError("--topic", "\"" + wish + "\"", "ROLE:=NAME with a role of " + roleWords());
   const std::string role = wish.substr(0, sign), name = wish.substr(sign + 2);
-  const auto names = std::find_if(kRoles.begin(), kRoles.end(),
-                                  [&](const RoleNames& r) { return role == r.word || bare(role) == r.topic; });
+  const auto names = std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleNames& r) {
+    return role == r.word || (r.topic && bare(role) == r.topic);
+  });
   if (names == kRoles.end()) throw UserError("--topic", "role \"" + role + "\"", roleWords());
   const auto topic = findTopic(available, name);
   if (topic == available.end() || !fits(names->role, topic->second)) {
@@ -252,6 +262,42 @@ std::map<std::string, std::string> withoutPanorama(std::map<std::string, std::st
   return available;
 }
 
+/// Returns the parts of a name between slashes and underscores.
+std::vector<std::string> splitName(const std::string& topic) {
+  std::vector<std::string> parts(1);
+  for (const char letter : topic) {
+    if (letter == '/' || letter == '_') parts.emplace_back();
+    else parts.back() += letter;
+  }
+  return parts;
+}
+
+/// Returns whether a topic has the name of clouds that are computed from others, or from images.
+bool isDerivedCloud(const std::string& topic) {
+  static const std::set<std::string> kWords = {
+      "map",         "submap",     "clusters", "cluster",   "obstacles", "obstacle",    "objects",   "object",
+      "segmented",   "ground",     "filtered", "depth",     "camera",    "stereo",      "voxel",     "voxels",
+      "downsampled", "registered", "aligned",  "deskewed",  "corner",    "undistorted", "surf",      "features",
+      "feature",     "normals",    "debug",    "keyframes", "costmap",   "radar",       "disparity", "trajectory"};
+  const std::vector<std::string> parts = splitName(topic);
+  return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return kWords.count(part) > 0; });
+}
+
+/// Further topics fill the roles that the user has left free.
+void guessPoints(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  const auto isTaken = [&topics](const std::string& topic) {
+    return std::any_of(topics.chosen.begin(), topics.chosen.end(),
+                       [&](const auto& chosen) { return chosen.second.name == topic; });
+  };
+  std::size_t lidar = 0;
+  for (const auto& [topic, type] : available) {
+    if (!isCloudType(type) || isDerivedCloud(topic) || isTaken(topic)) continue;
+    while (lidar < kPointsTopics && topics.find(pointsRole(lidar))) ++lidar;
+    if (lidar == kPointsTopics) return;
+    topics.chosen[pointsRole(lidar)] = {topic, type};
+  }
+}
+
 /// One line for each role; panoramas share one.
 void noteTopics(const std::map<Role, ChosenTopic>& wished, BagTopics& topics) {
   const std::vector<std::size_t> panorama = topics.panorama();
@@ -290,6 +336,8 @@ Role panoramaInfoRole(std::size_t camera) {
   return static_cast<Role>(static_cast<std::size_t>(Role::Panorama0Info) + camera);
 }
 
+Role pointsRole(std::size_t lidar) { return static_cast<Role>(static_cast<std::size_t>(Role::Points0) + lidar); }
+
 std::vector<std::size_t> BagTopics::panorama() const {
   std::vector<std::size_t> cameras;
   for (std::size_t camera = 0; camera < kPanoramaCameras; ++camera)
@@ -318,6 +366,7 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[7], {"right"}, topics);
   guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
   guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
+  guessPoints(available, topics);
   noteTopics(wished, topics);
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; --topic ROLE:=NAME decides");
@@ -327,6 +376,14 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
 bool isImageType(const std::string& type) {
   return type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage";
 }
+
+bool isLivoxType(const std::string& type) {
+  const std::size_t slash = type.find('/');
+  return type.compare(0, 5, "livox") == 0 && slash != std::string::npos &&
+         type.compare(slash, type.npos, "/CustomMsg") == 0;
+}
+
+bool isCloudType(const std::string& type) { return type == "sensor_msgs/PointCloud2" || isLivoxType(type); }
 
 bool isRectifiedName(const std::string& topic) { return contains(topic, "rect"); }
 

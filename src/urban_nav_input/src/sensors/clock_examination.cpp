@@ -50,6 +50,10 @@ std::optional<Delay> summarise(const std::vector<std::pair<StampNs, double>>& de
   return delay;
 }
 
+FindingKind chooseKind(const std::string& role) {
+  return role.compare(0, 6, "points") == 0 ? FindingKind::ClockApart : FindingKind::Stamps;
+}
+
 }  // namespace
 
 void ClockExamination::add(const std::string& role, const std::string& topic, StampNs stamp, StampNs receipt) {
@@ -81,7 +85,7 @@ std::vector<Finding> ClockExamination::findings(
     if (!delay) continue;
     const double apart = camera->median - delay->median, drift = camera->drift - delay->drift;
     if (std::abs(apart) > kApart) {
-      Finding finding{FindingKind::Stamps,
+      Finding finding{chooseKind(role),
                       topic + ": its stamps are " + formatNumber(std::abs(apart), 4) + " s " +
                           (apart < 0.0 ? "earlier" : "later") + " than those of the images, by receipt minus stamp (" +
                           formatNumber(delay->median, 4) + " s, images " + formatNumber(camera->median, 4) +
@@ -94,7 +98,7 @@ std::vector<Finding> ClockExamination::findings(
       }
       findings.push_back(finding);
     } else if (std::abs(drift) > kDrift && delay->seconds > kShortest) {
-      findings.push_back({FindingKind::Stamps,
+      findings.push_back({chooseKind(role),
                           topic + ": its clock drifts by " + formatNumber(1e6 * drift / delay->seconds, 3) +
                               " ppm against that of the images, " + formatNumber(std::abs(drift), 3) +
                               " s over the recording",

@@ -45,12 +45,15 @@ std::vector<Finding> topicFindings(const std::map<std::string, std::string>& ava
   }
   const bool has_scan = std::any_of(available.begin(), available.end(),
                                     [](const auto& entry) { return entry.second == "sensor_msgs/LaserScan"; });
-  for (const auto& [topic, type] : available)
-    if (!has_scan && type == "sensor_msgs/PointCloud2")
-      findings.push_back({FindingKind::Topics,
-                          topic + " (PointCloud2) is not used: the laser map is made of sensor_msgs/LaserScan alone",
-                          "rosrun pointcloud_to_laserscan pointcloud_to_laserscan_node makes scans of the clouds of a "
-                          "planar laser; record them, or its LaserScan topic"});
+  if (has_scan || chosen.find(Role::Points0)) return findings;
+  for (const auto& [topic, type] : available) {
+    if (!isCloudType(type)) continue;
+    findings.push_back(unrecognised(topic, type, Role::Points0));
+    findings.back().remedy +=
+        " for the sweeps of a 3D LiDAR; clouds of a planar laser become scans by rosrun "
+        "pointcloud_to_laserscan pointcloud_to_laserscan_node";
+    break;
+  }
   return findings;
 }
 

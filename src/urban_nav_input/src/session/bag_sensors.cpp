@@ -19,6 +19,12 @@ void BagSensors::addLaser(const std::string& topic) {
                        options_.lasers[is_right ? 1 : 0]);
 }
 
+void BagSensors::addSweep(const std::string& topic, StampNs reference, StampNs receipt) {
+  for (std::size_t i = 0; i < kPointsTopics; ++i)
+    if (const auto chosen = topics_.find(pointsRole(i)); chosen && chosen->name == topic)
+      clocks_.add(toString(pointsRole(i)), topic, reference, receipt);
+}
+
 void BagSensors::add(sensor_msgs::Imu& imu, const std::string& topic, StampNs receipt) {
   StampNs stamp = urban_nav_ros::toStampNs(imu.header.stamp);
   if (options_.imu_delay != 0.0) {
@@ -57,6 +63,8 @@ std::optional<double> BagSensors::findDelay(const std::string& role) const {
   if (role == toString(Role::Imu)) return options_.imu_delay;
   if (role == toString(Role::LaserLeft)) return 1e-6 * static_cast<double>(options_.lasers[0].delay);
   if (role == toString(Role::LaserRight)) return 1e-6 * static_cast<double>(options_.lasers[1].delay);
+  for (std::size_t i = 0; i < options_.points.delays.size(); ++i)
+    if (role == toString(pointsRole(i))) return options_.points.delays[i];
   return std::nullopt;
 }
 

@@ -38,6 +38,8 @@ class BagSensors {
   void addImage(const std::string& topic, urban_nav_core::StampNs stamp, urban_nav_core::StampNs receipt) {
     clocks_.add("images", topic, stamp, receipt);
   }
+  /// Adds a sweep of a 3D LiDAR; its reference and the receipt of its cloud in ns.
+  void addSweep(const std::string& topic, urban_nav_core::StampNs reference, urban_nav_core::StampNs receipt);
   /// Corrects the stamp of a message of the IMU, and takes its specific force.
   void add(sensor_msgs::Imu& imu, const std::string& topic, urban_nav_core::StampNs receipt);
   void add(const nav_msgs::Odometry& wheels, const std::string& topic, urban_nav_core::StampNs receipt);

@@ -10,7 +10,10 @@
 #include "recording/bag_order.hpp"
 #include "recording/unused_topics.hpp"
 #include "session/bag_calibration.hpp"
+#include "session/bag_cameras.hpp"
+#include "session/bag_inputs.hpp"
 #include "session/bag_sensors.hpp"
+#include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
 #include "session/pair_delay.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
@@ -23,7 +26,6 @@
 #include "urban_nav_input/session/bag_panorama.hpp"
 #include "urban_nav_input/session/calibration_file.hpp"
 #include "urban_nav_input/session/open.hpp"
-#include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -44,10 +46,11 @@ constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, w
 constexpr urban_nav_core::StampNs kClockStep = 1'000'000'000;  // ns
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 5;
+constexpr std::uint32_t kBagStateVersion = 6;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                            // ns: images of a pair are received one after another
 constexpr std::size_t kDepthSamples = 20;  // images at the beginning of each side
+constexpr std::size_t kMostSweeps = 4;     // that wait for a pair
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
@@ -57,13 +60,15 @@ class BagSource : public Source {
             const ReceiptRange& part)
       : options_(options), part_(part), name_(paths.front()), recording_(paths) {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
-    if (!topics_.find(Role::Left) || !topics_.find(Role::Right))
+    info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
+    if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
       throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";
     info_.notes = topics_.notes;
-    calibrate();
+    if (info_.has_images) calibrate();
     place();
+    info_.inputs = describeInputs(recording_, topics_, sweeps_in_bag_.streams());
     startReading();
     if (after != nullptr) resume(*after);
     readGroup();
@@ -73,13 +78,9 @@ class BagSource : public Source {
 
   std::optional<SourceItem> next() override {
     while (true) {
-      if (std::optional<urban_nav_ros::DecodedPair> pair = feed_->take()) {
-        SourceItem input(std::move(*pair));
-        input.bag_end = std::exchange(bag_end_, nullptr);
-        input.scans = std::exchange(scans_, {});
-        input.panoramas = std::exchange(panoramas_, {});
-        return input;
-      }
+      if (feed_)
+        if (std::optional<urban_nav_ros::DecodedPair> pair = feed_->take()) return makeItem(std::move(*pair), true);
+      if (sweeps_.size() >= (info_.has_images ? kMostSweeps : 1)) return makeItem({}, false);
       if (ended_) return std::nullopt;
       if (const RecordedMessage* message = messages_ ? messages_->next() : nullptr) add(*message);
       else endGroup();
@@ -87,9 +88,14 @@ class BagSource : public Source {
   }
 
   std::vector<LaserInput> scans() const override { return scans_; }
+  std::vector<SweepInput> sweeps() const override { return sweeps_; }
   std::vector<urban_nav_ros::Panorama> panoramas() const override { return panoramas_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return sensors_.forces(); }
-  std::vector<Finding> sensorFindings() const override { return sensors_.findings(); }
+  std::vector<Finding> sensorFindings() const override {
+    std::vector<Finding> findings = sensors_.findings();
+    for (Finding& finding : sweeps_in_bag_.findings()) findings.push_back(std::move(finding));
+    return findings;
+  }
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
   std::vector<std::string> closingFaults() const override {
@@ -108,14 +114,26 @@ class BagSource : public Source {
                          " images are missing: no partner within 5 ms" +
                          describeDelay(image_stamps_[0], image_stamps_[1]));
     };
-    count(urban_nav_ros::Side::Left, Role::Left);
-    count(urban_nav_ros::Side::Right, Role::Right);
+    if (feed_) {
+      count(urban_nav_ros::Side::Left, Role::Left);
+      count(urban_nav_ros::Side::Right, Role::Right);
+    }
     for (std::string& fault : panorama_.faults()) faults.push_back(std::move(fault));
     for (std::string& warning : recording_.warnings()) faults.push_back(std::move(warning));
     return faults;
   }
 
  private:
+  SourceItem makeItem(urban_nav_ros::DecodedPair pair, bool has_pair) {
+    SourceItem item(std::move(pair));
+    item.has_pair = has_pair;
+    item.bag_end = std::exchange(bag_end_, nullptr);
+    item.scans = std::exchange(scans_, {});
+    item.panoramas = std::exchange(panoramas_, {});
+    item.sweeps = std::exchange(sweeps_, {});
+    return item;
+  }
+
   std::string listing() {
     std::string text;
     for (const auto& [topic, type] : recording_.topicTypes()) {
@@ -124,57 +142,19 @@ class BagSource : public Source {
     return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
   }
 
-  template <typename Message>
-  boost::shared_ptr<Message> first(const std::string& topic) {
-    return recording_.first<Message>(topic);
-  }
-
-  /// Frame and size of a camera's first image.
-  struct Look {
-    std::string frame;
-    int width = 0, height = 0;
-  };
-  Look look(const ChosenTopic& topic) {
-    if (topic.type == "sensor_msgs/Image") {
-      const auto image = first<sensor_msgs::Image>(topic.name);
-      return image ? Look{image->header.frame_id, static_cast<int>(image->width), static_cast<int>(image->height)}
-                   : Look{};
-    }
-    const auto image = first<sensor_msgs::CompressedImage>(topic.name);
-    if (!image) return {};
-    const cv::Mat pixels = urban_nav_ros::toGrey(*image).pixels;
-    return {image->header.frame_id, pixels.cols, pixels.rows};
-  }
-
-  sensor_msgs::CameraInfoConstPtr findInfo(Role role) {
-    const std::optional<ChosenTopic> topic = topics_.find(role);
-    return topic ? first<sensor_msgs::CameraInfo>(topic->name) : nullptr;
-  }
-
-  std::pair<CameraInfo, CameraInfo> makeInfos() {
-    const auto left = findInfo(Role::LeftInfo), right = findInfo(Role::RightInfo);
-    const std::vector<std::string> damage = recording_.warnings();
-    if ((!left || !right) && !damage.empty())
-      throw DataError(name_, "no camera_info can be read: " + damage.front(), "a recording that is not damaged");
-    if (!left && !right)
-      throw UserError(name_, "has no camera_info for the left and the right images",
-                      "--calibration FILE, or --topic left_info:=NAME --topic right_info:=NAME");
-    if (!left || !right)
-      throw UserError(name_, std::string("has no camera_info for the ") + (left ? "right" : "left") + " images",
-                      std::string("--calibration FILE, or --topic ") +
-                          toString(left ? Role::RightInfo : Role::LeftInfo) + ":=NAME");
-    camera_frame_ = left->header.frame_id;
-    return {urban_nav_ros::toCameraInfo(*left), urban_nav_ros::toCameraInfo(*right)};
-  }
-
   void calibrate() {
     const ChosenTopic left = *topics_.find(Role::Left);
-    const Look seen = look(left);
+    const FirstImage seen = findFirstImage(recording_, left);
     camera_frame_ = seen.frame;
     const bool given = !options_.calibration.empty();
-    const auto [left_info, right_info] =
-        given ? readCalibration(options_.calibration, seen.width, seen.height) : makeInfos();
-    if (camera_frame_.empty()) camera_frame_ = seen.frame;
+    CameraInfo left_info, right_info;
+    if (given) {
+      std::tie(left_info, right_info) = readCalibration(options_.calibration, seen.width, seen.height);
+    } else {
+      const CameraInfos infos = readCameraInfos(recording_, topics_, name_);
+      std::tie(left_info, right_info) = std::tie(infos.left, infos.right);
+      if (!infos.frame.empty()) camera_frame_ = infos.frame;
+    }
     if (left_info.distortion_model.empty() && urban_nav_core::needsRectification(left_info))
       info_.notes.push_back("distortion_model is empty: coefficients are read as those of " +
                             std::string(left_info.D.size() > 5 ? "rational_polynomial" : "plumb_bob"));
@@ -189,28 +169,38 @@ class BagSource : public Source {
     if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
   }
 
+  void placeCamera(const urban_nav_ros::StaticTransforms& transforms) {
+    if (const std::optional<urban_nav_core::Pose> T_base_optical =
+            transforms.lookup(frames::kBaseLink, camera_frame_)) {
+      info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
+      is_placed_ = true;
+      return;
+    }
+    info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
+    info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ +
+                          "\": base_link is taken to be at the left camera (REP-103 axes)");
+  }
+
   void place() {
     urban_nav_ros::StaticTransforms transforms = recording_.transforms();
     giveTransforms(options_.transforms, transforms);
     for (const std::string& given : options_.transforms) info_.notes.push_back("--transform " + given);
     sensors_.add(readerFindings(transforms.faults()));
     sensors_.add(topicFindings(recording_.topicTypes(), topics_));
-    if (const std::optional<urban_nav_core::Pose> T_base_optical =
-            transforms.lookup(frames::kBaseLink, camera_frame_)) {
-      info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
-      is_placed_ = true;
-    } else {
-      info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
-      info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ +
-                            "\": base_link is taken to be at the left camera (REP-103 axes)");
-    }
-    const auto imu = topics_.find(Role::Imu) ? first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
+    if (info_.has_images) placeCamera(transforms);
+    if (options_.with_sweeps)
+      sweeps_in_bag_ = BagSweeps(recording_, topics_, transforms, options_.points, part_, info_.has_images);
+    info_.notes.insert(info_.notes.end(), sweeps_in_bag_.notes().begin(), sweeps_in_bag_.notes().end());
+    if (!info_.has_images && sweeps_in_bag_.empty())
+      throw DataError(name_, "has no images, and no sweep that can be used: " + sweeps_in_bag_.notes().back(), "");
+    const auto imu =
+        topics_.find(Role::Imu) ? recording_.first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
     const std::optional<urban_nav_core::Pose> T_base_imu =
         imu ? transforms.lookup(frames::kBaseLink, imu->header.frame_id) : std::nullopt;
     if (T_base_imu) R_base_imu_ = T_base_imu->R();
     for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
-      const auto scan = topic ? first<sensor_msgs::LaserScan>(topic->name) : nullptr;
+      const auto scan = topic ? recording_.first<sensor_msgs::LaserScan>(topic->name) : nullptr;
       if (!scan) continue;
       if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
@@ -230,15 +220,21 @@ class BagSource : public Source {
     if (R_base_imu_) sensors_.placeImu(*R_base_imu_);
     wheels_.emplace(options_.wheel_noise);
     gyroscope_.emplace(options_.gyro_noise, R_base_imu_.value_or(urban_nav_core::Matrix3d::Identity()));
-    names_ = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
+    names_ = imageTopics();
     for (const Role role : {Role::Imu, Role::Wheels, Role::Gps})
       if (topics_.find(role)) names_.push_back(topics_.find(role)->name);
     names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
     for (std::string& name : panorama_.topics()) names_.push_back(std::move(name));
+    for (std::string& name : sweeps_in_bag_.topics()) names_.push_back(std::move(name));
+  }
+
+  std::vector<std::string> imageTopics() const {
+    if (!info_.has_images) return {};
+    return {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
   }
 
   void startReading() {
-    const std::vector<std::string> images = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
+    const std::vector<std::string> leading = info_.has_images ? imageTopics() : sweeps_in_bag_.topics();
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
     const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
@@ -247,37 +243,46 @@ class BagSource : public Source {
         throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
       feed.motion = true;
     }
-    const StampSurvey survey = surveyStamps(recording_, images, part_);
+    surveyOrder(leading);
+    if (stamps_are_receipts_) feed.pairing_tolerance = kReceiptTolerance;
+    if (info_.has_images) feed_.emplace(feed, calibration_);
+    listen();
+    noteUnused();
+    groups_ = groupBags(recording_);
+    if (is_sorted_ && groups_.size() > 1) groups_ = asOneGroup(groups_);
+    MessageSelection frames = recording_.select(leading, part_);
+    info_.frames +=
+        info_.has_images ? recording_.select(std::vector<std::string>{leading.front()}, part_).size() : frames.size();
+    if (frames.size() == 0) throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds", "");
+    std::tie(info_.first, info_.last) =
+        stamps_are_receipts_ ? std::make_pair(frames.first(), frames.last()) : findStampSpan(frames);
+    if (info_.has_images) expectRange(leading);
+  }
+
+  /// Finds out in which order messages are read: by the topics of images, or of clouds without images.
+  void surveyOrder(const std::vector<std::string>& leading) {
+    const StampSurvey survey = surveyStamps(recording_, leading, part_);
     stamps_are_receipts_ = survey.unset || survey.constant;
     is_sorted_ = survey.needs_sorting;
-    if (stamps_are_receipts_) {
-      feed.pairing_tolerance = kReceiptTolerance;
+    if (info_.has_images && !sweeps_in_bag_.empty())
+      is_sorted_ = is_sorted_ || surveyStamps(recording_, sweeps_in_bag_.topics(), part_).needs_sorting;
+    if (stamps_are_receipts_)
       info_.notes.push_back(std::string(survey.unset ? "no header has a stamp" : "all stamps of a topic are equal") +
                             ": the times at which messages were received are used instead");
-    }
     if (is_sorted_) info_.notes.push_back("messages lie in another order than their stamps: sorted by stamp");
     if (survey.back > kClockStep)
       info_.notes.push_back("stamps step back by " +
                             urban_nav_core::printNumber(std::round(1e-7 * static_cast<double>(survey.back)) / 100.0) +
                             " s during the recording (a clock was set): images after the step are left out "
                             "until the stamps have caught up");
-    feed_.emplace(feed, calibration_);
-    listen();
-    noteUnused();
-    groups_ = groupBags(recording_);
-    if (is_sorted_ && groups_.size() > 1) groups_ = asOneGroup(groups_);
-    info_.frames += recording_.select(std::vector<std::string>{images.front()}, part_).size();
-    MessageSelection stereo = recording_.select(images, part_);
-    if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
-    std::tie(info_.first, info_.last) =
-        stamps_are_receipts_ ? std::make_pair(stereo.first(), stereo.last()) : findStampSpan(stereo);
-    expectRange(images);
   }
 
   void noteUnused() {
     std::set<std::string> used(names_.begin(), names_.end());
     used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
-    for (const auto& [role, topic] : topics_.chosen) used.insert(topic.name);
+    const std::vector<std::string> lidars = sweeps_in_bag_.topics();
+    for (const auto& [role, topic] : topics_.chosen)
+      if (!isCloudType(topic.type) || std::count(lidars.begin(), lidars.end(), topic.name) > 0) used.insert(topic.name);
     const auto leave = [&](Role role, bool is_of_use) {  // it is examined all the same
       if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
     };
@@ -312,26 +317,35 @@ class BagSource : public Source {
 
   /// Nothing more comes out of the bags so far until others follow, or it is the end.
   void endGroup() {
+    sweeps_in_bag_.flush();
+    takeSweeps();
     if (group_ < groups_.size()) {
       urban_nav_core::Archive writer;
       archive(writer);
       bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
                                                  urban_nav_core::seal(kBagStateName, kBagStateVersion, writer.take()),
-                                                 std::exchange(scans_, {}), std::exchange(panoramas_, {})});
+                                                 std::exchange(scans_, {}), std::exchange(panoramas_, {}),
+                                                 std::exchange(sweeps_, {})});
     }
     if (++group_ < groups_.size()) {
       readGroup();
       return;
     }
-    feed_->finish();
+    if (feed_) feed_->finish();
     panorama_.finish();
     takePanoramas();
     ended_ = true;
   }
 
   void archive(urban_nav_core::Archive& archive) {
-    archive(info_.camera, info_.T_base_camera, R_base_imu_, info_.first);
-    for (const Role role : {Role::Left, Role::Right}) archive(topics_.chosen[role].name, topics_.chosen[role].type);
+    bool has_images = info_.has_images;
+    archive(has_images);
+    archive.require(has_images == info_.has_images, "images, or none, in contrast to these bags");
+    if (has_images) {
+      archive(info_.camera, info_.T_base_camera);
+      for (const Role role : {Role::Left, Role::Right}) archive(topics_.chosen[role].name, topics_.chosen[role].type);
+    }
+    archive(R_base_imu_, info_.first);
     std::vector<std::pair<std::string, std::pair<std::string, urban_nav_core::Pose>>> lasers;
     for (std::size_t i = 0; i < laser_topics_.size(); ++i)
       lasers.push_back({laser_topics_[i], {info_.lasers[i].frame, info_.lasers[i].T_base_laser}});
@@ -343,10 +357,11 @@ class BagSource : public Source {
         sensors_.addLaser(topic);
       }
     }
-    archive(panorama_);
+    archive(panorama_, sweeps_in_bag_);
     info_.panorama = panorama_.cameras();
     if (archive.isReading()) listen();
-    archive(sensors_, *wheels_, *gyroscope_, *feed_);
+    archive(sensors_, *wheels_, *gyroscope_);
+    if (feed_) archive(*feed_);
   }
 
   /// After bags that need not exist any more: what stood only in them is taken from the state, and what stands in
@@ -362,22 +377,30 @@ class BagSource : public Source {
     const auto same = [](const urban_nav_core::Pose& a, const urban_nav_core::Pose& b) {
       return a.q().coeffs() == b.q().coeffs() && a.t() == b.t();
     };
-    if (!isApprox(here.camera, info_.camera, 0.0) || (is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) ||
-        (R_base_imu && R_base_imu != R_base_imu_))
+    if ((info_.has_images && !isApprox(here.camera, info_.camera, 0.0)) ||
+        (is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) || (R_base_imu && R_base_imu != R_base_imu_))
       throw UserError(name_, "has another calibration than the bags before it", "the same one");
     for (const Role role : {Role::Left, Role::Right})
-      if (topics.find(role)->name != topics_.find(role)->name || topics.find(role)->type != topics_.find(role)->type)
+      if (info_.has_images &&
+          (topics.find(role)->name != topics_.find(role)->name || topics.find(role)->type != topics_.find(role)->type))
         throw UserError(name_, "has other topics than the bags before it", topics_.find(role)->name);
     while (group_ < groups_.size() && groups_[group_].end <= after.bags) ++group_;
     const std::size_t begun = group_ == 0 ? 0 : groups_[group_ - 1].end;
     if (begun != after.bags) throw UserError(name_, "is no end of what was recorded at the same time", "");
     if (after.bags == 0) info_.frames = 0;  // the number in the bags before is unknown
-    if (!is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) info_.notes.pop_back();  // they say the place
+    if (info_.has_images && !is_placed_ && !same(here.T_base_camera, info_.T_base_camera))
+      info_.notes.pop_back();  // they say the place
+    info_.inputs = describeInputs(recording_, topics_, sweeps_in_bag_.streams());
   }
 
   void add(const RecordedMessage& instance) {
     const std::string& topic = instance.topic();
-    if (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name) {
+    if (sweeps_in_bag_.add(instance)) {
+      if (const auto reference = sweeps_in_bag_.lastReference())
+        sensors_.addSweep(instance.topic(), *reference, instance.receipt());
+      takeSweeps();
+    } else if (info_.has_images &&
+               (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name)) {
       const urban_nav_ros::Side side =
           topic == topics_.find(Role::Left)->name ? urban_nav_ros::Side::Left : urban_nav_ros::Side::Right;
       if (const auto image = instance.as<sensor_msgs::Image>()) {
@@ -408,14 +431,17 @@ class BagSource : public Source {
   void setStamp(urban_nav_ros::Side side, const RecordedMessage& instance, std_msgs::Header& header) {
     constexpr std::size_t kRemembered = 400;
     const bool is_right = side == urban_nav_ros::Side::Right;
-    if (!is_right)
-      sensors_.addImage(instance.topic(), urban_nav_ros::toStampNs(header.stamp), instance.receipt());
+    if (!is_right) sensors_.addImage(instance.topic(), urban_nav_ros::toStampNs(header.stamp), instance.receipt());
     if (stamps_are_receipts_) header.stamp = urban_nav_ros::toRosTime(instance.receipt());
     if (is_right && options_.right_delay != 0.0)
       header.stamp = urban_nav_ros::toRosTime(urban_nav_ros::toStampNs(header.stamp) -
                                               static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay));
     std::vector<urban_nav_core::StampNs>& stamps = image_stamps_[is_right ? 1 : 0];
     if (stamps.size() < kRemembered) stamps.push_back(urban_nav_ros::toStampNs(header.stamp));
+  }
+
+  void takeSweeps() {
+    for (SweepInput& sweep : sweeps_in_bag_.take()) sweeps_.push_back(std::move(sweep));
   }
 
   void takePanoramas() {
@@ -446,7 +472,9 @@ class BagSource : public Source {
   std::vector<LaserInput> scans_;  // since the pair or end of a bag before
   BagPanorama panorama_;
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the pair or end of a bag before
-  std::optional<StereoFeed> feed_;
+  BagSweeps sweeps_in_bag_;
+  std::vector<SweepInput> sweeps_;  // since the item or end of a bag before
+  std::optional<StereoFeed> feed_;  // with images
   bool is_placed_ = false;          // the bags say where the camera stands
   std::vector<std::string> names_;  // of the topics that are read
   std::vector<BagGroup> groups_;

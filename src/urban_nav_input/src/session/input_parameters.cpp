@@ -2,6 +2,8 @@
 #include "urban_nav_input/session/input_parameters.hpp"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "urban_nav_core/inertial/axis_map.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -17,7 +19,7 @@ namespace {
 using P = InputParameters;
 
 constexpr urban_nav_core::Audience kRepair = urban_nav_core::Audience::Experts;  // doctor states it with its value
-constexpr double kLongestDelay = 1e13;  // ms: of a clock that was never set
+constexpr double kLongestDelay = 1e13;                                           // ms: of a clock that was never set
 
 urban_nav_core::Row<P> delayRow(const char* name, double P::*member, const std::string& what) {
   return {name,
@@ -74,10 +76,65 @@ std::vector<urban_nav_core::Row<P>> ownRows() {
                "Angle of 1 in the messages of laser_right: 0.0174532925 where they state degrees.")};
 }
 
+std::vector<urban_nav_core::Row<P>> pointsRows() {
+  return {
+      {"points_time",
+       &P::points_time,
+       "",
+       "auto",
+       false,
+       false,
+       {},
+       "Times of the points of 3D LiDARs: FIELD,UNIT,REFERENCE with UNIT s, ms, us or ns and REFERENCE header (the "
+       "value is added to the stamp of the header) or absolute (it is the stamp); none: clouds have none; auto: found "
+       "from the values.",
+       "docs/files.md"},
+      {"points_deskewed",
+       &P::points_deskewed,
+       "",
+       "auto",
+       false,
+       false,
+       {"auto", "yes", "no"},
+       "Whether the sweeps of 3D LiDARs are free of the motion within a sweep already; auto: those of KITTI's "
+       "velodyne/ are.",
+       "docs/files.md"},
+      {"points_near",
+       &P::points_near,
+       "m",
+       0.5,
+       0.0,
+       10.0,
+       {},
+       "Returns of 3D LiDARs nearer than this are of the robot itself, and are left out.",
+       "docs/files.md"},
+      delayRow("points0_delay", &P::points0_delay, "clouds of points0"),
+      delayRow("points1_delay", &P::points1_delay, "clouds of points1")};
+}
+
+PointsOptions toPointsOptions(const P& parameters) {
+  PointsOptions options;
+  if (parameters.points_time != "auto") {
+    options.times = urban_nav_core::parsePointTimes(parameters.points_time);
+    if (!options.times)
+      throw urban_nav_core::UserError("input.points_time", "\"" + parameters.points_time + "\"",
+                                      "auto, none, or FIELD,UNIT,REFERENCE with UNIT s, ms, us or ns and REFERENCE "
+                                      "header or absolute, such as time,s,header");
+  }
+  if (parameters.points_deskewed != "auto") options.deskewed = parameters.points_deskewed == "yes";
+  options.near = parameters.points_near;
+  options.delays = {{parameters.points0_delay, parameters.points1_delay}};
+  return options;
+}
+
 }  // namespace
 
 const Table<InputParameters>& inputTable() {
-  static const Table<P> table("input", urban_nav_core::withMotionInput<P>(ownRows()));
+  static const Table<P> table = [] {
+    std::vector<urban_nav_core::Row<P>> rows = ownRows();
+    for (urban_nav_core::Row<P>& row : pointsRows()) rows.push_back(std::move(row));
+    return Table<P>("input", urban_nav_core::withMotionInput<P>(std::move(rows)));
+  }();
   return table;
 }
 
@@ -92,6 +149,7 @@ void apply(const InputParameters& parameters, SourceOptions& options) {
                                     "x, y and z in any order, each with or without a minus, such as -x,-y,-z");
   options.accelerometer = {*axes, parameters.accelerometer_scale};
   options.imu_delay = parameters.imu_delay;
+  options.points = toPointsOptions(parameters);
   const auto toNs = [](double ms) { return static_cast<urban_nav_core::StampNs>(std::llround(1e6 * ms)); };
   options.lasers = {
       {{parameters.laser_left_range_scale, parameters.laser_left_angle_scale, toNs(parameters.laser_left_delay)},

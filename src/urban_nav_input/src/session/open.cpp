@@ -6,6 +6,7 @@
 #include "session/foreign_input.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
+#include "urban_nav_input/folder/kitti_sweeps.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav_input {
@@ -17,7 +18,8 @@ namespace {
 
 constexpr const char* kKnownInputs =
     "a recording (ROS 1 bag, MCAP, .db3, folder of rosbag2), a KITTI folder "
-    " (image_0/, image_1/, calib.txt; image_00/data/ too), a EuRoC folder (mav0/), or a New "
+    " (image_0/, image_1/, calib.txt; image_00/data/ too; velodyne/ or velodyne_points/), a EuRoC folder (mav0/), or a "
+    "New "
     "College folder (*.alog, StereoImages/)";
 
 bool hasAlog(const std::string& folder) {
@@ -37,7 +39,7 @@ InputKind inputKind(const std::string& path) {
     if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
     throw UserError(path, "is no recording (neither a ROS 1 bag, nor MCAP, nor a .db3 of rosbag2)", kKnownInputs);
   }
-  if (findKittiLayout(path)) return InputKind::KittiFolder;
+  if (findKittiLayout(path) || findKittiSweeps(path)) return InputKind::KittiFolder;
   if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0"))
     return InputKind::EurocFolder;
   if (fs::is_directory(fs::path(path) / "StereoImages") || hasAlog(path)) return InputKind::NewCollegeFolder;

@@ -65,6 +65,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->scans() : std::vector<LaserInput>();
   }
 
+  std::vector<SweepInput> sweeps() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->sweeps() : std::vector<SweepInput>();
+  }
+
   std::vector<urban_nav_ros::Panorama> panoramas() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->panoramas() : std::vector<urban_nav_ros::Panorama>();

@@ -21,7 +21,8 @@ using urban_nav_core::DataError;
 
 namespace {
 
-/// Returns the places at which the stamps of the stereo images of a recording step back.
+/// Returns the places at which the stamps of the stereo images of a recording step back; without images, those of the
+/// clouds.
 std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, const std::vector<std::string>& wishes) {
   Recording recording(paths);
   std::vector<std::string> topics;
@@ -29,6 +30,8 @@ std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, co
     const BagTopics chosen = chooseTopics(recording.topicTypes(), wishes);
     for (const Role role : {Role::Left, Role::Right})
       if (const std::optional<ChosenTopic> topic = chosen.find(role)) topics.push_back(topic->name);
+    for (std::size_t lidar = 0; topics.empty() && lidar < kPointsTopics; ++lidar)
+      if (const std::optional<ChosenTopic> topic = chosen.find(pointsRole(lidar))) topics.push_back(topic->name);
   } catch (const urban_nav_core::UserError&) {
     return {};  // reported by the reader of the bags
   }

@@ -10,6 +10,7 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/kitti_layout.hpp"
+#include "urban_nav_input/folder/kitti_sweeps.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -50,12 +51,25 @@ Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampN
   return trajectory;
 }
 
+/// Returns the frames that poses.txt has lines for: those of the images, without images those of the sweeps.
+KittiFrames listFramesWithTruth(const std::string& folder, double rate) {
+  if (const std::optional<KittiLayout> layout = findKittiLayout(folder)) return listKittiFrames(*layout, rate);
+  KittiFrames frames;
+  const std::optional<KittiSweepLayout> sweeps = findKittiSweeps(folder);
+  const std::map<std::int64_t, std::string> files = listKittiSweeps(*sweeps);
+  const std::int64_t first = files.begin()->first, last = files.rbegin()->first;
+  for (std::int64_t number = first; number <= last; ++number) frames.numbers.push_back(number);
+  const KittiLayout layout{folder, sweeps->files, sweeps->files, urban_nav_core::KittiPair::Grey};
+  frames.stamps = stampKittiFrames(layout, "sweeps", {first, last}, rate, frames.notes);
+  return frames;
+}
+
 std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const SourceInfo& info,
                                          const SourceOptions& options) {
   const std::string path = (fs::path(folder) / "poses.txt").string();
   if (!fs::exists(path)) return std::nullopt;
   std::vector<Pose> poses = urban_nav_core::readKitti(path);
-  const KittiFrames frames = listKittiFrames(*findKittiLayout(folder), options.rate);
+  const KittiFrames frames = listFramesWithTruth(folder, options.rate);
   const std::size_t lines = poses.size();
   if (lines != frames.stamps.size() && frames.numbers.back() < static_cast<std::int64_t>(lines))
     poses = {poses.begin() + frames.numbers.front(), poses.begin() + frames.numbers.back() + 1};

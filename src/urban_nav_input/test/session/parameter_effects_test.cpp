@@ -7,7 +7,10 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
+#include <cmath>
+#include <cstring>
 #include <sstream>
 
 #include "urban_nav_input/session/input_parameters.hpp"
@@ -29,12 +32,42 @@ sensor_msgs::LaserScan scanAt(const ros::Time& stamp, const std::string& frame) 
   return scan;
 }
 
-/// A bag whose right images are stamped 8 ms late, with wheels, an IMU and two lasers.
+/// A turn of a LiDAR with four rings; times of the points in s in the field `time`, and their negation in `before`.
+sensor_msgs::PointCloud2 cloudAt(const ros::Time& stamp, const std::string& frame) {
+  constexpr std::uint32_t kPoints = 400;
+  const char* names[] = {"x", "y", "z", "time", "before"};
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.stamp = stamp;
+  cloud.header.frame_id = frame;
+  cloud.width = kPoints;
+  cloud.height = 1;
+  cloud.point_step = 20;
+  cloud.row_step = cloud.point_step * kPoints;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    sensor_msgs::PointField field;
+    field.name = names[i];
+    field.offset = 4 * i;
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  cloud.data.resize(cloud.row_step);
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const float share = (static_cast<float>(i) + 0.5F) / kPoints, azimuth = 6.2831853F * (0.5F - share);
+    const float range = i % 10 == 0 ? 0.8F : 6.0F;
+    const float point[] = {range * std::cos(azimuth), range * std::sin(azimuth),
+                           0.1F * static_cast<float>(i % 4) * range, 0.05F * share, 0.05F * (share - 1.0F)};
+    std::memcpy(&cloud.data[i * cloud.point_step], point, sizeof(point));
+  }
+  return cloud;
+}
+
+/// A bag whose right images are stamped 8 ms late, with wheels, an IMU, two lasers and two LiDARs.
 void writeMovingBag(const std::string& path) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   tf2_msgs::TFMessage transforms;
   transforms.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "imu_link", urban_nav_core::Pose()));
-  for (const char* laser : {"laser_left", "laser_right"})
+  for (const char* laser : {"laser_left", "laser_right", "lidar_a", "lidar_b"})
     transforms.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", laser, urban_nav_core::Pose()));
   bag.write("/tf_static", ros::Time(1.5e9), transforms);
   for (int i = 0; i < 12; ++i) {
@@ -64,6 +97,8 @@ void writeMovingBag(const std::string& path) {
     bag.write("/imu/data", stamp, imu);
     for (const std::string laser : {"laser_left", "laser_right"})
       bag.write("/" + laser + "/scan", stamp, scanAt(stamp, laser));
+    for (const std::string lidar : {"lidar_a", "lidar_b"})
+      bag.write("/" + lidar + "/points", stamp, cloudAt(stamp, lidar));
     nav_msgs::Odometry wheels;
     wheels.header.stamp = stamp;
     wheels.pose.pose.position.x = 0.05 * i;
@@ -75,6 +110,7 @@ void writeMovingBag(const std::string& path) {
 /// Prints stamps, completeness and motion inputs of the pairs.
 std::string readMovingBag(const std::string& path, const InputParameters& parameters) {
   SourceOptions options;
+  options.with_sweeps = true;
   apply(parameters, options);
   const std::unique_ptr<Source> source = openSource({path}, options);
   std::ostringstream text;
@@ -85,6 +121,9 @@ std::string readMovingBag(const std::string& path, const InputParameters& parame
     for (const LaserInput& each : item->scans)
       text << each.laser << each.scan << each.scan.beams.front().range << each.scan.beams.front().direction.transpose()
            << "\n";
+    for (const SweepInput& each : item->sweeps)
+      text << each.role << " " << each.sweep.reference << " " << static_cast<int>(each.sweep.times) << " "
+           << each.sweep.beams.size() << " " << each.sweep.beams.front().stamp << "\n";
     for (const urban_nav_core::MotionInput& input : item->assembled.inputs)
       text << input.from << "\n" << input.T_from_to.matrix() << "\n" << input.information << "\n";
   }
@@ -111,7 +150,12 @@ TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
                        {"laser_left_range_scale", 0.5},
                        {"laser_right_range_scale", 0.5},
                        {"laser_left_angle_scale", 0.5},
-                       {"laser_right_angle_scale", 0.5}}},
+                       {"laser_right_angle_scale", 0.5},
+                       {"points_time", "before,s,header"},
+                       {"points_deskewed", "yes"},
+                       {"points_near", 2.0},
+                       {"points0_delay", 5.0},
+                       {"points1_delay", 5.0}}},
                      {"bag with wheels", read, {{"wheel_noise", 0.5}}, {{"motion_input", "wheels"}}},
                      {"bag with an IMU", read, {{"gyro_noise", 0.5}}, {{"motion_input", "gyroscope"}}}});
   EXPECT_EQ(faults, "");

@@ -19,6 +19,7 @@ struct Diagnosis {
   std::int64_t pairs = 0;             ///< stereo pairs, complete or not
   std::int64_t complete = 0;          ///< of which both images can be read
   double duration_s = 0.0, rate_hz = 0.0;
+  std::vector<InputStream> inputs;  ///< by role
   std::vector<Finding> findings;
 
   /// Returns whether stages can use the session.

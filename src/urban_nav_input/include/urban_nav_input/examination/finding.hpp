@@ -19,7 +19,15 @@ enum class FindingKind {
   Lasers,
   Gps,
   Wheels,
-  Topics
+  Topics,
+  SweepTimes,
+  SweepOverlap,
+  SweepGap,
+  RingOrder,
+  ClockApart,
+  PointsInvalid,
+  PointsFew,
+  PointsNear
 };
 const char* toString(FindingKind kind);
 

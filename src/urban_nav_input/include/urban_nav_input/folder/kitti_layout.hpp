@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "urban_nav_core/camera/stereo_camera.hpp"
@@ -38,9 +39,18 @@ struct KittiTimes {
 };
 KittiTimes readKittiTimes(const KittiLayout& layout);
 
-/// The frames of a folder: all numbers that either camera has, and a stamp for each, from times.txt by number (by place
-/// where the counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero where there is none. UserError where
-/// stamps and images do not belong together.
+/// Throws UserError if far fewer files than numbers are in a folder: they are named by another scheme.
+void requireNumberedFrames(const std::string& folder, std::pair<std::int64_t, std::int64_t> numbers, std::size_t count);
+
+/// Returns a stamp for each of the numbers from the first to the last: from times.txt by number (by place where the
+/// counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero without such a file. Appends what was assumed to
+/// `notes`. Throws UserError where stamps and numbers do not belong together; `what` has the numbers: "images".
+std::vector<urban_nav_core::StampNs> stampKittiFrames(const KittiLayout& layout, const std::string& what,
+                                                      std::pair<std::int64_t, std::int64_t> numbers, double rate,
+                                                      std::vector<std::string>& notes);
+
+/// The frames of a folder: all numbers that either camera has, and a stamp for each (stampKittiFrames()). Throws
+/// UserError where stamps and images do not belong together.
 struct KittiFrames {
   std::map<std::int64_t, std::string> left, right;  ///< number to file
   std::vector<std::int64_t> numbers;

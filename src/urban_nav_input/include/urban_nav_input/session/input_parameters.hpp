@@ -17,6 +17,10 @@ struct InputParameters : urban_nav_core::MotionInputParameters {
   double laser_left_delay, laser_right_delay;              // ms
   double laser_left_range_scale, laser_right_range_scale;  // m
   double laser_left_angle_scale, laser_right_angle_scale;  // rad
+  std::string points_time;                                 // "auto", or as parsePointTimes() reads
+  std::string points_deskewed;                             // auto, yes, no
+  double points_near;                                      // m
+  double points0_delay, points1_delay;                     // ms
 
   InputParameters();
 };

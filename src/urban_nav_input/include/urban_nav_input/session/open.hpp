@@ -3,15 +3,25 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "urban_nav_core/inertial/accelerometer_check.hpp"
+#include "urban_nav_core/laser/cloud/point_times.hpp"
 #include "urban_nav_core/laser/scan_check.hpp"
 #include "urban_nav_input/recording/receipt_range.hpp"
 #include "urban_nav_input/session/source.hpp"
 
 namespace urban_nav_input {
+
+/// Statements of the user on the clouds of 3D LiDARs.
+struct PointsOptions {
+  std::optional<urban_nav_core::PointTimes> times;  ///< as input.points_time; nullopt: found
+  std::optional<bool> deskewed;                     ///< as input.points_deskewed; nullopt: by the kind of the input
+  double near = 0.5;                                ///< m, as input.points_near
+  std::array<double, 2> delays = {};                ///< ms, of points0 and points1, as input.points0_delay and so on
+};
 
 /// What the user said about inputs.
 struct SourceOptions {
@@ -27,6 +37,10 @@ struct SourceOptions {
   std::array<urban_nav_core::LaserConvention, 2> lasers = {};  ///< left, right: as input.laser_left_delay and so on
   std::vector<std::string> transforms = {};  ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, which take precedence over tf
   urban_nav_core::AccelerometerConvention accelerometer = {};  ///< as input.accelerometer_axes and _scale
+  PointsOptions points = {};
+  /// Whether sweeps of 3D LiDARs are read. A session without images is then one if it has sweeps; otherwise it is
+  /// refused.
+  bool with_sweeps = false;
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/bag_inputs.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace urban_nav_input {
+
+std::string readHeaderFrame(const RecordedMessage& message) {
+  constexpr std::size_t kLengthAt = 12, kTextAt = 16;  // after seq (ROS 1) or the encapsulation (CDR), and the stamp
+  const ByteView bytes = message.bytes();
+  if (bytes.data == nullptr || bytes.size < kTextAt) return {};
+  const bool is_big_endian = message.connection().encoding == "cdr" && bytes.data[1] == 0;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    length |= static_cast<std::size_t>(bytes.data[kLengthAt + i]) << 8U * (is_big_endian ? 3 - i : i);
+  if (length > bytes.size - kTextAt) return {};
+  std::string frame(bytes.data + kTextAt, bytes.data + kTextAt + length);
+  while (!frame.empty() && frame.back() == '\0') frame.pop_back();
+  return frame;
+}
+
+std::vector<InputStream> describeInputs(Recording& recording, const BagTopics& topics,
+                                        const std::vector<InputStream>& lidars) {
+  std::vector<InputStream> inputs;
+  for (const auto& [role, topic] : topics.chosen) {
+    const std::string word = toString(role);
+    const auto lidar =
+        std::find_if(lidars.begin(), lidars.end(), [&](const InputStream& each) { return each.role == word; });
+    if (lidar != lidars.end()) {
+      inputs.push_back(*lidar);
+      continue;
+    }
+    InputStream stream;
+    stream.role = word;
+    stream.topic = topic.name;
+    stream.messages = static_cast<std::int64_t>(recording.count(topic.name));
+    RecordedMessages messages = recording.messages({topic.name});
+    if (const std::optional<RecordedMessage> first = messages.next()) stream.frame = readHeaderFrame(*first);
+    inputs.push_back(std::move(stream));
+  }
+  return inputs;
+}
+
+}  // namespace urban_nav_input

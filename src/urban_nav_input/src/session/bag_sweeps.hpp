@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <boost/shared_ptr.hpp>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/message/transcoder.hpp"
+#include "session/lidar_stream.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+
+namespace urban_nav_input {
+
+/// Reads the clouds of a recording, whatever the type of their messages. Not thread-safe.
+class CloudMessages {
+ public:
+  struct Cloud {
+    std::string frame;
+    urban_nav_core::CloudView view;  ///< valid until the next call
+  };
+  /// Returns the cloud in a message; nullopt if it has none that can be read. A header without stamp gets the receipt.
+  /// Throws DataError if the bytes of a PointCloud2 are damaged.
+  std::optional<Cloud> read(const RecordedMessage& message);
+
+ private:
+  std::optional<Cloud> readLivox(const RecordedMessage& message);
+
+  boost::shared_ptr<void> owner_;  // of the bytes of the last cloud
+  std::vector<std::uint8_t> bytes_;
+  std::map<std::string, std::unique_ptr<Transcoder>> transcoders_;  // by definition; null: it is ours
+};
+
+/// The 3D LiDARs of a recording and their sweeps, in the order of their references. Not thread-safe.
+class BagSweeps {
+ public:
+  BagSweeps() = default;
+  /// Decides for each topic of 3D LiDARs how its clouds are read, from the first of them. A LiDAR whose frame has no
+  /// transform is not used; without images (`has_images`), base_link is taken to be at the only one. Throws UserError
+  /// for a field of times that the clouds do not have, DataError for a damaged recording.
+  BagSweeps(Recording& recording, const BagTopics& topics, const urban_nav_ros::StaticTransforms& transforms,
+            const PointsOptions& points, const ReceiptRange& part, bool has_images);
+
+  bool empty() const { return streams_.empty(); }
+  /// Returns the topics to read.
+  std::vector<std::string> topics() const;
+  /// Adds a message if it is of one of the topics; returns whether it is.
+  bool add(const RecordedMessage& message);
+  /// Nothing more comes until later: all sweeps are ready.
+  void flush();
+  /// Returns the sweeps that are ready.
+  std::vector<SweepInput> take();
+  /// Returns the reference of the last sweep that was read; nullopt if the last message gave none.
+  std::optional<urban_nav_core::StampNs> lastReference() const { return last_reference_; }
+
+  std::vector<InputStream> streams() const;
+  const std::vector<std::string>& notes() const { return notes_; }
+  std::vector<Finding> findings() const;
+
+  /// Reads or writes the state between two messages, when all sweeps were taken. Reading: the LiDARs and how they are
+  /// read are those of the state.
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  bool survey(Recording& recording, const ReceiptRange& part, LidarStream& stream);
+  void release(urban_nav_core::StampNs until);
+
+  PointsOptions points_;
+  CloudMessages messages_;
+  std::vector<LidarStream> streams_;
+  std::vector<urban_nav_core::StampNs> newest_;  // references, of each stream
+  std::vector<SweepInput> waiting_, ready_;
+  std::vector<Finding> findings_;
+  std::vector<std::string> notes_;
+  std::optional<urban_nav_core::StampNs> last_reference_;
+};
+
+}  // namespace urban_nav_input
