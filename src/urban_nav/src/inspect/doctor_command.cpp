@@ -4,6 +4,7 @@
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
 #include "inspect/inspect.hpp"
+#include "map/input_streams.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_input/examination/diagnosis.hpp"
@@ -22,6 +23,7 @@ urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
   options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
   apply(parameters.get(urban_nav_input::inputTable()), options);
   options.motion_input = "none";
+  options.with_sweeps = true;
   return options;
 }
 
@@ -51,6 +53,7 @@ Json toJson(const std::vector<urban_nav_input::Diagnosis>& all) {
   Json json = Json::object();
   Json sessions = Json::array();
   Json findings = Json::array();
+  Json inputs = Json::array();
   bool usable = true;
   for (const urban_nav_input::Diagnosis& diagnosis : all) {
     Json session = Json::object();
@@ -62,6 +65,7 @@ Json toJson(const std::vector<urban_nav_input::Diagnosis>& all) {
     session["rate_hz"] = diagnosis.rate_hz;
     session["usable"] = diagnosis.isUsable();
     sessions.append(session);
+    appendInputs(diagnosis.inputs, inputs);
     usable = usable && diagnosis.isUsable();
     for (const urban_nav_input::Finding& finding : diagnosis.findings) {
       Json entry = Json::object();
@@ -78,6 +82,7 @@ Json toJson(const std::vector<urban_nav_input::Diagnosis>& all) {
   json["usable"] = usable;
   json["sessions"] = sessions;
   json["findings"] = findings;
+  json["inputs"] = inputs;
   return json;
 }
 
@@ -114,7 +119,7 @@ Command doctorCommand() {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"--topic",
        "ROLE:=NAME",
-       "topic of a bag: left, right, left_info, right_info, imu (default: guessed and printed)",
+       "topic of a bag: left, right, left_info, right_info, imu, points0, ... (default: guessed and printed)",
        false,
        true,
        {}},

@@ -75,7 +75,8 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        {}},
       {"--topic",
        "ROLE:=NAME",
-       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and printed)",
+       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth, points0, ... (default: guessed and "
+       "printed)",
        false,
        true,
        {}},

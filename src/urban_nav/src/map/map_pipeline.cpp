@@ -21,9 +21,11 @@ namespace {
 constexpr double kReportPeriod = 4.0;  // s
 
 void printSource(const urban_nav_input::SourceInfo& info, Console& console) {
-  console.info(info.name + ": " + info.kind +
-               (info.frames > 0 ? ", " + std::to_string(info.frames) + " stereo frames" : "") + ", " +
-               std::to_string(info.camera.left.width) + "x" + std::to_string(info.camera.left.height));
+  const std::string size = std::to_string(info.camera.left.width) + "x" + std::to_string(info.camera.left.height);
+  console.info(
+      info.name + ": " + info.kind +
+      (info.frames > 0 ? ", " + std::to_string(info.frames) + (info.has_images ? " stereo frames" : " sweeps") : "") +
+      (info.has_images ? ", " + size : ""));
   for (const std::string& note : info.notes) console.info("  " + note);
 }
 

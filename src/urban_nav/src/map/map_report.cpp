@@ -6,6 +6,7 @@
 
 #include "base/plot.hpp"
 #include "evaluation/evaluation_report.hpp"
+#include "map/input_streams.hpp"
 #include "map/run_totals.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/parameters/print.hpp"
@@ -51,6 +52,10 @@ PageTable inputsTable(const MapContext& context) {
   for (const MapSession& session : context.sessions) {
     const urban_nav_input::SourceInfo& info = session.info;
     if (info.name.empty()) continue;  // not open yet
+    if (!info.has_images) {
+      table.rows.push_back({info.name, info.kind, std::to_string(info.frames), "", "", "", listText(info.notes)});
+      continue;
+    }
     const urban_nav_core::Pinhole& left = info.camera.left;
     table.rows.push_back({info.name, info.kind, std::to_string(session.odometry->frames.size()),
                           std::to_string(left.width) + "x" + std::to_string(left.height),
@@ -157,7 +162,7 @@ Json mapSummary(const MapState& state, const std::vector<StageResult>& results) 
   json["duration_s"] = extent.seconds;
   json["sessions"] = state.context.sessions.size();
   Json& inputs = json["inputs"] = Json::array();
-  for (const std::string& input : state.context.options.inputs) inputs.append(input);
+  for (const MapSession& session : state.context.sessions) appendInputs(session.info.inputs, inputs);
   for (const SessionEvaluations& evaluation : state.context.evaluations)
     if (evaluation.map) {
       addToJson(*evaluation.map, json);

@@ -31,6 +31,10 @@ class SessionPass {
   /// Observes a panorama whose images follow SourceInfo::panorama. Panoramas come in order of stamps, each before the
   /// first pair that was recorded after it was complete; its own stamp may be later or earlier than that of this pair.
   virtual void process(const urban_nav_ros::Panorama&) {}
+  /// Observes a sweep of a 3D LiDAR, if a stage of the run uses sweeps (Stage::Description). Sweeps come in order of
+  /// their references, each before the first pair that was read after it; its reference may be later or earlier than
+  /// the stamp of this pair. In a session without images nothing else comes.
+  virtual void process(const urban_nav_input::SweepInput&) {}
   /// Writes what is new to the store. Called before each commit, about once a second.
   virtual void flush() {}
   /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must

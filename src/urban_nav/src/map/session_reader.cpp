@@ -28,9 +28,12 @@ SessionReader::SessionReader(MapContext& context, const StageList& stages, RunCh
 
 std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_nav_input::BagEnd* after) {
   const MapOptions& options = context_.options;
+  urban_nav_input::SourceOptions source_options = options.source;
+  source_options.with_sweeps =
+      std::any_of(stages_.begin(), stages_.end(), [](const Stage* stage) { return stage->describe().uses_sweeps; });
   const urban_nav_input::InputSession& input = context_.sessions[session_].input;
   std::unique_ptr<urban_nav_input::Source> source =
-      urban_nav_input::openSource(input.paths, options.source, after, input.part);
+      urban_nav_input::openSource(input.paths, source_options, after, input.part);
   context_.sessions[session_].info = source->info();
   if (!input.note.empty()) context_.sessions[session_].info.notes.push_back(input.note);
   if (options.threads == 1) return source;
@@ -40,6 +43,7 @@ std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_n
 
 std::vector<std::string> SessionReader::calibrationFaults() const {
   std::vector<std::string> sentences;
+  if (!source_->info().has_images) return sentences;
   for (const urban_nav_input::CalibrationFault& fault : urban_nav_input::checkCalibration(source_->info().camera))
     sentences.push_back(source_->info().name + ": " + fault.text + " (" + fault.remedy + ")");
   return sentences;
@@ -57,7 +61,7 @@ void SessionReader::openPasses(const BagCheckpoint* checkpoint) {
 void SessionReader::openResumed() {
   const std::optional<RunCheckpoint::ResumePoint>& point = checkpoint_.resumePoint(session_);
   if (!point) return;
-  const urban_nav_input::BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}};
+  const urban_nav_input::BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}, {}};
   try {
     source_ = openSource(&after);
     openPasses(&point->checkpoint);
@@ -106,8 +110,14 @@ void SessionReader::processPanoramas(const std::vector<urban_nav_ros::Panorama>&
     for (const auto& [key, pass] : passes_) pass->process(panorama);
 }
 
+void SessionReader::processSweeps(const std::vector<urban_nav_input::SweepInput>& sweeps) {
+  for (const urban_nav_input::SweepInput& sweep : sweeps)
+    for (const auto& [key, pass] : passes_) pass->process(sweep);
+}
+
 void SessionReader::saveBagEnd(const urban_nav_input::BagEnd& end) {
   processPanoramas(end.panoramas);
+  processSweeps(end.sweeps);
   flush();
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) states.emplace_back(key, pass->checkpoint());
@@ -118,26 +128,32 @@ void SessionReader::saveBagEnd(const urban_nav_input::BagEnd& end) {
 void SessionReader::read(const ProgressCallback& progress) {
   if (finished_) return;
   const std::int64_t frames = source_->info().frames;
-  const std::vector<OdometryFrame>& frames_read = context_.sessions[session_].odometry->frames;
-  Progress bar(context_.console, "vo", "frames", frames);
+  const bool has_images = source_->info().has_images;
+  Progress bar(context_.console, has_images ? "vo" : "lo", has_images ? "frames" : "sweeps", frames);
+  auto read = static_cast<std::int64_t>(context_.sessions[session_].odometry->frames.size());  // or sweeps
   urban_nav_input::SampledPairs images(frames, kJudgedPairs, kLeastJudgedStep);
   while (const std::optional<urban_nav_input::SourceItem> input = source_->next()) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
     processPanoramas(input->panoramas);
-    images.add(input->assembled);
-    PassItem item{*input};
-    for (const auto& [key, pass] : passes_) pass->process(item);
-    bar.update(static_cast<std::int64_t>(frames_read.size()));
+    processSweeps(input->sweeps);
+    if (input->has_pair) {
+      images.add(input->assembled);
+      PassItem item{*input};
+      for (const auto& [key, pass] : passes_) pass->process(item);
+    }
+    read += has_images ? static_cast<std::int64_t>(input->has_pair) : static_cast<std::int64_t>(input->sweeps.size());
+    bar.update(read);
     if (checkpoint_.isCommitDue()) {
       flush();
       checkpoint_.commit();
     }
-    progress(frames > 0 ? static_cast<double>(frames_read.size()) / static_cast<double>(frames) : 0.0);
+    progress(frames > 0 ? static_cast<double>(read) / static_cast<double>(frames) : 0.0);
   }
   if (const auto end = source_->bagEnd()) saveBagEnd(*end);
   checkpoint_.writeScans(source_->scans());
   processPanoramas(source_->panoramas());
+  processSweeps(source_->sweeps());
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
   std::vector<urban_nav_input::Finding> findings = source_->sensorFindings();
@@ -153,7 +169,7 @@ void SessionReader::read(const ProgressCallback& progress) {
     states.emplace_back(key, pass->finished());
   }
   checkpoint_.finishSession(states);
-  bar.finish(static_cast<std::int64_t>(frames_read.size()));
+  bar.finish(read);
   passes_.clear();
 }
 

@@ -41,6 +41,7 @@ class SessionReader {
   bool restoreFinished();
   void flush();
   void processPanoramas(const std::vector<urban_nav_ros::Panorama>& panoramas);
+  void processSweeps(const std::vector<urban_nav_input::SweepInput>& sweeps);
   void saveBagEnd(const urban_nav_input::BagEnd& end);
 
   MapContext& context_;
