@@ -89,7 +89,7 @@ int main(int argc, char** argv) try {
 
   std::vector<std::string> columns = {"", "real"};
   std::vector<DriveStatistics> drives;
-  for (const std::string& name : worldNames()) {
+  for (const std::string& name : townNames()) {
     const auto seed = static_cast<std::uint32_t>(options.seed);
     for (const Route& route : worldRoutes(name, seed)) {
       if (route.name != route_name) continue;

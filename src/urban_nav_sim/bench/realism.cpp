@@ -106,7 +106,7 @@ int main(int argc, char** argv) try {
   std::vector<std::string> columns = {"", "real"};
   const Textures real = realTextures();
   std::vector<Textures> simulated;
-  for (const std::string& name : worldNames()) {
+  for (const std::string& name : townNames()) {
     columns.push_back(name);
     columns.emplace_back("distance");
     simulated.push_back(simulatedTextures(name, options));

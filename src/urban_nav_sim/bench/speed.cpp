@@ -87,7 +87,7 @@ int main(int argc, char** argv) try {
   BenchTable table(
       {"world", "sensors", "threads", "core-seconds a second", "seconds a second", "world, core-seconds", "memory, MB"},
       argc, argv);
-  for (const std::string& world : worldNames()) {
+  for (const std::string& world : townNames()) {
     if (!only.empty() && world != only) continue;
     session.world = world;
     const auto add = [&](const std::string& name, const std::set<Sensor>& sensors, int threads) {

@@ -77,7 +77,7 @@ std::vector<double> timesEvery(const Motion& motion, double every) {
 
 Vocabulary trained(std::uint32_t seed) {
   cv::Mat descriptors;
-  for (const std::string& name : worldNames()) {
+  for (const std::string& name : townNames()) {
     const Scene scene(name, seed, 1);
     const auto motion = rideThrough(scene.world(), seed, 300.0);
     for (const double t : timesEvery(*motion, 15.0)) descriptors.push_back(scene.describe(*motion, t, seed));
@@ -181,7 +181,7 @@ int main(int argc, char** argv) try {
   const Options options(argc, argv);
   const Vocabulary vocabulary = trained(static_cast<std::uint32_t>(options.number("--seed", 7)) + 1);
   std::vector<std::string> worlds = {options.text("--world", "")};
-  if (worlds.front().empty()) worlds = worldNames();
+  if (worlds.front().empty()) worlds = townNames();
   std::vector<std::string> columns = {""};
   columns.insert(columns.end(), worlds.begin(), worlds.end());
   std::vector<std::vector<std::string>> rows;

@@ -93,6 +93,7 @@ void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
       addTopic<sensor_msgs::NavSatFix>(robot_topics::kGpsFix, topics);
       addTopic<geometry_msgs::TwistStamped>(robot_topics::kGpsVelocity, topics);
       return;
+    case Sensor::Lidar3d: addTopic<sensor_msgs::PointCloud2>(robot_topics::kPoints, topics); return;
   }
 }
 
@@ -189,6 +190,10 @@ std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) c
   Messages messages = {onTopic(robot_topics::kGpsFix, std::move(fix))};
   if (gps.has_fix) messages.push_back(onTopic(robot_topics::kGpsVelocity, std::move(velocity)));
   return messages;
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const LidarMeasurement& lidar) const {
+  return {onTopic(robot_topics::kPoints, toPointsMessage(lidar))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const TruthMeasurement& truth) const {

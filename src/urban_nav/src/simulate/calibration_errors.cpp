@@ -12,6 +12,7 @@
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace urban_nav {
 
@@ -22,13 +23,14 @@ namespace {
 constexpr double kMostLag = 10.0;  // s
 constexpr const char* kHead = "ladybug";
 constexpr int kHeadCameras = 5;
-constexpr const char* kDevices = "laser_left, laser_right, panorama";
-constexpr const char* kLagForm = "DEVICE:S, DEVICE one of laser_left, laser_right, panorama, S from -10 to 10 (s)";
+constexpr const char* kDevices = "laser_left, laser_right, panorama, lidar3d, imu, wheels";
 
 /// Returns the device that a topic belongs to; empty for others.
 std::string lagDevice(const std::string& topic) {
   const std::string first = topic.substr(0, topic.find('/'));
-  return first == "ladybug" ? "panorama" : first;
+  if (first == "ladybug") return "panorama";
+  if (first == urban_nav_ros::topics::kPoints) return "lidar3d";
+  return first == urban_nav_ros::topics::kWheelOdometry ? "wheels" : first;
 }
 
 /// Splits at the last colon: words on its two sides.
@@ -107,6 +109,8 @@ void CalibrationErrors::apply(std::vector<geometry_msgs::TransformStamped>& tran
   }
 }
 
+std::string calibrationDevices() { return kDevices; }
+
 CalibrationErrors parseCalibrationErrors(const std::vector<std::string>& lags,
                                          const std::vector<std::string>& misplaced,
                                          const std::vector<std::string>& frames) {
@@ -116,7 +120,8 @@ CalibrationErrors parseCalibrationErrors(const std::vector<std::string>& lags,
     const auto seconds = words ? urban_nav_core::parseNumber(words->second) : std::nullopt;
     const bool is_known =
         words && (", " + std::string(kDevices) + ",").find(", " + words->first + ",") != std::string::npos;
-    if (!is_known || !seconds || !(std::abs(*seconds) <= kMostLag)) throw UserError("--lag", text, kLagForm);
+    if (!is_known || !seconds || !(std::abs(*seconds) <= kMostLag))
+      throw UserError("--lag", text, std::string("DEVICE:S, DEVICE one of ") + kDevices + ", S from -10 to 10 (s)");
     errors.lags[words->first] = std::llround(1e9 * *seconds);
   }
   std::string known = kHead;

@@ -14,7 +14,7 @@ namespace urban_nav {
 /// Constant errors of a robot's calibration that a bag has: stamps of a device that are late, and frames whose rotation
 /// /tf_static states wrongly. Measurements and truth are those of the robot without them.
 struct CalibrationErrors {
-  std::map<std::string, urban_nav_core::StampNs> lags;  ///< by device: laser_left, laser_right, panorama
+  std::map<std::string, urban_nav_core::StampNs> lags;  ///< by device: one of calibrationDevices()
   /// R_true_stated by frame; of "ladybug", the head with all its cameras, about the middle of these in the axes of the
   /// frame they hang on.
   std::map<std::string, urban_nav_core::Matrix3d> turns;
@@ -25,6 +25,9 @@ struct CalibrationErrors {
   /// Turns the frames that are misplaced, about their own axes.
   void apply(std::vector<geometry_msgs::TransformStamped>& transforms) const;
 };
+
+/// Devices whose stamps --lag shifts, separated by commas.
+std::string calibrationDevices();
 
 /// Returns the errors of the options --lag DEVICE:S and --misplace FRAME:ROLL,PITCH,YAW (deg). `frames`: of the robot.
 /// Throws UserError naming what is allowed.

@@ -6,6 +6,7 @@
 #include "base/console.hpp"
 #include "base/json.hpp"
 #include "base/parameters.hpp"
+#include "simulate/calibration_errors.hpp"
 #include "simulate/simulate_command.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -28,7 +29,7 @@ std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Argume
 }
 
 std::set<urban_nav_sim::Sensor> parseSensors(const Arguments& arguments) {
-  if (!arguments.has("sensors")) return {urban_nav_sim::kAllSensors.begin(), urban_nav_sim::kAllSensors.end()};
+  if (!arguments.has("sensors")) return urban_nav_sim::SessionOptions().sensors;
   std::set<urban_nav_sim::Sensor> sensors = makeList("sensors", arguments);
   if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
   return sensors;
@@ -43,6 +44,11 @@ SimulateJob makeJob(const Arguments& arguments) {
   job.session.duration = arguments.number("duration", job.session.duration, 0.1, kLongest);
   job.session.sensors = parseSensors(arguments);
   job.session.views = makeList("views", arguments);
+  if (arguments.has("lidar")) {
+    if (job.session.sensors.count(urban_nav_sim::Sensor::Lidar3d) == 0)
+      throw UserError("--lidar", "needs the 3D LiDAR, which --sensors leaves out", "--sensors lidar3d,...");
+    job.session.lidar = urban_nav_sim::parseLidarModel(arguments.get("lidar"), "--lidar");
+  }
   for (const std::string& word : arguments.list("without")) job.session.defects.switchOff(word);
   for (const std::string& word : arguments.list("with")) job.session.defects.switchOn(word);
   for (const std::string& fault : arguments.all("fault"))
@@ -113,7 +119,8 @@ Command simulateCommand() {
        false,
        {}},
       {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},
-      {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all)", false, true, {}},
+      {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all but lidar3d)", false, true, {}},
+      {"--lidar", "KIND", "rings of lidar3d, 16 to 128 (default 64), or livox: a rosette", false, false, {}},
       {"--without",
        "LIST",
        "SENSOR:DEFECT,... that sensors do not have; all for either: imu:noise, gps:all, all:jitter (below)",
@@ -122,13 +129,14 @@ Command simulateCommand() {
        {}},
       {"--with",
        "LIST",
-       "SENSOR:DEFECT,... that they have besides: stereo:lens (raw pairs), lasers:offset, all:clock (below)",
+       "SENSOR:DEFECT,... that they have besides: stereo:lens (raw pairs), lasers:offset, lidar3d:times, all:clock "
+       "(below)",
        false,
        true,
        {}},
       {"--views",
        "LIST",
-       "of stereo, ladybug, lasers: depth and class of each pixel and beam too, in BAG_STEM.truth/",
+       "of stereo, ladybug, lasers, lidar3d: depth and class of each pixel and beam too, in BAG_STEM.truth/",
        false,
        true,
        {}},
@@ -141,13 +149,14 @@ Command simulateCommand() {
        {}},
       {"--lag",
        "DEVICE:S",
-       "stamps of laser_left, laser_right or panorama that are late by a constant time, in s",
+       "stamps of " + calibrationDevices() + " that are late by a constant time, in s",
        false,
        true,
        {}},
       {"--misplace",
        "FRAME:ROLL,PITCH,YAW",
-       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0; FRAME ladybug: of the whole head",
+       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0, lidar3d:1,0,0; FRAME ladybug: of the whole "
+       "head",
        false,
        true,
        {}},
@@ -164,10 +173,12 @@ Command simulateCommand() {
   command.more_help = [](const Arguments& arguments) {
     return urban_nav_sim::worldHelp() + "\n" + urban_nav_sim::defectHelp() + "\n" + commonHelp(arguments);
   };
-  command.examples = {"urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
-                      "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
-                      "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",
-                      "urban_nav simulate --fault unplug:lasers:20:5 --fault drop:stereo:30:10:0.3 -o faults.bag"};
+  command.examples = {
+      "urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
+      "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
+      "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",
+      "urban_nav simulate --world tunnel --sensors stereo,lidar3d --lidar 16 --views lidar3d -o tunnel.bag",
+      "urban_nav simulate --fault unplug:lasers:20:5 --fault drop:stereo:30:10:0.3 -o faults.bag"};
   command.run = runSimulate;
   return command;
 }

@@ -30,8 +30,8 @@ void writePicture(const std::string& path, const cv::Mat& picture) {
 ViewWriter::ViewWriter(std::string folder) : folder_(std::move(folder)) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();
-    const bool is_ours =
-        entry.is_directory() ? urban_nav_core::endsWith(name, "_optical_frame") : name.rfind("laser_", 0) == 0;
+    const bool is_ours = entry.is_directory() ? urban_nav_core::endsWith(name, "_optical_frame") || name == "lidar3d"
+                                              : name.rfind("laser_", 0) == 0;
     if (is_ours) fs::remove_all(entry.path());
   }
 }

@@ -11,8 +11,9 @@
 namespace urban_nav {
 
 /// What pixels and beams truly met, into the truth folder, under the stamps of the measurements: of a camera
-/// FRAME/STAMP_NS.pfm (depth, m) and .png (class), of a laser FRAME.csv (`stamp_ns,beam,range_m,class`; ranges without
-/// a surface are empty). Those of an earlier run are removed. Throws UserError where they cannot be written.
+/// FRAME/STAMP_NS.pfm (depth, m) and .png (class), of a 3D LiDAR the same with a row for each ring, of a laser
+/// FRAME.csv (`stamp_ns,beam,range_m,class`; ranges without a surface are empty). Those of an earlier run are removed.
+/// Throws UserError where they cannot be written.
 class ViewWriter {
  public:
   explicit ViewWriter(std::string folder);

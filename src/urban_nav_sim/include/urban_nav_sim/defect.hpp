@@ -26,6 +26,7 @@ enum class Defect : std::uint8_t {
   Slip,        ///< of wheels
   Multipath,   ///< echoes of satellites from walls
   Gaps,        ///< no fix where too little sky is seen
+  Times,       ///< points of a sweep without times: all zero, the stamp that of the end
   Jitter,      ///< of stamps
   Clock        ///< offset and skew of the device's clock, which drivers usually correct
 };
@@ -33,7 +34,7 @@ enum class Defect : std::uint8_t {
 /// The defects of all sensors, each to be switched by itself.
 class Defects {
  public:
-  /// Defects that are on by default: all but Lens, Offset and Clock.
+  /// Defects that are on by default: all but Lens, Offset, Times and Clock.
   Defects();
 
   bool has(Sensor sensor, Defect defect) const { return on_.count({sensor, defect}) != 0; }

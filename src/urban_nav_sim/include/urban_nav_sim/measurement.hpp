@@ -8,6 +8,7 @@
 
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_core/laser/sweep.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav_sim {
@@ -30,6 +31,12 @@ struct LadybugMeasurement {
 struct LaserMeasurement {
   Side side = Side::Left;
   urban_nav_core::PlanarScan scan;
+};
+
+/// A sweep of the 3D LiDAR; beams without return are not in it.
+struct LidarMeasurement {
+  urban_nav_core::StampNs stamp = 0;  ///< end of the sweep
+  urban_nav_core::Sweep sweep;
 };
 
 struct ImuMeasurement {
@@ -63,12 +70,13 @@ struct TruthMeasurement {
 struct ViewTruth {
   urban_nav_core::StampNs stamp = 0;
   std::string frame;  ///< "laser_left", "stereo_right_optical_frame", ...
-  cv::Mat depth;  ///< CV_32F, m along the camera's axis; of a laser a row of beams, m along each; infinite for the sky
+  cv::Mat depth;  ///< CV_32F, m along the camera's axis; of a laser a row of beams, m along each; of a 3D LiDAR a row
+                  ///< for each ring, from ring 0 on, and a column for each firing; infinite for the sky
   cv::Mat surface_class;  ///< CV_8U, as in cloud.ply
 };
 
 using Measurement = std::variant<StereoMeasurement, LadybugMeasurement, LaserMeasurement, ImuMeasurement,
-                                 WheelMeasurement, GpsMeasurement, TruthMeasurement, ViewTruth>;
+                                 WheelMeasurement, GpsMeasurement, LidarMeasurement, TruthMeasurement, ViewTruth>;
 
 urban_nav_core::StampNs toStamp(const Measurement& measurement);
 

@@ -12,6 +12,7 @@
 #include "urban_nav_core/camera/camera_info.hpp"
 #include "urban_nav_sim/defect.hpp"
 #include "urban_nav_sim/fault.hpp"
+#include "urban_nav_sim/lidar_model.hpp"
 #include "urban_nav_sim/measurement.hpp"
 
 namespace urban_nav_sim {
@@ -22,7 +23,8 @@ struct SessionOptions {
   std::uint32_t seed = 1;
   int day = 1;             ///< 1, 2, ...
   double duration = 60.0;  ///< s
-  std::set<Sensor> sensors{kAllSensors.begin(), kAllSensors.end()};
+  std::set<Sensor> sensors{kDefaultSensors.begin(), kDefaultSensors.end()};
+  LidarModel lidar;  ///< if lidar3d is among the sensors
   Defects defects;
   std::set<Sensor> views;  ///< of these cameras and lasers, what each pixel and beam truly met too (ViewTruth)
   std::vector<Fault> faults;

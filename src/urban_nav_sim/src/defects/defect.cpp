@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAny = "all";
 
-constexpr std::array<std::pair<Defect, const char*>, 16> kNames = {{{Defect::Noise, "noise"},
+constexpr std::array<std::pair<Defect, const char*>, 17> kNames = {{{Defect::Noise, "noise"},
                                                                     {Defect::Bias, "bias"},
                                                                     {Defect::Blur, "blur"},
                                                                     {Defect::Vignetting, "vignetting"},
@@ -29,6 +29,7 @@ constexpr std::array<std::pair<Defect, const char*>, 16> kNames = {{{Defect::Noi
                                                                     {Defect::Slip, "slip"},
                                                                     {Defect::Multipath, "multipath"},
                                                                     {Defect::Gaps, "gaps"},
+                                                                    {Defect::Times, "times"},
                                                                     {Defect::Jitter, "jitter"},
                                                                     {Defect::Clock, "clock"}}};
 
@@ -37,7 +38,9 @@ std::string surfaceClassName(Defect defect) {
       ->second;
 }
 
-bool isUsual(Defect defect) { return defect != Defect::Lens && defect != Defect::Offset && defect != Defect::Clock; }
+bool isUsual(Defect defect) {
+  return defect != Defect::Lens && defect != Defect::Offset && defect != Defect::Times && defect != Defect::Clock;
+}
 
 std::vector<Defect> availableDefects(Sensor sensor) {
   std::vector<Defect> defects;
@@ -52,6 +55,9 @@ std::vector<Defect> availableDefects(Sensor sensor) {
     case Sensor::Imu: defects = {Defect::Noise, Defect::Bias}; break;
     case Sensor::Wheels: defects = {Defect::Tyres, Defect::Slip, Defect::Steps}; break;
     case Sensor::Gps: defects = {Defect::Noise, Defect::Bias, Defect::Multipath, Defect::Gaps}; break;
+    case Sensor::Lidar3d:
+      defects = {Defect::Noise, Defect::Bias, Defect::Edges, Defect::Losses, Defect::Steps, Defect::Times};
+      break;
   }
   defects.insert(defects.end(), {Defect::Jitter, Defect::Clock});
   return defects;
@@ -97,7 +103,7 @@ void Defects::switchOff(const std::string& word, const std::string& where) {
 }
 
 std::string defectHelp() {
-  std::string text = "Defects of the sensors (--with has lens, offset and clock, --without the others):\n";
+  std::string text = "Defects of the sensors (--with has lens, offset, times and clock, --without the others):\n";
   for (const Sensor sensor : kAllSensors) {
     std::string name = toString(sensor);
     name.resize(9, ' ');

@@ -20,6 +20,7 @@ struct Origin {
   std::optional<Sensor> operator()(const StereoMeasurement&) const { return Sensor::Stereo; }
   std::optional<Sensor> operator()(const LadybugMeasurement&) const { return Sensor::Ladybug; }
   std::optional<Sensor> operator()(const LaserMeasurement&) const { return Sensor::Lasers; }
+  std::optional<Sensor> operator()(const LidarMeasurement&) const { return Sensor::Lidar3d; }
   std::optional<Sensor> operator()(const ImuMeasurement&) const { return Sensor::Imu; }
   std::optional<Sensor> operator()(const WheelMeasurement&) const { return Sensor::Wheels; }
   std::optional<Sensor> operator()(const GpsMeasurement&) const { return Sensor::Gps; }

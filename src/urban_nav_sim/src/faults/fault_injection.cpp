@@ -13,12 +13,19 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLongestLidarRange = 120.0;  // m
 
 template <typename Any>
 void set(StampNs stamp, Any& measurement) {
   measurement.stamp = stamp;
 }
 void set(StampNs stamp, LaserMeasurement& measurement) { measurement.scan.stamp = stamp; }
+void set(StampNs stamp, LidarMeasurement& measurement) {
+  const StampNs shift = stamp - measurement.stamp;
+  measurement.stamp = stamp;
+  measurement.sweep.reference += shift;
+  for (urban_nav_core::Beam& beam : measurement.sweep.beams) beam.stamp += shift;
+}
 
 /// Pixels are shared with what was sent before: they are changed in a copy.
 void corruptRows(double share, std::uint64_t seed, cv::Mat& image) {
@@ -60,6 +67,11 @@ struct Corrupt {
       if (toUniform(hash(seed, i)) < share)
         turn.scan.ranges[i] = static_cast<float>(turn.scan.range_max * toUniform(hash(seed, i, 1)));
   }
+  void operator()(LidarMeasurement& lidar) const {
+    for (std::size_t i = 0; i < lidar.sweep.beams.size(); ++i)
+      if (toUniform(hash(seed, i)) < share)
+        lidar.sweep.beams[i].range = static_cast<float>(kLongestLidarRange * toUniform(hash(seed, i, 1)));
+  }
   void operator()(ImuMeasurement& imu) const {
     CorruptedBytes rubbish(share, seed);
     rubbish.into(10.0, imu.rate);
@@ -95,6 +107,9 @@ struct Blank {
   void operator()(LadybugMeasurement& panorama) const { panorama.image = black(panorama.image); }
   void operator()(LaserMeasurement& turn) const {
     turn.scan.ranges.assign(turn.scan.ranges.size(), std::numeric_limits<float>::quiet_NaN());
+  }
+  void operator()(LidarMeasurement& lidar) const {
+    for (urban_nav_core::Beam& beam : lidar.sweep.beams) beam.range = std::numeric_limits<float>::quiet_NaN();
   }
   void operator()(ImuMeasurement& imu) const {
     imu.rate.setConstant(kNan);

@@ -73,6 +73,18 @@ void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& 
   urban_nav_core::writeAtomically(path, text);
 }
 
+void writeLidarRings(const std::string& path, const Lidar3d& lidar) {
+  constexpr double kDegree = 180.0 / M_PI;
+  std::string text = printCsvRow({"ring", "elevation_deg", "elevation_error_deg", "range_bias_m"});
+  for (int ring = 0; ring < lidar.pattern().rings(); ++ring) {
+    const Lidar3d::RingError& error = lidar.ringErrors()[static_cast<std::size_t>(ring)];
+    text +=
+        printCsvRow({std::to_string(ring), printNumber(roundedTo(kDegree * lidar.pattern().elevation(ring), 1e6)),
+                     printNumber(roundedTo(kDegree * error.elevation, 1e6)), printNumber(roundedTo(error.range, 1e6))});
+  }
+  urban_nav_core::writeAtomically(path, text);
+}
+
 void writeTruthFiles(const std::string& folder, const Motion& motion, const Clock& truth, const Clock& ladybug,
                      double false_percent, std::uint64_t seed) {
   const Noise noise(seed, "closures");

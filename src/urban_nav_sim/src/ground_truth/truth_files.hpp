@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ground_truth/revisits.hpp"
+#include "lidar/lidar3d.hpp"
 #include "motion/motion.hpp"
 #include "proprioception/clock.hpp"
 
@@ -25,6 +26,9 @@ void writeClosures(const std::string& path, const urban_nav_core::Trajectory& pa
 
 /// `sensor,offset_s,skew,jitter_s`: by how much the stamps of each are off.
 void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& clocks);
+
+/// `ring,elevation_deg,elevation_error_deg,range_bias_m`: nominal elevation, true minus nominal, measured minus true.
+void writeLidarRings(const std::string& path, const Lidar3d& lidar);
 
 /// The truth folder of docs/files.md but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
 /// closures_true.csv and, if `false_percent` is above zero, closures_false.csv with so many per cent of the number of

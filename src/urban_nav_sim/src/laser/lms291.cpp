@@ -7,13 +7,6 @@
 
 namespace urban_nav_sim {
 
-/// What a fifth of the beam's cross-section sends back.
-struct Lms291::Echo {
-  double range = std::numeric_limits<double>::infinity();  ///< m
-  double strength = 0.0;                                   ///< albedo times cosine of incidence
-  SurfaceClass surface_class = SurfaceClass::Other;
-};
-
 struct Lms291::Reading {
   double range = std::numeric_limits<double>::infinity();  ///< m
   double intensity = 0.0;                                  ///< 0 ... 255
@@ -22,7 +15,6 @@ struct Lms291::Reading {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3f;
 using urban_nav_core::Pose;
 
 constexpr double kBeamStep = 0.5 * M_PI / 180.0;      // rad from beam to beam
@@ -30,8 +22,7 @@ constexpr double kExit = 0.013, kDivergence = 0.011;  // m, rad: width of the be
 constexpr double kWeakest = 0.1 / (30.0 * 30.0);      // 30 m on an albedo of 0.1 (1.3 there)
 constexpr double kPulse = 1.5;                        // m: echoes nearer to each other than that are one to the device
 constexpr float kFarRange = 200.0F;                   // m
-constexpr int kRaysOfBeam = 5,
-              kBeamsOfPacket = kLanes / kRaysOfBeam;  // the middle of the beam, and four places around it
+constexpr int kBeamsOfPacket = kLanes / kRaysOfBeam;
 
 /// Towards the ray of a beam's footprint, laser's frame; the outer ones lie at half the radius.
 Vector3d beamRay(int beam, int ray) {
@@ -64,31 +55,8 @@ Lms291::Settings Lms291::Settings::exact() {
   return settings;
 }
 
-/// What the device takes for one echo: of the middle of the beam, or of all that it meets where that mixes.
-Lms291::Echo Lms291::mixed(const Footprint& footprint) {
-  const Echo& middle = footprint[0];
-  double near = std::numeric_limits<double>::infinity();
-  for (const Echo& echo : footprint) near = std::min(near, echo.range);
-  // A slanted surface spreads its echoes evenly about the middle one; an edge does not.
-  const double slant = std::abs(footprint[1].range - 2.0 * middle.range + footprint[2].range) +
-                       std::abs(footprint[3].range - 2.0 * middle.range + footprint[4].range);
-  if (!std::isfinite(near) || slant < 0.02) return middle;
-  // The first echo that is strong enough, drawn backwards by what follows it within the pulse.
-  double weights = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < footprint.size(); ++i) {
-    const Echo& echo = footprint[i];
-    if (!(echo.range < near + kPulse)) continue;
-    const double weight = (i == 0 ? 2.0 : 1.0) / 6.0 * echo.strength / (echo.range * echo.range);
-    weights += weight;
-    sum += weight * echo.range;
-  }
-  if (!(weights > 0.0)) return {};
-  const double range = sum / weights;
-  return {range, weights * range * range, middle.surface_class};
-}
-
-Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise, int beam) const {
-  const Echo echo = settings_.mixes ? mixed(footprint) : footprint[0];
+Lms291::Reading Lms291::measured(const BeamEchoes& footprint, const Noise& noise, int beam) const {
+  const Echo echo = settings_.mixes ? mixEchoes(footprint, kPulse) : footprint[0];
   if (!std::isfinite(echo.range)) return {};
   const auto counter = static_cast<std::uint64_t>(beam);
   // Fading makes the limit a soft one.
@@ -104,26 +72,14 @@ Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise,
   return {shown, std::clamp(intensity, 1.0, 255.0)};
 }
 
-/// What comes back to each part of the beam's cross-section.
-Lms291::Footprint Lms291::echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane) {
-  Footprint footprint;
+/// Echoes of a beam's rays.
+BeamEchoes Lms291::echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane) {
+  BeamEchoes footprint;
   for (int ray = 0; ray < kRaysOfBeam; ++ray) {
     const int lane = first_lane + ray;
-    if (hits.facet[lane] == kNothing) continue;
-    // The look is taken over the width of the beam.
-    const Vector3f direction = packet.beamDirection(lane);
-    const float angle =
+    const float width =
         static_cast<float>(kDivergence) + static_cast<float>(kExit) / std::max(0.1F, hits.distance[lane]);
-    const Vector3f aside = direction.unitOrthogonal(), along = direction.cross(aside);
-    const SurfacePoint point = snapshot.surfaceAt(hits, lane, packet, angle * aside, angle * along);
-    const Appearance look = lookAt(*point.material, point.spot);
-    const float cosine = std::abs(point.normal.dot(direction.normalized()));
-    Echo& echo = footprint[static_cast<std::size_t>(ray)];
-    echo.range = point.distance;
-    echo.strength = static_cast<double>(look.infrared * (1.0F - look.gloss) * cosine);
-    // Glass that stands square to the beam is a mirror.
-    if (cosine > 0.998F) echo.strength += static_cast<double>(look.gloss);
-    echo.surface_class = point.surface_class;
+    footprint[static_cast<std::size_t>(ray)] = echoOf(snapshot, packet, hits, lane, width);
   }
   return footprint;
 }
@@ -159,7 +115,7 @@ urban_nav_core::PlanarScan Lms291::scan(const Motion& motion, double t, urban_na
     Hits hits;
     snapshot.closest(packet, hits);
     for (int i = 0; i < beams; ++i) {
-      const Footprint footprint = echoes(snapshot, packet, hits, i * kRaysOfBeam);
+      const BeamEchoes footprint = echoes(snapshot, packet, hits, i * kRaysOfBeam);
       const Reading reading = measured(footprint, noise, first + i);
       scan.ranges.push_back(static_cast<float>(reading.range));
       scan.intensities.push_back(std::isfinite(reading.range) ? static_cast<float>(reading.intensity) : 0.0F);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "laser/beam_echoes.hpp"
 #include "motion/motion.hpp"
 #include "noise/noise.hpp"
 #include "ray_tracing/tracer.hpp"
@@ -50,12 +50,9 @@ class Lms291 {
   double bias() const { return bias_; }  ///< m
 
  private:
-  struct Echo;
-  using Footprint = std::array<Echo, 5>;
   struct Reading;
-  static Echo mixed(const Footprint& footprint);
-  static Footprint echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane);
-  Reading measured(const Footprint& footprint, const Noise& noise, int beam) const;
+  static BeamEchoes echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane);
+  Reading measured(const BeamEchoes& footprint, const Noise& noise, int beam) const;
 
   const Tracer& tracer_;
   urban_nav_core::Pose T_base_laser_;

@@ -27,6 +27,7 @@ ClockOptions correctedClock(Sensor sensor) {
     case Sensor::Stereo: options.jitter = 50e-6; break;
     case Sensor::Ladybug: options.jitter = 1e-3; break;
     case Sensor::Lasers:
+    case Sensor::Lidar3d:
     case Sensor::Imu: options.jitter = 20e-6; break;
     case Sensor::Wheels: options.jitter = 500e-6; break;
     case Sensor::Gps: options.jitter = 5e-3; break;

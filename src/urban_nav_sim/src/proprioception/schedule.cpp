@@ -18,6 +18,7 @@ Schedule sensorSchedule(Sensor sensor) {
     case Sensor::Imu: return {0.01, 0.01};
     case Sensor::Wheels: return {0.036, 0.007};
     case Sensor::Gps: return {1.0, 0.5};
+    case Sensor::Lidar3d: return {0.1, 0.121};
   }
   return {};
 }

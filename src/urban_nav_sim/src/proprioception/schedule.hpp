@@ -19,7 +19,8 @@ struct Schedule {
 
 /// The rates of the paper's robot (Smith et al. 2009): stereo 20 Hz, Ladybug 2 Hz, lasers
 /// one turn of the mirror in 13.3381 ms (the time is that of the first beam; the right one 5.54 ms after the left one),
-/// IMU 100 Hz, wheels every 36 ms, GPS 1 Hz.
+/// IMU 100 Hz, wheels every 36 ms, GPS 1 Hz. The 3D LiDAR:
+/// 10 Hz, the time is that of the end of its sweep.
 Schedule sensorSchedule(Sensor sensor);
 Schedule laserSchedule(Side side);
 Schedule truthSchedule();  ///< 200 Hz

@@ -13,6 +13,7 @@ const char* toString(Sensor sensor) {
     case Sensor::Imu: return "imu";
     case Sensor::Wheels: return "wheels";
     case Sensor::Gps: return "gps";
+    case Sensor::Lidar3d: return "lidar3d";
   }
   return "";
 }

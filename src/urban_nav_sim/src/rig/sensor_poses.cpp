@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kHalfBaseline = 0.0600025;          // m
 constexpr double kLadybugHeight = 1.4;               // m
+constexpr double kLidarHeight = 1.75;                // m
 constexpr double kLadybugRadius = 0.04;              // m, of the ring of lenses
 constexpr double kBetweenLenses = 2.0 * M_PI / 5.0;  // rad, clockwise seen from above
 
@@ -50,6 +51,8 @@ std::map<std::string, Pose> sensorPlaces() {
 }
 
 Pose ladybugPlace() { return Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, kLadybugHeight)); }
+
+Pose lidarPose() { return Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, kLidarHeight)); }
 
 Pose sensorPose(const std::string& frame) { return sensorPlaces().at(frame); }
 

@@ -12,6 +12,8 @@ namespace urban_nav_sim {
 /// launch/urdf/lisa.urdf describes it. The lasers' places are those of the New College set, the others plausible.
 std::map<std::string, urban_nav_core::Pose> sensorPlaces();
 urban_nav_core::Pose sensorPose(const std::string& frame);
+/// T_base_lidar of the 3D LiDAR, which only robots that ask for it carry: above the Ladybug, x forward, z up.
+urban_nav_core::Pose lidarPose();
 /// T_base_head of the Ladybug: x forward, z up, in the middle of its ring of lenses.
 urban_nav_core::Pose ladybugPlace();
 

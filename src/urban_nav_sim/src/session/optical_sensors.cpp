@@ -42,12 +42,21 @@ ViewTruth toViewTruth(const std::vector<BeamTruth>& beams, std::string frame, St
   return view;
 }
 
+ViewTruth toViewTruth(const SweepTruth& sweep, StampNs stamp) {
+  ViewTruth view{stamp, frames::kLidar3d, cv::Mat(sweep.rings, sweep.columns, CV_32F),
+                 cv::Mat(sweep.rings, sweep.columns, CV_8U)};
+  std::copy(sweep.range.begin(), sweep.range.end(), view.depth.begin<float>());
+  std::transform(sweep.surface_class.begin(), sweep.surface_class.end(), view.surface_class.begin<std::uint8_t>(),
+                 [](SurfaceClass each) { return static_cast<std::uint8_t>(each); });
+  return view;
+}
+
 }  // namespace
 
 class OpticalSensors::Implementation {
  public:
   Implementation(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
-                 const std::set<Sensor>& views)
+                 const LidarModel& lidar, const std::set<Sensor>& views)
       : motion_(motion),
         views_(views),
         tracer_(world),
@@ -58,7 +67,8 @@ class OpticalSensors::Implementation {
         left_laser_(tracer_, sensorPose(frames::kLaserLeft), noise.of("lasers").bits(0), frames::kLaserLeft,
                     laserSettings(defects)),
         right_laser_(tracer_, sensorPose(frames::kLaserRight), noise.of("lasers").bits(0), frames::kLaserRight,
-                     laserSettings(defects)) {}
+                     laserSettings(defects)),
+        lidar_(tracer_, lidarPose(), noise.of("lidar3d").bits(0), lidar, lidarSettings(defects)) {}
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
     const double t = sensorSchedule(Sensor::Stereo).at(k);
@@ -100,6 +110,18 @@ class OpticalSensors::Implementation {
     return measurements;
   }
 
+  std::vector<Measurement> lidar(std::int64_t k, const Clock& clock) const {
+    const double t = sensorSchedule(Sensor::Lidar3d).at(k);
+    const StampNs stamp = clock.stamp(k, t);
+    const bool is_viewed = views_.count(Sensor::Lidar3d) != 0;
+    SweepTruth truth;
+    std::vector<Measurement> measurements = {LidarMeasurement{
+        stamp, lidar_.sweep(motion_, t, stamp, static_cast<std::uint64_t>(k), is_viewed ? &truth : nullptr)}};
+    if (is_viewed) measurements.emplace_back(toViewTruth(truth, stamp));
+    return measurements;
+  }
+  const Lidar3d& lidarDevice() const { return lidar_; }
+
  private:
   const Motion& motion_;
   std::set<Sensor> views_;
@@ -108,11 +130,12 @@ class OpticalSensors::Implementation {
   StereoHead stereo_;
   LadybugHead ladybug_;
   Lms291 left_laser_, right_laser_;
+  Lidar3d lidar_;
 };
 
 OpticalSensors::OpticalSensors(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
-                               const std::set<Sensor>& views)
-    : implementation_(std::make_unique<Implementation>(world, motion, noise, defects, views)) {}
+                               const LidarModel& lidar, const std::set<Sensor>& views)
+    : implementation_(std::make_unique<Implementation>(world, motion, noise, defects, lidar, views)) {}
 OpticalSensors::~OpticalSensors() = default;
 
 std::vector<Measurement> OpticalSensors::stereo(std::int64_t k, const Clock& clock) {
@@ -124,6 +147,10 @@ std::vector<Measurement> OpticalSensors::panorama(std::int64_t k, const Clock& c
 std::vector<Measurement> OpticalSensors::laser(Side side, std::int64_t k, const Clock& clock) {
   return implementation_->laser(side, k, clock);
 }
+std::vector<Measurement> OpticalSensors::lidar(std::int64_t k, const Clock& clock) {
+  return implementation_->lidar(k, clock);
+}
+const Lidar3d& OpticalSensors::lidarDevice() const { return implementation_->lidarDevice(); }
 
 urban_nav_core::CameraInfo OpticalSensors::stereoInfo(Side side, const Defects& defects) {
   return bumblebee(stereoImages(defects))[static_cast<std::size_t>(side)].info;

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "lidar/lidar3d.hpp"
 #include "motion/motion.hpp"
 #include "noise/noise.hpp"
 #include "proprioception/clock.hpp"
@@ -22,12 +23,15 @@ namespace urban_nav_sim {
 class OpticalSensors {
  public:
   OpticalSensors(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
-                 const std::set<Sensor>& views);
+                 const LidarModel& lidar, const std::set<Sensor>& views);
   ~OpticalSensors();
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock);
   std::vector<Measurement> panorama(std::int64_t k, const Clock& clock);
   std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock);
+  std::vector<Measurement> lidar(std::int64_t k, const Clock& clock);
+  /// Constant errors of the 3D LiDAR's rings, and its pattern.
+  const Lidar3d& lidarDevice() const;
 
   static urban_nav_core::CameraInfo stereoInfo(Side side, const Defects& defects);
   static urban_nav_core::CameraInfo ladybugInfo(int camera);

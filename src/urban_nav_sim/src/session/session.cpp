@@ -30,7 +30,7 @@ constexpr StampNs kFirstDay = 1'225'719'873'000'000'000;  // of the New College 
 constexpr StampNs kOneDay = 86'400'000'000'000;
 
 bool seesTheWorld(Sensor sensor) {
-  return sensor == Sensor::Stereo || sensor == Sensor::Ladybug || sensor == Sensor::Lasers;
+  return sensor == Sensor::Stereo || sensor == Sensor::Ladybug || sensor == Sensor::Lasers || sensor == Sensor::Lidar3d;
 }
 
 const SessionOptions& checked(const SessionOptions& options) {
@@ -40,7 +40,7 @@ const SessionOptions& checked(const SessionOptions& options) {
   for (const Sensor sensor : options.views)
     if (!seesTheWorld(sensor) || options.sensors.count(sensor) == 0)
       throw UserError(options.where + "views", std::string("views of \"") + toString(sensor) + "\"",
-                      "stereo, ladybug, lasers, if among the sensors");
+                      "stereo, ladybug, lasers, lidar3d, if among the sensors");
   return options;
 }
 
@@ -77,7 +77,7 @@ class Session::Implementation {
     if (has(Sensor::Imu)) addImu();
     if (has(Sensor::Wheels)) addWheels();
     if (has(Sensor::Gps)) addGps();
-    if (has(Sensor::Stereo) || has(Sensor::Ladybug) || has(Sensor::Lasers)) addEyes();
+    if (std::any_of(options_.sensors.begin(), options_.sensors.end(), seesTheWorld)) addEyes();
   }
 
   std::optional<Arrival> next() {
@@ -96,8 +96,10 @@ class Session::Implementation {
   void writeTruth(const std::string& folder, double false_closures) const {
     writeTruthFiles(folder, *motion_, truthClock(), sensorClock(Sensor::Ladybug), false_closures, options_.seed);
     std::map<Sensor, ClockOptions> clocks;
-    for (const Sensor sensor : kAllSensors) clocks[sensor] = clockErrors(sensor);
+    for (const Sensor sensor : kAllSensors)
+      if (sensor != Sensor::Lidar3d || has(sensor)) clocks[sensor] = clockErrors(sensor);
     writeClocks(folder + "/clocks.csv", clocks);
+    if (has(Sensor::Lidar3d)) writeLidarRings(folder + "/lidar3d_rings.csv", optical_sensors_->lidarDevice());
     writeCloud(folder + "/cloud.ply", world_, *motion_);
   }
 
@@ -138,7 +140,8 @@ class Session::Implementation {
   }
 
   void addEyes() {
-    optical_sensors_ = std::make_unique<OpticalSensors>(world_, *motion_, noise_, options_.defects, options_.views);
+    optical_sensors_ =
+        std::make_unique<OpticalSensors>(world_, *motion_, noise_, options_.defects, options_.lidar, options_.views);
     if (has(Sensor::Lasers))
       for (const Side side : {Side::Left, Side::Right})
         timeline_.add(laserSchedule(side), [this, side, clock = sensorClock(Sensor::Lasers)](std::int64_t k) {
@@ -151,6 +154,10 @@ class Session::Implementation {
     if (has(Sensor::Ladybug))
       timeline_.add(sensorSchedule(Sensor::Ladybug), [this, clock = sensorClock(Sensor::Ladybug)](std::int64_t k) {
         return optical_sensors_->panorama(k, clock);
+      });
+    if (has(Sensor::Lidar3d))
+      timeline_.add(sensorSchedule(Sensor::Lidar3d), [this, clock = sensorClock(Sensor::Lidar3d)](std::int64_t k) {
+        return optical_sensors_->lidar(k, clock);
       });
   }
 
@@ -180,6 +187,8 @@ double Session::duration() const { return implementation_->options().duration; }
 std::int64_t Session::frames() const { return sensorSchedule(Sensor::Stereo).count(duration()); }
 std::map<std::string, Pose> Session::places() const {
   std::map<std::string, Pose> places = sensorPlaces();
+  if (implementation_->options().sensors.count(Sensor::Lidar3d) != 0)
+    places[urban_nav_core::frames::kLidar3d] = lidarPose();
   const StereoImages images = stereoImages(implementation_->options().defects);
   if (images == StereoImages::Rectified) return places;
   // Raw images are those of the cameras as they are mounted: camera_info's R turns them into the rectified pair.

@@ -33,6 +33,18 @@ Lms291::Settings laserSettings(const Defects& defects) {
   return settings;
 }
 
+Lidar3d::Settings lidarSettings(const Defects& defects) {
+  const auto has = [&](Defect defect) { return defects.has(Sensor::Lidar3d, defect); };
+  Lidar3d::Settings settings;
+  if (!has(Defect::Noise)) settings.sigma = 0.0;
+  if (!has(Defect::Bias)) settings.ring_range_sigma = settings.ring_angle_sigma = 0.0;
+  if (!has(Defect::Steps)) settings.step = 0.0;
+  settings.mixes = has(Defect::Edges);
+  settings.loses = has(Defect::Losses);
+  settings.has_times = !has(Defect::Times);
+  return settings;
+}
+
 ImuOptions imuOptions(const Defects& defects) {
   const ImuOptions usual;
   ImuOptions options = perfectImu();

@@ -5,6 +5,7 @@
 
 #include "camera/heads.hpp"
 #include "laser/lms291.hpp"
+#include "lidar/lidar3d.hpp"
 #include "proprioception/clock.hpp"
 #include "proprioception/gps.hpp"
 #include "proprioception/imu.hpp"
@@ -18,6 +19,7 @@ StereoImages stereoImages(const Defects& defects);
 /// `sensor`: Stereo or Ladybug.
 CameraDefects cameraDefects(const Defects& defects, Sensor sensor);
 Lms291::Settings laserSettings(const Defects& defects);
+Lidar3d::Settings lidarSettings(const Defects& defects);
 ImuOptions imuOptions(const Defects& defects);
 WheelOptions wheelOptions(const Defects& defects);
 GpsOptions gpsOptions(const Defects& defects);

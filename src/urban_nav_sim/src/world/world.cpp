@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "world/worlds.hpp"
 
@@ -10,13 +11,22 @@ namespace urban_nav_sim {
 
 using Eigen::Vector2d;
 
-std::vector<std::string> worldNames() { return {"quad", "begbroke", "street"}; }
+std::vector<std::string> townNames() { return {"quad", "begbroke", "street"}; }
+
+std::vector<std::string> worldNames() {
+  std::vector<std::string> names = townNames();
+  names.insert(names.end(), {"tunnel", "ribbed_tunnel", "corridor", "field"});
+  return names;
+}
 
 World buildWorld(const std::string& world, std::uint32_t seed, int day) {
   if (world == "quad") return buildQuad(seed, day);
   if (world == "begbroke") return buildBegbroke(seed, day);
   if (world == "street") return buildStreet(seed, day);
-  throw urban_nav_core::UserError("world", "\"" + world + "\"", "quad, begbroke, street");
+  if (world == "tunnel" || world == "ribbed_tunnel") return buildTunnel(seed, day, world == "ribbed_tunnel");
+  if (world == "corridor") return buildCorridor(seed, day);
+  if (world == "field") return buildField(seed, day);
+  throw urban_nav_core::UserError("world", "\"" + world + "\"", urban_nav_core::joined(worldNames()));
 }
 
 namespace {
@@ -25,7 +35,10 @@ std::vector<Route> fastRoutes(const std::string& world, std::uint32_t seed) {
   if (world == "quad") return routesOfQuad(seed);
   if (world == "begbroke") return routesOfBegbroke(seed);
   if (world == "street") return routesOfStreet(seed);
-  throw urban_nav_core::UserError("world", "\"" + world + "\"", "quad, begbroke, street");
+  if (world == "tunnel" || world == "ribbed_tunnel") return routesOfTunnel();
+  if (world == "corridor") return routesOfCorridor(seed);
+  if (world == "field") return routesOfField(seed);
+  throw urban_nav_core::UserError("world", "\"" + world + "\"", urban_nav_core::joined(worldNames()));
 }
 
 /// The same way, but for a start that is hardly one.

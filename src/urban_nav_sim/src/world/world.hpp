@@ -55,6 +55,8 @@ struct Route {
 
 /// Names for the command line, in the order of --help.
 std::vector<std::string> worldNames();
+/// The worlds with streets, plants and every class of surface.
+std::vector<std::string> townNames();
 /// The routes of a world. `world` is one of worldNames().
 std::vector<Route> worldRoutes(const std::string& world, std::uint32_t seed);
 /// `day`: 1, 2, ...: the same place in other weather, with other vehicles and people.

@@ -12,9 +12,16 @@ namespace urban_nav_sim {
 World buildQuad(std::uint32_t seed, int day);
 World buildStreet(std::uint32_t seed, int day);
 World buildBegbroke(std::uint32_t seed, int day);
+/// `has_ribs`: every 20 m (ribbed_tunnel); otherwise its geometry is the same everywhere.
+World buildTunnel(std::uint32_t seed, int day, bool has_ribs);
+World buildCorridor(std::uint32_t seed, int day);
+World buildField(std::uint32_t seed, int day);
 std::vector<Route> routesOfQuad(std::uint32_t seed);
 std::vector<Route> routesOfStreet(std::uint32_t seed);
 std::vector<Route> routesOfBegbroke(std::uint32_t seed);
+std::vector<Route> routesOfTunnel();
+std::vector<Route> routesOfCorridor(std::uint32_t seed);
+std::vector<Route> routesOfField(std::uint32_t seed);
 
 /// For building routes: a way through places, and the same way backwards.
 std::vector<Waypoint> through(const std::vector<Eigen::Vector2d>& places, double speed = 1.25);

@@ -14,6 +14,7 @@ constexpr const char* kStereoLeft = "stereo_left_optical_frame";    ///< z forwa
 constexpr const char* kStereoRight = "stereo_right_optical_frame";  ///< z forward, x right, y down
 constexpr const char* kLaserLeft = "laser_left";
 constexpr const char* kLaserRight = "laser_right";
+constexpr const char* kLidar3d = "lidar3d";  ///< x forward, y left, z up
 constexpr const char* kImu = "imu_link";
 constexpr const char* kGps = "gps_link";
 

@@ -12,6 +12,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MagneticField.h>
 #include <sensor_msgs/NavSatFix.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include <array>
 #include <cstdint>
@@ -29,10 +30,10 @@ namespace urban_nav_sim {
 /// A message (never null) and the topic of docs/architecture.md where it belongs, without a slash in front: a name
 /// space may come there.
 struct TopicMessage {
-  using Message =
-      std::variant<sensor_msgs::ImagePtr, sensor_msgs::CameraInfoPtr, sensor_msgs::CompressedImagePtr,
-                   sensor_msgs::LaserScanPtr, sensor_msgs::ImuPtr, sensor_msgs::MagneticFieldPtr, nav_msgs::OdometryPtr,
-                   sensor_msgs::NavSatFixPtr, geometry_msgs::TwistStampedPtr, geometry_msgs::PoseStampedPtr>;
+  using Message = std::variant<sensor_msgs::ImagePtr, sensor_msgs::CameraInfoPtr, sensor_msgs::CompressedImagePtr,
+                               sensor_msgs::LaserScanPtr, sensor_msgs::ImuPtr, sensor_msgs::MagneticFieldPtr,
+                               nav_msgs::OdometryPtr, sensor_msgs::NavSatFixPtr, sensor_msgs::PointCloud2Ptr,
+                               geometry_msgs::TwistStampedPtr, geometry_msgs::PoseStampedPtr>;
   std::string topic;
   Message message;
 };
@@ -56,6 +57,7 @@ class MeasurementMessages {
   Messages from(const ImuMeasurement& imu) const;
   Messages from(const WheelMeasurement& wheels) const;
   Messages from(const GpsMeasurement& gps) const;
+  Messages from(const LidarMeasurement& lidar) const;
   Messages from(const TruthMeasurement& truth) const;
   Messages from(const ViewTruth&) const { return {}; }  ///< for the truth folder alone
 
@@ -63,6 +65,10 @@ class MeasurementMessages {
   std::array<sensor_msgs::CameraInfo, 5> ladybug_;
   std::array<std::uint32_t, 2> turns_{};
 };
+
+/// Returns a sweep with the fields of Velodyne's driver: x, y, z (m, axes of the sensor), intensity, ring, and time, s
+/// against the stamp of the header, which is that of the end of the sweep. One row; points in the order of their times.
+sensor_msgs::PointCloud2 toPointsMessage(const LidarMeasurement& lidar);
 
 /// Where the sensors sit, for /tf_static, of the stamp at which the session begins.
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Session& session);
