@@ -2,40 +2,18 @@
 #include "map_messages.hpp"
 
 #include "laser_mapper/map_files.hpp"
+#include "urban_nav_ros/point_cloud.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace laser_mapper {
 
-using sensor_msgs::PointField;
-
 namespace {
-
-std::uint8_t pointFieldType(const urban_nav_core::PcdField& field) {
-  if (field.type == 'F') return field.bytes == 8 ? PointField::FLOAT64 : PointField::FLOAT32;
-  if (field.bytes == 1) return PointField::UINT8;
-  return field.bytes == 2 ? PointField::UINT16 : PointField::UINT32;
-}
 
 /// The points with all that a PCD file of the map has.
 sensor_msgs::PointCloud2 wholePoints(const std::vector<MapPoint>& points) {
-  sensor_msgs::PointCloud2 cloud;
-  for (const urban_nav_core::PcdField& each : mapPcdFields()) {
-    PointField field;
-    field.name = each.name;
-    field.offset = cloud.point_step;
-    field.datatype = pointFieldType(each);
-    field.count = 1;
-    cloud.fields.push_back(field);
-    cloud.point_step += static_cast<std::uint32_t>(each.bytes);
-  }
   std::string bytes;
   for (const MapPoint& point : points) appendPcdPoint(bytes, point);
-  cloud.data.assign(bytes.begin(), bytes.end());
-  cloud.height = 1;
-  cloud.width = static_cast<std::uint32_t>(points.size());
-  cloud.row_step = static_cast<std::uint32_t>(bytes.size());
-  cloud.is_dense = 1;
-  return cloud;
+  return urban_nav_ros::toPointCloudMessage(mapPcdFields(), bytes);
 }
 
 std_msgs::Header mapHeader(const std::string& frame, urban_nav_core::StampNs stamp) {

@@ -5,8 +5,19 @@
 
 namespace urban_nav_ros {
 
+using sensor_msgs::PointField;
+
+namespace {
+
+std::uint8_t pointFieldType(const urban_nav_core::PcdField& field) {
+  if (field.type == 'F') return field.bytes == 8 ? PointField::FLOAT64 : PointField::FLOAT32;
+  if (field.bytes == 1) return PointField::UINT8;
+  return field.bytes == 2 ? PointField::UINT16 : PointField::UINT32;
+}
+
+}  // namespace
+
 sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<Eigen::Vector4f>& points, const char* fourth) {
-  using sensor_msgs::PointField;
   sensor_msgs::PointCloud2 cloud;
   sensor_msgs::PointCloud2Modifier fields(cloud);
   fields.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1, PointField::FLOAT32,
@@ -17,6 +28,26 @@ sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<Eigen::Vector4f>&
     for (int i = 0; i < 4; ++i) at[i] = point[i];
     ++at;
   }
+  return cloud;
+}
+
+sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<urban_nav_core::PcdField>& fields,
+                                             std::string_view bytes) {
+  sensor_msgs::PointCloud2 cloud;
+  for (const urban_nav_core::PcdField& each : fields) {
+    PointField field;
+    field.name = each.name;
+    field.offset = cloud.point_step;
+    field.datatype = pointFieldType(each);
+    field.count = 1;
+    cloud.fields.push_back(field);
+    cloud.point_step += static_cast<std::uint32_t>(each.bytes);
+  }
+  cloud.data.assign(bytes.begin(), bytes.end());
+  cloud.height = 1;
+  cloud.width = cloud.point_step == 0 ? 0 : static_cast<std::uint32_t>(bytes.size()) / cloud.point_step;
+  cloud.row_step = static_cast<std::uint32_t>(bytes.size());
+  cloud.is_dense = 1;
   return cloud;
 }
 

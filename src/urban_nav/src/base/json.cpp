@@ -66,6 +66,22 @@ bool Json::has(const std::string& key) const {
          std::any_of(members->begin(), members->end(), [&](const auto& member) { return member.first == key; });
 }
 
+std::vector<std::pair<std::string, std::string>> Json::flat() const {
+  std::vector<std::pair<std::string, std::string>> values;
+  const auto* members = std::get_if<Members>(&value_);
+  if (members == nullptr) return values;
+  for (const auto& [name, member] : *members) {
+    if (member.isObject()) {
+      for (auto& [inner, text] : member.flat()) values.emplace_back(name + "." + inner, std::move(text));
+    } else if (const auto* text = std::get_if<std::string>(&member.value_)) {
+      values.emplace_back(name, *text);
+    } else {
+      values.emplace_back(name, JsonPrinter::convert(member).dump());
+    }
+  }
+  return values;
+}
+
 std::string Json::print() const {
   return JsonPrinter::convert(*this).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -34,6 +34,10 @@ class Json {
   bool isObject() const { return std::holds_alternative<Members>(value_); }
   bool has(const std::string& key) const;
 
+  /// Returns the names and the texts of the values within an object, those of inner ones with points: "gps.fixes",
+  /// "12".
+  std::vector<std::pair<std::string, std::string>> flat() const;
+
   /// Indented by two blanks, with a newline at the end.
   std::string print() const;
 

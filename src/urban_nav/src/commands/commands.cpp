@@ -6,6 +6,7 @@
 #include "device/device_command.hpp"
 #include "evaluation/evaluate_command.hpp"
 #include "inspect/inspect.hpp"
+#include "inspect/results/result_recording.hpp"
 #include "join/join_command.hpp"
 #include "map/map_command.hpp"
 #include "simulate/simulate_command.hpp"
@@ -19,7 +20,7 @@
 namespace urban_nav {
 
 std::vector<Command> allCommands() {
-  return {mapCommand(makeStages),
+  return {mapCommand(makeStages, recordAllResults),
           convertCommand(),
           evaluateCommand(),
           infoCommand(),

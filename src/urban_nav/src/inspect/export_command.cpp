@@ -8,6 +8,8 @@
 #include "base/json.hpp"
 #include "base/parameters.hpp"
 #include "inspect/inspect.hpp"
+#include "inspect/numbered_path.hpp"
+#include "inspect/results/result_recording.hpp"
 #include "inspect/store_export.hpp"
 #include "inspect/store_results.hpp"
 #include "map/output_folder.hpp"
@@ -32,32 +34,25 @@ constexpr double kMapImageShare = 0.1;  // of memory_mb, for decoded images
 
 using Maps = std::vector<std::vector<StoredTrajectory>>;
 
-/// "out.tum", "out_2.tum" and so on.
-std::string numbered(const std::string& path, std::size_t number) {
-  if (number == 0) return path;
-  const std::filesystem::path given(path);
-  return (given.parent_path() / (given.stem().string() + "_" + std::to_string(number + 1) + given.extension().string()))
-      .string();
-}
-
 MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
   const auto path = [&](const char* option) {
-    return arguments.has(option) ? numbered(arguments.get(option), number) : std::string();
+    return arguments.has(option) ? numberedPath(arguments.get(option), number) : std::string();
   };
   return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho"), path("mesh"), arguments.get("crs")};
 }
 
 void checkFormats(const Arguments& arguments) {
   const bool any = mapFilePaths(arguments, 0).any() || arguments.has("tum") || arguments.has("kitti") ||
-                   arguments.has("g2o") || arguments.has("places") || arguments.has("results");
+                   arguments.has("g2o") || arguments.has("places") || arguments.has("mcap") || arguments.has("results");
   if (!any)
-    throw UserError(
-        "urban_nav export", "no format is asked for",
-        "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE, or --places or --results DIR");
+    throw UserError("urban_nav export", "no format is asked for",
+                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho, --mesh or --mcap FILE, or --places "
+                    "or --results DIR");
   if (arguments.has("crs")) {
     parseCrs(arguments.get("crs"));
     if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
   }
+  if (arguments.has("mcap")) checkResultPath(arguments.get("mcap"));
   const std::string ortho = arguments.get("ortho");
   if (!ortho.empty() && std::filesystem::path(ortho).extension() != ".png")
     throw UserError("--ortho", ortho, "a name that ends in .png");
@@ -159,9 +154,9 @@ int runExport(const Arguments& arguments, Console& console) {
   Written written(console);
   for (std::size_t i = 0; i < maps.size(); ++i) {
     if (arguments.has("tum"))
-      written.write(numbered(arguments.get("tum"), i), exportTum(store, maps[i]), describe(maps[i]));
+      written.write(numberedPath(arguments.get("tum"), i), exportTum(store, maps[i]), describe(maps[i]));
     if (arguments.has("kitti"))
-      written.write(numbered(arguments.get("kitti"), i), exportKitti(store, maps[i]), describe(maps[i]));
+      written.write(numberedPath(arguments.get("kitti"), i), exportKitti(store, maps[i]), describe(maps[i]));
   }
   if (arguments.has("g2o")) {
     const ExportedGraph graph = exportG2o(store, maps);
@@ -179,6 +174,11 @@ int runExport(const Arguments& arguments, Console& console) {
                    std::to_string(places.places) + " places, " + std::to_string(places.thumbnails) + " thumbnails");
   }
   if (arguments.has("results")) writeResults(store, maps, arguments, written);
+  if (arguments.has("mcap"))
+    for (const std::string& path :
+         recordResults(store, maps, arguments.get("mcap"),
+                       kMapImageShare * loadParameters(arguments).get(commandTable()).memory_mb, {}))
+      written.note(path, "poses, transforms, closures, places and points as MCAP");
   if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());
   return 0;
@@ -217,6 +217,12 @@ Command exportCommand() {
        {}},
       {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
       {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
+      {"--mcap",
+       "FILE.mcap",
+       "what map --mcap writes, for Foxglove; maps that did not join go to FILE_2 and so on",
+       false,
+       false,
+       {}},
       {"--places",
        "DIR",
        "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/map_command.hpp"
+
 #include "base/parameters.hpp"
 #include "map/map_pipeline.hpp"
 #include "map/stage_list.hpp"
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
 
 namespace urban_nav {
@@ -14,6 +16,16 @@ std::vector<std::string> topicsReadByStages(const AllStages& stages, const Param
   for (const std::unique_ptr<Stage>& stage : stages)
     for (const std::string& topic : stage->topicsRead(parameters)) topics.push_back(topic);
   return topics;
+}
+
+std::string mcapPath(const Arguments& arguments) {
+  const std::string path = arguments.get("mcap");
+  if (!arguments.has("mcap")) return path;
+  checkResultPath(path);
+  if (arguments.has("localise"))
+    throw urban_nav_core::UserError("--mcap", "has no poses of --localise, which the store does not hold",
+                                    "one of them");
+  return path;
 }
 
 MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
@@ -40,7 +52,8 @@ MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
           arguments.get("store"),
           arguments.has("overwrite"),
           arguments.get("localise"),
-          arguments.has("calibrate")};
+          arguments.has("calibrate"),
+          mcapPath(arguments)};
 }
 
 std::string stagesSentence(const AllStages& stages) {
@@ -55,6 +68,16 @@ Option calibrateOption() {
       "",
       "estimate delay and mounting of the lasers against the trajectory; adopted where places that were left out of "
       "the estimate agree better, and reported in every case",
+      false,
+      false,
+      {}};
+}
+
+Option mcapOption() {
+  return {
+      "--mcap",
+      "FILE.mcap",
+      "the results as MCAP for Foxglove, at the stamps of the recording; maps that did not join go to FILE_2 and so on",
       false,
       false,
       {}};
@@ -104,6 +127,7 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        {}},
       calibrateOption(),
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
+      mcapOption(),
       {"--so-far",
        "SHARE",
        "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked so and refreshes "
@@ -119,7 +143,7 @@ std::vector<Option> mapOptions(const AllStages& stages) {
 
 }  // namespace
 
-Command mapCommand(StageFactory make_stages) {
+Command mapCommand(StageFactory make_stages, ResultRecorder record) {
   Command command;
   command.name = "map";
   command.summary = "Turns recordings into a trajectory with covariance, and a report.";
@@ -127,11 +151,12 @@ Command mapCommand(StageFactory make_stages) {
   command.examples = {"urban_nav map sequences/06 --out out",
                       "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
   command.more_help = parametersHelp;
-  command.run = [make_stages = std::move(make_stages)](const Arguments& arguments, Console& console) {
+  command.run = [make_stages = std::move(make_stages), record = std::move(record)](const Arguments& arguments,
+                                                                                   Console& console) {
     AllStages stages = make_stages();
     const MapOptions options = readOptions(arguments, stages);
     for (const std::string& warning : parameterWarnings(options.parameters)) console.warn(warning);
-    runMap(options, std::move(stages), console);
+    runMap(options, std::move(stages), console, record);
     return 0;
   };
   return command;

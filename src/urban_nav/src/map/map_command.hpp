@@ -2,11 +2,12 @@
 #pragma once
 
 #include "base/command.hpp"
+#include "map/result_recorder.hpp"
 #include "map/stage_list.hpp"
 
 namespace urban_nav {
 
-/// Returns the command map, which runs these stages.
-Command mapCommand(StageFactory make_stages);
+/// Returns the command map, which runs these stages. `record`: writes what --mcap asks for.
+Command mapCommand(StageFactory make_stages, ResultRecorder record = {});
 
 }  // namespace urban_nav

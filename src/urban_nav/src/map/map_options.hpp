@@ -29,6 +29,7 @@ struct MapOptions {
   bool overwrite = false;     ///< replaces the run of other inputs that `out` holds
   std::string localise = {};  ///< session store whose map is only read; empty: none
   bool calibrate = false;     ///< estimates delay and mounting of the lasers before the map is rendered
+  std::string mcap = {};      ///< file for the results as MCAP; empty: none
 };
 
 /// Returns whether --stages allows a stage: it is listed, or the list is empty.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/command_parameters.hpp"
 #include "base/plot.hpp"
 #include "map/map_report.hpp"
 #include "map/output_files.hpp"
@@ -32,11 +33,12 @@ void printSource(const urban_nav_input::SourceInfo& info, Console& console) {
 /// One run of `map`: sessions are read, stages run, results are written.
 class MapRun {
  public:
-  MapRun(const MapOptions& options, AllStages stages, Console& console)
+  MapRun(const MapOptions& options, AllStages stages, const ResultRecorder& record, Console& console)
       : context_(options, console),
         all_stages_(std::move(stages)),
         stages_(selectStages(all_stages_, options, console)),
-        folder_(options.out) {
+        folder_(options.out),
+        record_(record) {
     if (!options.truth.empty()) urban_nav_input::readTrajectory(options.truth);  // reports a bad file before the work
     if (!options.closures.empty())
       for (const urban_nav_core::ClosureRow& row : urban_nav_core::readClosures(options.closures))
@@ -55,6 +57,7 @@ class MapRun {
     runStages();
     context_.evaluations = evaluateSessions(context_);
     writeResults();
+    if (record_ && !context_.options.mcap.empty()) recordResults();
     checkpoint.endRun();
   }
 
@@ -136,6 +139,15 @@ class MapRun {
     context_.console.print(folder_.file("report.html") + "\n" + folder_.file("trajectory.tum") + "\n");
   }
 
+  void recordResults() {
+    context_.store->commit();
+    const MapState state{context_, stages_, usage_, false, 1.0};
+    const double memory_mb = context_.options.parameters.get(commandTable()).memory_mb;
+    for (const std::string& path :
+         record_(*context_.store, context_.options.mcap, memory_mb, stageFigures(state, stageResults(state))))
+      context_.console.print(path + "\n");
+  }
+
   void printTotals(const MapState& state) {
     const RunTotals extent = ownTotals(context_);
     const std::size_t sessions = context_.sessions.size();
@@ -150,13 +162,14 @@ class MapRun {
   const std::vector<std::unique_ptr<Stage>> all_stages_;
   const StageList stages_;  // those that this run has
   const OutputFolder folder_;
+  const ResultRecorder& record_;
   double reported_s_ = 0.0;  // when the report was written last
 };
 
 }  // namespace
 
-void runMap(const MapOptions& options, AllStages stages, Console& console) {
-  MapRun(options, std::move(stages), console).run();
+void runMap(const MapOptions& options, AllStages stages, Console& console, const ResultRecorder& record) {
+  MapRun(options, std::move(stages), record, console).run();
 }
 
 }  // namespace urban_nav

@@ -3,13 +3,14 @@
 
 #include "base/console.hpp"
 #include "map/map_options.hpp"
+#include "map/result_recorder.hpp"
 #include "map/stage_list.hpp"
 
 namespace urban_nav {
 
 /// Runs those of `stages` that the options ask for over the inputs and writes trajectories, closures, report, summary
-/// and the files of each stage into the output folder. Continues an interrupted run with the same options. Throws
-/// UserError for bad options, DataError if the inputs are not usable.
-void runMap(const MapOptions& options, AllStages stages, Console& console);
+/// and the files of each stage into the output folder, and with MapOptions::mcap their results by `record`. Continues
+/// an interrupted run with the same options. Throws UserError for bad options, DataError if the inputs are not usable.
+void runMap(const MapOptions& options, AllStages stages, Console& console, const ResultRecorder& record = {});
 
 }  // namespace urban_nav

@@ -174,4 +174,13 @@ Json mapSummary(const MapState& state, const std::vector<StageResult>& results) 
   return json;
 }
 
+std::vector<StageFigures> stageFigures(const MapState& state, const std::vector<StageResult>& results) {
+  std::vector<StageFigures> figures;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i].summary) continue;
+    figures.push_back({state.stages[i]->describe().key, results[i].data_faults, results[i].summary->flat()});
+  }
+  return figures;
+}
+
 }  // namespace urban_nav

@@ -5,6 +5,7 @@
 
 #include "base/page.hpp"
 #include "base/usage.hpp"
+#include "map/result_recorder.hpp"
 #include "map/stage_list.hpp"
 
 namespace urban_nav {
@@ -26,6 +27,9 @@ Page mapPage(const MapState& state, const std::vector<StageResult>& results);
 
 /// Returns summary.json: figures of the run, and the object of each stage under its key.
 Json mapSummary(const MapState& state, const std::vector<StageResult>& results);
+
+/// Returns the figures of the stages, for diagnostics.
+std::vector<StageFigures> stageFigures(const MapState& state, const std::vector<StageResult>& results);
 
 /// Returns seconds of data per second of the run.
 double realtimeFactor(const MapState& state);

@@ -4,11 +4,20 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <string_view>
 #include <vector>
+
+#include "urban_nav_core/io/cloud/pcd_writer.hpp"
 
 namespace urban_nav_ros {
 
 /// Converts points to a cloud with the fields x, y, z (m) and `fourth`. Sets no header.
 sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<Eigen::Vector4f>& points, const char* fourth);
+
+/// Converts points as a PCD file contains them to a cloud with the same fields. `bytes`: of all points, each with its
+/// fields without gaps. Sets no header. Requires a whole number of points.
+sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<urban_nav_core::PcdField>& fields,
+                                             std::string_view bytes);
 
 }  // namespace urban_nav_ros

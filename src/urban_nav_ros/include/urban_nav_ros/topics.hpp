@@ -92,6 +92,19 @@ constexpr const char* kGraphMarkers = "graph/markers";
 constexpr const char* kInitialPose = "initialpose";
 constexpr const char* kClickedPoint = "/clicked_point";  // of the tool publish_point of rviz
 
+/// Topics of the recording that map --mcap and export --mcap write (docs/files.md).
+namespace results {
+constexpr const char* kOdometry = "/odometry";
+constexpr const char* kStatus = "/status";
+constexpr const char* kPath = "/path";
+constexpr const char* kPoints = "/map/points";
+constexpr const char* kClosures = "/closures";
+constexpr const char* kClosureMarkers = "/closures/markers";
+constexpr const char* kPlaces = "/places";
+constexpr const char* kPlaceImages = "/places/image";
+constexpr const char* kDiagnostics = "/diagnostics";
+}  // namespace results
+
 /// Returns the name that a topic has outside of namespaces, as recordings contain it: "/imu/data".
 inline std::string fromRoot(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;

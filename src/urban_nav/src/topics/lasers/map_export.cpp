@@ -175,15 +175,25 @@ void writeGrid(const std::string& path, const LaserMap& map, const MappedSession
       path, laser_mapper::printGridYaml(grid, model, std::filesystem::path(pgm).filename().string()));
 }
 
-/// Writes the formats that show points in their colours.
-std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
-                          const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
+using ColouredTile = std::function<void(const laser_mapper::Tile& tile, const std::vector<MapPoint>& points)>;
+
+void forEachColouredTile(Store& store, const LaserMap& map, const MappedSessions& mapped, double memory_mb,
+                         const ColouredTile& take) {
   const auto colouriser = makeColouriser(store, mapped.sessions, mapped.parameters->voxel, memory_mb);
   if (colouriser) {
     map.forEachTile(
         [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser->addSurface(points); });
     colouriser->equalise();
   }
+  map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
+    if (colouriser) colouriser->colour(points);
+    take(tile, points);
+  });
+}
+
+/// Writes the formats that show points in their colours.
+std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
+                          const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
   const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
   std::optional<laser_mapper::MapPicture> ortho;
   if (!paths.ortho.empty()) ortho.emplace(view);
@@ -191,13 +201,13 @@ std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMa
   if (!paths.mesh.empty()) mesher.emplace(mapped.parameters->voxel);
   PointFiles files(paths, crs, attributes ? attributes(store, mapped.sessions.front().id, map) : std::nullopt);
   std::size_t written = 0;
-  map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
-    if (colouriser) colouriser->colour(points);
-    files.append(points);
-    if (ortho) ortho->draw(points);
-    if (mesher) mesher->add(tile, points);
-    written += points.size();
-  });
+  forEachColouredTile(store, map, mapped, memory_mb,
+                      [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
+                        files.append(points);
+                        if (ortho) ortho->draw(points);
+                        if (mesher) mesher->add(tile, points);
+                        written += points.size();
+                      });
   files.commit();
   if (ortho) writeOrtho(paths.ortho, view, *ortho);
   if (mesher) urban_nav_core::writeAtomically(paths.mesh, printMeshPly(mesher->finish()));
@@ -214,6 +224,16 @@ bool holdsMap(Store& store, const std::vector<StoredTrajectory>& map) {
   return std::any_of(map.begin(), map.end(), [&](const StoredTrajectory& each) {
     return laser_mapper::storedMapParameters(store, each.session.id).has_value();
   });
+}
+
+void forEachMapTile(Store& store, const std::vector<StoredTrajectory>& map, double memory_mb,
+                    const std::function<void(const std::vector<MapPoint>&)>& take) {
+  const MappedSessions mapped = mappedSessions(store, map);
+  if (mapped.sessions.empty()) return;
+  LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
+  laser_map.load();
+  forEachColouredTile(store, laser_map, mapped, memory_mb,
+                      [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { take(points); });
 }
 
 ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, const MapFilePaths& paths,

@@ -47,6 +47,11 @@ bool holdsMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::
 ExportedMap exportMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
                       const MapFilePaths& paths, double memory_mb, const AttributeSource& attributes = {});
 
+/// Calls `take` for the tiles of the map of laser points of sessions that lie in one map, in their order, with the
+/// colours that map.ply has; not at all if the store holds no such map. `memory_mb`: for decoded images.
+void forEachMapTile(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
+                    double memory_mb, const std::function<void(const std::vector<laser_mapper::MapPoint>&)>& take);
+
 /// Returns `path` with another extension, which begins with a point.
 std::string withExtension(const std::string& path, const std::string& extension);
 

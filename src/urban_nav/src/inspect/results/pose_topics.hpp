@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "convert/bag_writer.hpp"
+#include "inspect/results/recorded_map.hpp"
+
+namespace urban_nav {
+
+/// Writes odometry and /tf of each pose, the health of odometry where it changes, and the whole path and the places of
+/// the sensors (/tf_static) at the first pose. The twist is the mean velocity since the pose before; the covariance of
+/// a pose, which the store does not hold, is zero.
+void writePoseTopics(urban_nav_store::Store& store, const RecordedMap& map, BagWriter& recording);
+
+}  // namespace urban_nav

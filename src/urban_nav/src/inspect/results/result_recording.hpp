@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "map/result_recorder.hpp"
+#include "urban_nav_store/stored_map.hpp"
+
+namespace urban_nav {
+
+/// Writes what a store holds of each map as MCAP: poses, transforms, closures, places, the points of the map, each at
+/// its stamp, and diagnostics with the figures of the stages at the last pose, if there are any. The first map goes to
+/// `path`, those that did not join it to PATH_2 and so on. Returns the files. `memory_mb`: of the command. Throws
+/// DataError if there are no poses.
+std::vector<std::string> recordResults(urban_nav_store::Store& store,
+                                       const std::vector<std::vector<urban_nav_store::StoredTrajectory>>& maps,
+                                       const std::string& path, double memory_mb,
+                                       const std::vector<StageFigures>& figures);
+
+/// As recordResults(), for all sessions of a store (a ResultRecorder).
+std::vector<std::string> recordAllResults(urban_nav_store::Store& store, const std::string& path, double memory_mb,
+                                          const std::vector<StageFigures>& figures);
+
+}  // namespace urban_nav
