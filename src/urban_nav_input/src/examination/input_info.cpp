@@ -118,24 +118,24 @@ StreamInfo toStream(const std::string& name, const std::string& type, const Stam
   return counter.info();
 }
 
-void lookIntoBag(const std::string& path, InputInfo& info) {
+void readBagInfo(const std::string& path, InputInfo& info) {
   Recording recording(path);
   info.kind = recording.kind();
-  std::map<std::string, TopicCounter> counters;
+  std::map<std::pair<std::string, std::string>, TopicCounter> counters;  // key: topic and type
   for (const Connection& connection : recording.connections())
-    counters.emplace(connection.topic, TopicCounter(connection));
+    counters.emplace(std::pair(connection.topic, connection.type), TopicCounter(connection));
   std::map<std::string, std::vector<Vector3d>> positions_by_topic;
   MessageSelection all = recording.select(std::nullopt);
   while (const std::optional<RecordedMessage> each = all.next()) {
-    counters.at(each->topic()).add(*each);
+    counters.at({each->topic(), each->connection().type}).add(*each);
     std::optional<urban_nav_core::Pose> pose;
     if (const auto odometry = each->as<nav_msgs::Odometry>()) pose = urban_nav_ros::toPose(odometry->pose.pose);
     if (const auto stamped = each->as<geometry_msgs::PoseStamped>()) pose = urban_nav_ros::toPose(stamped->pose);
     if (pose) positions_by_topic[each->topic()].push_back(pose->t());
   }
-  for (const auto& [topic, counter] : counters) {
+  for (const auto& [key, counter] : counters) {
     info.streams.push_back(counter.info());
-    info.streams.back().undecoded = recording.undecoded(topic);
+    info.streams.back().undecoded = recording.undecoded(key.first, key.second);
     if (std::string note = counter.note(); !note.empty()) info.notes.push_back(std::move(note));
   }
   info.warnings = recording.warnings();
@@ -229,7 +229,7 @@ InputInfo lookInto(const std::string& path) {
   InputInfo info;
   info.name = path;
   switch (kind) {
-    case InputKind::Bag: lookIntoBag(path, info); break;
+    case InputKind::Bag: readBagInfo(path, info); break;
     case InputKind::NewCollegeFolder:
       info.kind = "New College folder";
       lookIntoNewCollege(path, info);

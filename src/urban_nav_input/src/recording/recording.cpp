@@ -48,9 +48,10 @@ std::vector<Connection> Recording::connections() const {
   return all;
 }
 
-std::string Recording::undecoded(const std::string& topic) {
+std::string Recording::undecoded(const std::string& topic, const std::string& type) {
   MessageSelection selection = select(std::vector<std::string>{topic});
-  const std::optional<RecordedMessage> first = selection.next();
+  std::optional<RecordedMessage> first = selection.next();
+  while (first && !type.empty() && first->connection().type != type) first = selection.next();
   if (!first) return {};
   const Connection& connection = first->connection();
   if (connection.encoding != "ros1" && connection.encoding != "cdr")

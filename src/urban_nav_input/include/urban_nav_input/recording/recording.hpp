@@ -54,8 +54,8 @@ class Recording {
   /// Returns the connections of all files, in their order.
   std::vector<Connection> connections() const;
   /// Returns why messages of a topic cannot be decoded: their encoding, or a definition that is missing or not
-  /// understood; empty if they can be. Reads the first of them.
-  std::string undecoded(const std::string& topic);
+  /// understood; empty if they can be. Reads the first of them, of this type if one is given.
+  std::string undecoded(const std::string& topic, const std::string& type = {});
   /// Returns the number of messages on a topic.
   std::size_t count(const std::string& topic);
   /// Returns the transforms of /tf_static, and those of /tf that stay the same throughout.

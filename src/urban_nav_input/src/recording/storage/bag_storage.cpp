@@ -3,8 +3,10 @@
 #include <rosbag/view.h>
 
 #include <boost/make_unique.hpp>
+#include <fstream>
 #include <utility>
 
+#include "recording/storage/bag_records.hpp"
 #include "recording/storage/storage.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/recording/recording.hpp"
@@ -39,16 +41,10 @@ class MessageBuffer {
 /// ROS 1 bag, read by librosbag.
 class BagStorage : public Storage {
  public:
+  /// Throws what librosbag throws.
   explicit BagStorage(std::string path) : path_(std::move(path)) {
-    try {
-      bag_.open(path_, rosbag::bagmode::Read);
-      for (const rosbag::ConnectionInfo* info : rosbag::View(bag_).getConnections()) addConnection(*info);
-    } catch (const rosbag::BagUnindexedException&) {
-      throw urban_nav_core::DataError(
-          path_, "has no index: the recording was cut off (rosbag reindex " + path_ + " repairs that)", "");
-    } catch (const std::exception& error) {
-      throwDamaged(path_, error);
-    }
+    bag_.open(path_, rosbag::bagmode::Read);
+    for (const rosbag::ConnectionInfo* info : rosbag::View(bag_).getConnections()) addConnection(*info);
   }
 
   const char* kind() const override { return "bag"; }
@@ -79,8 +75,15 @@ class BagStorage : public Storage {
       indexes_[connection].instances[entry.place].write(buffer_);
       return buffer_.view();
     } catch (const std::exception& error) {
-      throwDamaged(path_, error);
+      if (damaged_++ == 0) fault_ = error.what();
+      return {};
     }
+  }
+
+  std::vector<std::string> warnings() const override {
+    if (damaged_ == 0) return {};
+    return {std::to_string(damaged_) + (damaged_ == 1 ? " message cannot" : " messages cannot") +
+            " be read and are left out: " + fault_};
   }
 
  private:
@@ -114,10 +117,26 @@ class BagStorage : public Storage {
   std::vector<Connection> connections_;
   std::vector<Index> indexes_;  // index: connection
   MessageBuffer buffer_;
+  std::uint64_t damaged_ = 0;  // messages that could not be read
+  std::string fault_;          // that the first of them met
 };
+
+/// Returns whether the version of a bag is the one whose records are read without an index.
+bool hasBagRecords(const std::string& path) {
+  std::string begin(rosbag1::kMagic.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == rosbag1::kMagic;
+}
 
 }  // namespace
 
-std::unique_ptr<Storage> openBagStorage(const std::string& path) { return std::make_unique<BagStorage>(path); }
+std::unique_ptr<Storage> openBagStorage(const std::string& path) {
+  try {
+    return std::make_unique<BagStorage>(path);
+  } catch (const std::exception& error) {
+    if (!hasBagRecords(path)) throwDamaged(path, error);
+  }
+  return openScannedBag(path);
+}
 
 }  // namespace urban_nav_input

@@ -39,6 +39,7 @@ class Db3Storage : public Storage {
     }
     indexes_.resize(connections_.size());
     checkVersion();
+    if (std::string cut = file_.cut(); !cut.empty()) warnings_.push_back(std::move(cut));
     if (file_.isWalIgnored()) warnings_.push_back("has a -wal that cannot be read: messages in it are missing");
     readIndex();
     read_.emplace(file_, "SELECT data FROM messages WHERE rowid = ?");

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recording/storage/inflate.hpp"
 
+#include <bzlib.h>
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <boost/make_unique.hpp>
+#include <limits>
 #include <new>
 
 namespace urban_nav_input {
@@ -53,6 +56,25 @@ void inflateLz4(ByteView packed, std::size_t capacity, Inflated& out) {
   out.is_whole = hint == 0 && out.size == capacity;
 }
 
+void inflateBz2(ByteView packed, std::size_t capacity, Inflated& out) {
+  constexpr std::size_t kMost = std::numeric_limits<unsigned int>::max();
+  bz_stream stream = {};
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) throw std::bad_alloc();
+  const std::unique_ptr<bz_stream, int (*)(bz_stream*)> at_end(&stream, BZ2_bzDecompressEnd);
+  stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(packed.data));  // bzlib does not write there
+  stream.avail_in = static_cast<unsigned int>(std::min(packed.size, kMost));
+  stream.next_out = reinterpret_cast<char*>(out.memory.get());
+  stream.avail_out = static_cast<unsigned int>(std::min(capacity, kMost));
+  int result = BZ_OK;
+  while (result == BZ_OK && stream.avail_out > 0) {
+    const unsigned int in = stream.avail_in, room = stream.avail_out;
+    result = BZ2_bzDecompress(&stream);
+    if (stream.avail_in == in && stream.avail_out == room) break;
+  }
+  out.size = std::min(capacity, kMost) - stream.avail_out;
+  out.is_whole = (result == BZ_OK || result == BZ_STREAM_END) && out.size == capacity;
+}
+
 }  // namespace
 
 bool isKnownCompression(const std::string& compression) {
@@ -66,6 +88,7 @@ Inflated inflate(const std::string& compression, ByteView packed, std::size_t si
   out.memory = boost::make_unique_noinit<std::uint8_t[]>(size);
   if (size == 0) out.is_whole = true;
   else if (compression == "zstd") inflateZstd(packed, size, out);
+  else if (compression == "bz2") inflateBz2(packed, size, out);
   else inflateLz4(packed, size, out);
   return out;
 }

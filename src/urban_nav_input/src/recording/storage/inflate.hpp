@@ -19,11 +19,11 @@ struct Inflated {
   ByteView bytes() const { return {memory.get(), size}; }
 };
 
-/// Returns whether "zstd", "lz4" or whatever a file names can be decompressed; "" is no compression.
+/// Returns whether "zstd", "lz4" or whatever a file names is a compression of MCAP; "" is no compression.
 bool isKnownCompression(const std::string& compression);
 
-/// Decompresses frames of zstd or lz4 to `size` bytes. What is cut off or damaged is inflated as far as it goes, to
-/// whole blocks. Requires a known compression that is not "".
+/// Decompresses frames of zstd or lz4, or a stream of bz2, to `size` bytes. What is cut off or damaged is inflated as
+/// far as it goes, to whole blocks. Requires "zstd", "lz4" or "bz2".
 Inflated inflate(const std::string& compression, ByteView packed, std::size_t size);
 
 }  // namespace urban_nav_input

@@ -37,6 +37,7 @@ ByteView McapChunkCache::inflateChunk(std::size_t chunk) {
     return found->inflated.bytes();
   }
   const mcap::Chunk& packed = chunks_[chunk].chunk;
+  ++inflated_;
   Inflated inflated = inflate(packed.compression, packed.packed, static_cast<std::size_t>(packed.size));
   if (!inflated.is_whole && packed.packed.size == packed.packed_size) return {};
   kept_bytes_ += inflated.size;

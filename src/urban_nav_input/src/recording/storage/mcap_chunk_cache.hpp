@@ -12,13 +12,15 @@
 
 namespace urban_nav_input {
 
-/// The chunks of an MCAP file without compression; those used last are kept. Not thread-safe.
+/// The chunks of an MCAP file, or of a bag, without compression; those used last are kept. Not thread-safe.
 class McapChunkCache {
  public:
   explicit McapChunkCache(const std::vector<McapChunk>& chunks) : chunks_(chunks), states_(chunks.size()) {}
 
   /// Returns the records of a chunk, valid until the next call; no data if it is damaged. A checksum is compared once.
   ByteView records(std::size_t chunk);
+  /// Returns how often a chunk was decompressed.
+  std::uint64_t inflated() const { return inflated_; }
   /// Returns what is wrong with chunks that were asked for.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -36,6 +38,7 @@ class McapChunkCache {
   std::vector<State> states_;
   std::list<Kept> kept_;  // the one used last first
   std::size_t kept_bytes_ = 0;
+  std::uint64_t inflated_ = 0;
   std::vector<std::string> warnings_;
 };
 

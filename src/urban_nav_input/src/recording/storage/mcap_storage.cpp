@@ -52,6 +52,8 @@ class McapStorage : public Storage {
     return {};
   }
 
+  std::uint64_t chunksInflated() const override { return cache_.inflated(); }
+
   std::vector<std::string> warnings() const override {
     std::vector<std::string> all = contents_.warnings;
     all.insert(all.end(), cache_.warnings().begin(), cache_.warnings().end());

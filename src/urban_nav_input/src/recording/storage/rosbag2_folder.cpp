@@ -81,8 +81,13 @@ class Rosbag2Folder : public Storage {
         missing += (missing.empty() ? "" : ", ") + name;
         continue;
       }
-      names_.push_back(name);
-      files_.push_back(openStorage(path.string()));
+      try {
+        files_.push_back(openStorage(path.string()));
+        names_.push_back(name);
+      } catch (const urban_nav_core::Error& error) {
+        warnings_.push_back(name + " is left out: " + error.parts().found);
+        if (warnings_.size() == metadata.files.size()) throw;  // none can be read
+      }
     }
     const std::string about = (folder / "metadata.yaml").string();
     if (metadata.files.empty()) throw UserError(about, "names no files (relative_file_paths)", "");

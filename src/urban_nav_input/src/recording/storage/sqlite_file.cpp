@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "urban_nav_core/types/error.hpp"
 
@@ -24,6 +25,24 @@ std::string toUri(const std::string& path) {
     }
   }
   return uri;
+}
+
+/// Returns a big-endian number of four bytes.
+std::uint64_t bigEndian(const std::string& bytes, std::size_t at) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i) number = number << 8U | static_cast<unsigned char>(bytes[at + i]);
+  return number;
+}
+
+/// Returns the size that the header of a database states (sqlite.org/fileformat.html, section 1.3), bytes; 0 if it
+/// states none.
+std::uint64_t statedSize(const std::string& path) {
+  constexpr std::size_t kHeader = 100, kPageSize = 16, kChanges = 24, kPages = 28, kChangesOfPages = 92;  // bytes
+  std::string header(kHeader, '\0');
+  if (!std::ifstream(path, std::ios::binary).read(header.data(), kHeader)) return 0;
+  const std::uint64_t page = bigEndian(header, kPageSize) >> 16U;  // two bytes; 1 means 65536
+  if (bigEndian(header, kChanges) != bigEndian(header, kChangesOfPages)) return 0;
+  return (page == 1 ? 65536 : page) * bigEndian(header, kPages);
 }
 
 bool hasWal(const std::string& path) {
@@ -61,6 +80,9 @@ void SqliteFile::open(bool with_wal) {
     sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     sqlite3_exec(opened, "PRAGMA locking_mode=EXCLUSIVE", nullptr, nullptr, nullptr);
   }
+  // A file that is shorter than its header states is opened all the same; nothing is written whatever the schema
+  // allows.
+  sqlite3_exec(opened, "PRAGMA writable_schema=ON", nullptr, nullptr, nullptr);
   constexpr int kLargestMapping = 0x7fff0000;  // bytes, which SQLite limits anyway
   sqlite3_exec(opened, ("PRAGMA mmap_size=" + std::to_string(kLargestMapping)).c_str(), nullptr, nullptr, nullptr);
 }
@@ -72,6 +94,13 @@ bool SqliteFile::hasTable(const std::string& name) {
   } catch (const urban_nav_core::DataError&) {
     return false;
   }
+}
+
+std::string SqliteFile::cut() const {
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(path_, error), stated = statedSize(path_);
+  if (error || size >= stated || (hasWal(path_) && !is_wal_ignored_)) return {};
+  return "is cut off at byte " + std::to_string(size) + " of " + std::to_string(stated);
 }
 
 void SqliteFile::fail() const {

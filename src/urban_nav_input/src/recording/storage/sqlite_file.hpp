@@ -24,6 +24,8 @@ class SqliteFile {
   const std::string& path() const { return path_; }
   /// Returns whether there is a -wal that cannot be read, so that what it holds is missing.
   bool isWalIgnored() const { return is_wal_ignored_; }
+  /// Returns where the file is cut off, by the size that its header states; empty if it is whole.
+  std::string cut() const;
 
   /// Statement, whose rows come one after another.
   class Query {

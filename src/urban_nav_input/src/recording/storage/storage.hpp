@@ -32,6 +32,8 @@ class Storage {
   /// Returns the bytes of a message as they are encoded, valid until the next call; no data if they are damaged, which
   /// is counted in warnings(). Throws DataError if the file cannot be read on.
   virtual ByteView read(std::size_t connection, const MessageEntry& entry) = 0;
+  /// Returns how often a chunk was decompressed to read messages.
+  virtual std::uint64_t chunksInflated() const { return 0; }
   /// Returns what is missing or damaged, and where, as far as it was met.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
@@ -41,6 +43,9 @@ class Storage {
 std::unique_ptr<Storage> openStorage(const std::string& path);
 
 std::unique_ptr<Storage> openBagStorage(const std::string& path);
+/// Opens a bag without its index: one that was cut off, is damaged, or that its recorder did not finish. Throws
+/// DataError if no message is whole.
+std::unique_ptr<Storage> openScannedBag(const std::string& path);
 std::unique_ptr<Storage> openMcapStorage(const std::string& path);
 std::unique_ptr<Storage> openDb3Storage(const std::string& path);
 std::unique_ptr<Storage> openRosbag2Folder(const std::string& path);

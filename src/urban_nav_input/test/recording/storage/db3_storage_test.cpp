@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "recording_samples.hpp"
@@ -76,6 +77,39 @@ TEST_F(Db3Storage, AFolderIsItsFiles) {
   EXPECT_EQ(testing::readContents(folder_.file("drive")), bag_) << "the only one in the folder";
   fs::copy(folder_.file("a.mcap"), folder_.file("drive/b"));
   EXPECT_THROW(Recording(folder_.file("drive")), urban_nav_core::UserError) << "which of the two?";
+}
+
+TEST_F(Db3Storage, AFileOfAFolderThatIsNoRecordingIsNamed) {
+  testing::writeDb3(folder_.file("a.mcap"), folder_.file("drive/a_0.db3"), 4);
+  testing::writeFile(folder_.file("drive/a_1.db3"), "");  // as a loss of power leaves it
+  writeMetadata("    - a_0.db3\n    - a_1.db3\n");
+  EXPECT_EQ(testing::readContents(folder_.file("drive")), bag_);
+  const std::vector<std::string> warnings = Recording(folder_.file("drive")).warnings();
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("a_1.db3"), std::string::npos) << warnings[0];
+  testing::writeFile(folder_.file("drive/a_0.db3"), "");
+  EXPECT_THROW(Recording(folder_.file("drive")), urban_nav_core::Error);
+}
+
+TEST_F(Db3Storage, WholeMessagesUpToACutAreUsed) {
+  testing::writeDb3(folder_.file("a.mcap"), folder_.file("a.db3"), 4);
+  const std::string bytes = testing::readFile(folder_.file("a.db3"));
+  std::size_t most = 0;
+  for (std::size_t size = bytes.size() / 2; size < bytes.size(); size += bytes.size() / 8) {
+    const std::string path = folder_.file("b.db3");
+    testing::writeFile(path, bytes.substr(0, size));
+    try {
+      std::size_t count = 0;
+      for (const auto& [topic, messages] : testing::readContents(path)) count += messages.size();
+      most = std::max(most, count);
+      const std::vector<std::string> warnings = Recording(path).warnings();
+      ASSERT_FALSE(warnings.empty()) << size;
+      EXPECT_NE(warnings[0].find("cut off at byte " + std::to_string(size)), std::string::npos) << warnings[0];
+    } catch (const urban_nav_core::DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("b.db3"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(most, static_cast<std::size_t>(testing::kSamples));
 }
 
 TEST_F(Db3Storage, FilesMayBeCompressed) {

@@ -3,9 +3,11 @@
 #include <sensor_msgs/Imu.h>
 
 #include "recording/storage/mcap_records.hpp"
+#include "recording/storage/storage.hpp"
 #include "recording_samples.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/mcap_writer.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/recording/recording_writer.hpp"
 #include "urban_nav_input/testing/folders.hpp"
@@ -93,6 +95,32 @@ TEST_F(McapStorage, WholeMessagesUpToACutAreUsed) {
     }
     EXPECT_GT(before, static_cast<std::size_t>(kSamples)) << form.compression;
   }
+}
+
+TEST_F(McapStorage, ChunksOfOtherTopicsAreNotDecompressed) {
+  constexpr int kImages = 40, kImageBytes = 200'000, kSmall = 1000;
+  McapWriter writer(folder_.file("apart.mcap"));
+  const std::uint16_t images = writer.addChannel({"/image", "test_msgs/msg/A", "ros2msg", "string data\n", "cdr", {}});
+  const std::uint16_t imu = writer.addChannel({"/imu", "test_msgs/msg/A", "ros2msg", "string data\n", "cdr", {}});
+  const std::vector<std::uint8_t> image(kImageBytes, 7), small(300, 8);
+  for (int i = 0; i < kImages; ++i) writer.write(images, i, {image.data(), image.size()});
+  for (int i = 0; i < kSmall; ++i) writer.write(imu, i, {small.data(), small.size()});
+  writer.commit();
+  const std::unique_ptr<Storage> storage = openMcapStorage(folder_.file("apart.mcap"));
+  const auto readAll = [&](const std::string& topic) {
+    std::size_t read = 0;
+    for (std::size_t i = 0; i < storage->connections().size(); ++i) {
+      if (storage->connections()[i].topic != topic) continue;
+      for (const MessageEntry& entry : storage->index(i)) read += storage->read(i, entry).size > 0 ? 1 : 0;
+    }
+    return read;
+  };
+  EXPECT_EQ(readAll("/imu"), static_cast<std::size_t>(kSmall));
+  const std::uint64_t for_imu = storage->chunksInflated();
+  EXPECT_GE(for_imu, 1U);
+  EXPECT_LE(for_imu, 2U) << "those of the small topic, the first of which may hold an image too";
+  EXPECT_EQ(readAll("/image"), static_cast<std::size_t>(kImages));
+  EXPECT_GT(storage->chunksInflated(), for_imu + 1);
 }
 
 TEST_F(McapStorage, AChunkWithAWrongChecksumIsNamedAndLeftOut) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "recording/message/transcoder.hpp"
+#include "recording/storage/bag_records.hpp"
 #include "recording/storage/byte_writer.hpp"
 #include "recording/storage/mcap_records.hpp"
 #include "recording/storage/storage.hpp"
@@ -97,6 +98,35 @@ std::string makeDb3() {
   return bytes;
 }
 
+std::string makeBagRecord(std::uint8_t op, const std::vector<std::pair<std::string, std::string>>& fields,
+                          const std::string& data) {
+  ByteWriter header, record;
+  header.text("op=" + std::string(1, static_cast<char>(op)));
+  for (const auto& [name, value] : fields) header.text(name + "=" + value);
+  record.text(header.str()).text(data);
+  return record.str();
+}
+
+std::string toBytes(std::uint32_t number) { return ByteWriter().number(number).str(); }
+
+/// A bag that its recorder did not close: a chunk without compression, and messages after it.
+std::string makeBag() {
+  ByteWriter about;
+  about.text("topic=/a")
+      .text("type=test_msgs/A")
+      .text("md5sum=0")
+      .text("message_definition=" + std::string(kDefinition));
+  std::string records = makeBagRecord(7, {{"conn", toBytes(0)}, {"topic", "/a"}}, about.str());
+  for (std::uint32_t i = 0; i < 20; ++i)
+    records +=
+        makeBagRecord(2, {{"conn", toBytes(0)}, {"time", toBytes(i) + toBytes(0)}}, makeMessage(static_cast<int>(i)));
+  const std::string chunk = makeBagRecord(
+      5, {{"compression", "none"}, {"size", toBytes(static_cast<std::uint32_t>(records.size()))}}, records);
+  const std::string open = makeBagRecord(5, {{"compression", "none"}, {"size", toBytes(0)}}, "");
+  return std::string(rosbag1::kMagic) + makeBagRecord(3, {{"index_pos", toBytes(0) + toBytes(0)}}, "    ") + chunk +
+         open + records;
+}
+
 /// Reads all messages by their own definition.
 void readAll(Storage& storage) {
   for (std::size_t i = 0; i < storage.connections().size(); ++i) {
@@ -138,6 +168,8 @@ void expectToSurvive(const std::vector<std::string>& seeds, const Open& open) {
 
 TEST(StorageFuzz, DamagedMcap) { expectToSurvive({makeChunked(), makeUnchunked()}, openMcapStorage); }
 
+TEST(StorageFuzz, DamagedBag) { expectToSurvive({makeBag()}, openScannedBag); }
+
 TEST(StorageFuzz, DamagedDb3) { expectToSurvive({makeDb3()}, openDb3Storage); }
 
 TEST(StorageFuzz, SeedsAreReadWhole) {
@@ -145,6 +177,8 @@ TEST(StorageFuzz, SeedsAreReadWhole) {
   std::ofstream(path, std::ios::binary) << makeUnchunked();
   const std::unique_ptr<Storage> mcap = openMcapStorage(path);
   EXPECT_EQ(mcap->index(0).size(), 20U);
+  std::ofstream(path, std::ios::binary) << makeBag();
+  EXPECT_EQ(openScannedBag(path)->index(0).size(), 40U);
   std::ofstream(path, std::ios::binary) << makeDb3();
   const std::unique_ptr<Storage> db3 = openDb3Storage(path);
   EXPECT_EQ(db3->index(0).size(), 20U);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "recording/storage/mcap_contents.hpp"
+#include "urban_nav_input/recording/connection.hpp"
+#include "urban_nav_input/recording/message_entry.hpp"
+
+namespace urban_nav_input {
+
+/// Contents of a ROS 1 bag by its records alone.
+struct BagScan {
+  std::vector<Connection> connections;             ///< in the order of the file
+  std::vector<std::uint32_t> ids;                  ///< ids of the connections in the bag
+  std::vector<std::vector<MessageEntry>> entries;  ///< index: connection; MessageEntry::place as makePlace() makes it
+  std::vector<McapChunk> chunks;                   ///< with the parts that those of MCAP have
+  std::vector<std::string> warnings;               ///< damage with its place
+  std::uint64_t messages = 0;
+};
+
+/// Reads all records of a bag without its index, up to where it is cut off or damaged, which decompresses all chunks.
+/// Throws UserError naming `path` for an encryption or a compression that is not understood. Requires that the file
+/// begins with rosbag1::kMagic.
+BagScan scanBag(const std::string& path, ByteView file);
+
+}  // namespace urban_nav_input
