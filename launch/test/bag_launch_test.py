@@ -55,10 +55,25 @@ class BagLaunch(LaunchCase):
         self.expect(camera_is_connected, lambda: f"only {connections('/stereo_manager')}")
         subprocess.run(["rosservice", "call", "/player/pause_playback", "false"], check=True, stdout=subprocess.DEVNULL)
 
-    def test_plays_and_agrees_with_the_command_to_the_last_bit(self):
+    def map_offline(self):
         out = Path(self.folder) / "out"
-        subprocess.run([command(), "map", str(self.bag), "--stages", "vo", "--out", str(out)], check=True,
+        subprocess.run([command(), "map", str(self.bag), "--stages", "vo", "--out", str(out), "--overwrite"], check=True,
                        stdout=subprocess.DEVNULL)
+        return out
+
+    def test_plays_mcap_and_agrees_with_the_command_to_the_last_bit(self):
+        mcap = Path(self.folder) / "drive.mcap"
+        subprocess.run([command(), "convert", str(self.bag), "-o", str(mcap)], check=True, stdout=subprocess.DEVNULL)
+        out = self.map_offline()
+        self.launch("bag.launch", bag=mcap, rviz="false", rate=3, paused="true", exit="true")
+        self.expect(lambda: len(self.listener.clock) >= 100, "the clock of a paused player")
+        self.assertEqual(len(set(self.listener.clock)), 1)
+        self.play_on()
+        self.expect_bits(out)
+        self.assertTrue(self.launched.ended(PATIENCE), self.launched.output())
+
+    def test_plays_and_agrees_with_the_command_to_the_last_bit(self):
+        out = self.map_offline()
         self.play(rate=3, paused="true")
         for topic, type_name in TOPICS.items():  # while the player waits: its own topics go when the bag ends
             self.expect_topic(topic, type_name)

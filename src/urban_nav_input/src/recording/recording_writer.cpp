@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "recording/message/connection_definition.hpp"
-#include "recording/message/known_types.hpp"
+#include "recording/message/ros1_form.hpp"
 #include "recording/message/transcoder.hpp"
 #include "recording/storage/bag_file_writer.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -73,7 +73,7 @@ class BagRecording : public RecordingWriter {
 
   std::optional<std::string> refusal(const Connection& connection) override {
     try {
-      findTarget(connection);
+      findForm(connection);
       return std::nullopt;
     } catch (const std::invalid_argument& error) {
       return error.what();
@@ -81,57 +81,22 @@ class BagRecording : public RecordingWriter {
   }
 
   void write(const Connection& connection, urban_nav_core::StampNs receipt, ByteView message) override {
-    Target& target = findTarget(connection);
-    if (target.transcoder) {
-      const std::optional<MessageEncoding> encoding = cdrEncoding(message);
-      if (!encoding) throw std::runtime_error("a message is in an encoding that is not understood (XCDR2)");
-      message = target.transcoder->convert(message, *encoding, MessageEncoding::Ros1);
-    }
-    writer_.write(target.connection, receipt, message);
+    Ros1Form& form = findForm(connection);
+    writer_.write(form.connection(), receipt, form.convert(message));
   }
 
   std::uint64_t size() const override { return writer_.size(); }
   void commit() override { writer_.commit(); }
 
  private:
-  struct Target {
-    Connection connection;
-    std::optional<Transcoder> transcoder;
-  };
-
-  Target& findTarget(const Connection& connection) {
-    if (const auto known = targets_.find(&connection); known != targets_.end()) return known->second;
-    Target target{connection, std::nullopt};
-    if (connection.encoding == "cdr") {
-      transcode(connection, target);
-    } else if (connection.encoding == "ros1") {
-      target.connection.md5 = connection.md5.empty() ? computeMd5(findDefinition(connection)) : connection.md5;
-    } else {
-      throw std::invalid_argument("its messages are encoded as " + connection.encoding);
-    }
-    return targets_.emplace(&connection, std::move(target)).first->second;
-  }
-
-  static void transcode(const Connection& connection, Target& target) {
-    const MessageDefinition source = findDefinition(connection);
-    if (const std::optional<KnownType> known = findKnownType(connection.type)) {
-      try {
-        target.transcoder.emplace(source, parseDefinition(connection.type, known->definition));
-        target.connection.md5 = known->md5;
-        target.connection.definition = known->definition;
-        return;
-      } catch (const std::invalid_argument&) {
-        // Another version of the type, which the recording's own definition describes.
-      }
-    }
-    const MessageDefinition ros1 = withSequence(source);
-    target.transcoder.emplace(source, ros1);
-    target.connection.definition = printRos1(ros1);
-    target.connection.md5 = computeMd5(parseDefinition(connection.type, target.connection.definition));
+  /// Throws std::invalid_argument if the messages cannot be decoded.
+  Ros1Form& findForm(const Connection& connection) {
+    const auto known = forms_.find(&connection);
+    return known != forms_.end() ? known->second : forms_.emplace(&connection, Ros1Form(connection)).first->second;
   }
 
   BagFileWriter writer_;
-  std::map<const Connection*, Target> targets_;
+  std::map<const Connection*, Ros1Form> forms_;
 };
 
 }  // namespace
