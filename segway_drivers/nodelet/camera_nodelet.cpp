@@ -4,6 +4,7 @@
 #include <sensor_msgs/TimeReference.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <tuple>
 #include <utility>
 
@@ -31,9 +32,7 @@ void CameraNodelet::shutDown() {
 }
 
 bool CameraNodelet::isSimulated() const {
-  const std::string ending = ".bag";
-  return nodelet_.port.size() > ending.size() &&
-         nodelet_.port.compare(nodelet_.port.size() - ending.size(), ending.size(), ending) == 0;
+  return nodelet_.port.find('/') != std::string::npos || std::filesystem::exists(nodelet_.port);
 }
 
 void CameraNodelet::onInit() {

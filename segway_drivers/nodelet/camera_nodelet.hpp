@@ -21,8 +21,8 @@
 namespace segway_drivers {
 
 /// Nodelet of a camera: one thread opens it, reads frames and publishes; it is opened again after a loss, with pauses
-/// that grow to 2 s. The port is a GUID on the bus, or a bag that feeds a simulated camera. /diagnostics come once a
-/// second.
+/// that grow to 2 s. The port is a GUID on the bus, or the path of a recording that feeds a simulated camera.
+/// /diagnostics come once a second.
 class CameraNodelet : public nodelet::Nodelet {
  public:
   ~CameraNodelet() override;

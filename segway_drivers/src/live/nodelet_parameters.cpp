@@ -16,8 +16,8 @@ const Table<NodeletParameters>& nodeletTable() {
       {
           {"port", &P::port, "", "", false, false, {},
            "Serial port, best by /dev/serial/by-id or a udev link; HOST:PORT of gpsd; a CAN interface for the base; "
-           "the GUID of a camera, empty for the only one, or the bag of urban_nav simulate (NAME.bag) that feeds a "
-           "simulated camera. It may be missing at the start.", ""},
+           "the GUID of a camera, empty for the only one, or the path of a recording of urban_nav simulate that feeds "
+           "a simulated camera. It may be missing at the start.", ""},
           {"frame", &P::frame, "", "", false, false, {},
            "Frame of the measurements; empty: that of the device (laser_left in the namespace laser_left, imu_link, "
            "odom, gps_link).", "REP-105"},

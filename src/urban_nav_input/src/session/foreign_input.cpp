@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "urban_nav_core/io/file_kind.hpp"
+#include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav_input {
 
@@ -34,10 +35,17 @@ bool beginsWith(std::string_view bytes, std::string_view signature) {
 
 bool holds(const std::string& bytes, const char* words) { return bytes.find(words) != std::string::npos; }
 
+/// Returns whether the header of a database names the program that it belongs to, as that of a session store does
+/// (sqlite.org/fileformat.html, section 1.3).
+bool hasApplication(const std::string& head) {
+  constexpr std::size_t kApplication = 68, kBytes = 4;
+  return head.size() >= kApplication + kBytes && head.substr(kApplication, kBytes) != std::string(kBytes, '\0');
+}
+
 std::optional<ForeignInput> recogniseFile(const fs::path& path) {
   const std::string head = readHead(path);
   if (beginsWith(head, kSqlite)) {
-    if (path.extension() == ".db3")
+    if (!hasApplication(head))
       return ForeignInput{"is a database without the tables topics and messages of rosbag2", "a .db3 of rosbag2"};
     return ForeignInput{"is a store, not a recording", "--store " + path.string() + " continues it"};
   }
@@ -53,14 +61,15 @@ std::optional<ForeignInput> recogniseFolder(const fs::path& path) {
   std::vector<std::string> bags;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
-    if (entry.path().extension() == ".bag") bags.push_back(entry.path().string());
+    if (entry.is_regular_file(error) && isRecording(entry.path().string())) bags.push_back(entry.path().string());
   }
   if (bags.empty()) return std::nullopt;
   std::sort(bags.begin(), bags.end());
   std::string names;
   for (std::size_t i = 0; i < std::min(bags.size(), kNamedBags); ++i) names += (i > 0 ? " " : "") + bags[i];
-  return ForeignInput{"is a folder of " + std::to_string(bags.size()) + (bags.size() == 1 ? " bag" : " bags"),
-                      "the bags themselves: " + names + (bags.size() > kNamedBags ? " ..." : "")};
+  return ForeignInput{
+      "is a folder of " + std::to_string(bags.size()) + (bags.size() == 1 ? " recording" : " recordings"),
+      "the recordings themselves: " + names + (bags.size() > kNamedBags ? " ..." : "")};
 }
 
 }  // namespace
