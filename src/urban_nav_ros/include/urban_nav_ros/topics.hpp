@@ -28,7 +28,6 @@ constexpr const char* kBattery = "battery";
 constexpr const char* kImu = "imu/data";
 constexpr const char* kMagneticField = "imu/mag";
 constexpr const char* kGpsFix = "gps/fix";
-constexpr const char* kPoints = "points";
 constexpr const char* kGpsVelocity = "gps/vel";
 constexpr const char* kPanoramaRaw = "ladybug/raw";
 constexpr std::array<const char*, 5> kPanoramaImages = {"ladybug/camera0/image_raw", "ladybug/camera1/image_raw",
