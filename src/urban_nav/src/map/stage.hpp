@@ -27,8 +27,8 @@ class Stage {
     bool listed = true;              ///< selectable by --stages; false: enabled by other options
     bool uses_closures = false;      ///< reads MapContext::closures
     bool uses_previous = false;      ///< reads MapContext::previous
-    bool uses_sweeps = false;        ///< processes sweeps of 3D LiDARs; sessions without images are then read too
     std::vector<std::string> files;  ///< names that it may write; "#" stands for fileSuffix()
+    bool uses_sweeps = false;        ///< processes sweeps of 3D LiDARs; sessions without images are then read too
   };
   struct Selection {
     bool enabled = false;

@@ -55,11 +55,12 @@ class KittiFolder : public Source {
   std::optional<SourceItem> next() override {
     SourceItem input;
     const bool has_pair = position_ < frames_.numbers.size();
-    while (sweeps_ && sweeps_->nextStamp() && input.sweeps.size() < kMostSweeps &&
+    const std::size_t most = has_pair ? kMostSweeps : 1;
+    while (sweeps_ && sweeps_->nextStamp() && input.sweeps.size() < most &&
            (!has_pair || *sweeps_->nextStamp() <= frames_.stamps[position_]))
       if (std::optional<SweepInput> sweep = sweeps_->next()) input.sweeps.push_back(std::move(*sweep));
     if (!has_pair && input.sweeps.empty()) return std::nullopt;
-    input.has_pair = has_pair && input.sweeps.size() < kMostSweeps;
+    input.has_pair = has_pair && input.sweeps.size() < most;
     if (!input.has_pair) return input;
     const std::int64_t number = frames_.numbers[position_];
     StereoPairWithMotion& assembled = input.assembled;

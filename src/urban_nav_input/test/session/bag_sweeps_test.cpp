@@ -334,7 +334,7 @@ std::vector<BadSweeps> badSweeps() {
            }),
            "sweep_times", "decrease"},
           {"milliseconds", everyPoint([](BagPoint& point) { point.time *= 1000.0F; }), "sweep_times", "unit ms"},
-          {"no_times", everyPoint([](BagPoint& point) { point.time = point.x; }), "sweep_times", "without times"},
+          {"no_times", everyPoint([](BagPoint& point) { point.time *= 1e-4F; }), "sweep_times", "without times"},
           {"overlapping", overlapping, "sweep_overlap", "overlap"},
           {"lost", changed([](int i, std::vector<BagPoint>&) { return i < 8 || i > 10; }), "sweep_gap", "gap"},
           {"few", changed([](int, std::vector<BagPoint>& points) {
@@ -402,7 +402,7 @@ TEST(BagSweeps, TheOptionsOfTheUnitRepairIt) {
   const std::unique_ptr<Source> source = openSource({folder.file("a.bag")}, options);
   while (source->next()) continue;
   const std::vector<Finding> findings = source->sensorFindings();
-  ASSERT_EQ(findings.size(), 1U) << findings.back().text;
+  ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].options, (std::vector<std::string>{"--set", "input.points_time=auto"}));
 }
 
