@@ -12,6 +12,11 @@ struct KnownSentence {
   const char* remedy;
 };
 
+constexpr const char* kWholeIsUsed =
+    "nothing has to be done to use what is whole; end the recorder of later recordings before the power is switched "
+    "off";
+constexpr const char* kCopyAgain = "copy the recording again if the original is whole; what can be read is used";
+
 constexpr KnownSentence kKnownSentences[] = {
     {"no header has a stamp", FindingKind::Stamps,
      "let the camera's driver stamp its images; until then pairs are formed by times of receipt"},
@@ -41,6 +46,15 @@ constexpr KnownSentence kKnownSentences[] = {
     {"although their topic is named as rectified", FindingKind::Calibration,
      "name raw images image_raw, and rectified ones image_rect"},
     {"left aside", FindingKind::Calibration, "repair the file that the message names"},
+    {"is cut off", FindingKind::Topics, kWholeIsUsed},
+    {"was not closed by its recorder", FindingKind::Topics, kWholeIsUsed},
+    {"chunk at byte", FindingKind::Topics, kCopyAgain},
+    {"be read and are left out", FindingKind::Topics, kCopyAgain},
+    {"damaged and", FindingKind::Topics, kCopyAgain},
+    {"be decompressed and are left out", FindingKind::Topics, kCopyAgain},
+    {"index is wrong", FindingKind::Topics, kCopyAgain},
+    {"names files that are not there", FindingKind::Topics, "copy the whole folder from the robot"},
+    {"-wal that cannot be read", FindingKind::Topics, "copy the file again after its recorder has ended"},
 };
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }

@@ -2,6 +2,7 @@
 #include "topics/labels/class_images.hpp"
 
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
 

@@ -15,7 +15,6 @@ namespace urban_nav_input {
 using rosbag1::findField;
 using rosbag1::findNumber;
 using rosbag1::findText;
-using rosbag1::Op;
 using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
 
@@ -36,9 +35,9 @@ class BagWalk {
     rosbag1::RecordWalk walk(file_, rosbag1::kMagic.size());
     bool is_closed = false, is_open_chunk = false;
     while (std::optional<rosbag1::Record> record = walk.next()) {
-      if (record->op == Op::BagHeader) {
+      if (record->op == rosbag1::Op::BagHeader) {
         is_closed = checkHeader(*record);
-      } else if (record->op == Op::Chunk) {
+      } else if (record->op == rosbag1::Op::Chunk) {
         is_open_chunk = isOpen(*record);
         if (is_open_chunk) record->data = rest(walk.at());
         visitChunk(*record, is_open_chunk);
@@ -47,7 +46,7 @@ class BagWalk {
         visit(*record, kNoChunk);
       }
     }
-    if (const std::optional<rosbag1::Record> cut = walk.cutRecord(); cut && cut->op == Op::Chunk)
+    if (const std::optional<rosbag1::Record> cut = walk.cutRecord(); cut && cut->op == rosbag1::Op::Chunk)
       visitChunk(*cut, true);
     describeEnd(is_open_chunk ? file_.size : walk.at(), is_closed);
     return std::move(scan_);
@@ -107,9 +106,9 @@ class BagWalk {
   }
 
   void visit(const rosbag1::Record& record, std::uint64_t chunk) {
-    if (record.op != Op::Connection && record.op != Op::Message) return;
+    if (record.op != rosbag1::Op::Connection && record.op != rosbag1::Op::Message) return;
     const std::optional<std::uint32_t> id = findNumber<std::uint32_t>(record.header, "conn");
-    if (record.op == Op::Connection) {
+    if (record.op == rosbag1::Op::Connection) {
       if (id) addConnection(*id, record);
       return;
     }

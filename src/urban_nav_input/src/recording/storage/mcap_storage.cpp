@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "recording/message/message_definition.hpp"
