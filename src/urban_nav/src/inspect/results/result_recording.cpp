@@ -4,6 +4,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 
 #include <algorithm>
+#include <map>
 
 #include "convert/bag_writer.hpp"
 #include "inspect/numbered_path.hpp"
@@ -48,8 +49,24 @@ void writeTiles(Store& store, const RecordedMap& map, double memory_mb, BagWrite
   });
 }
 
+/// Returns how many poses of the odometry of each session have each health.
+std::vector<StageFigures> storedFigures(Store& store, const RecordedMap& map) {
+  std::vector<StageFigures> figures;
+  for (const StoredTrajectory& session : map.sessions()) {
+    std::map<urban_nav_core::Health, std::size_t> counts;
+    store.graph().forEachNode(session.session.id, [&](const urban_nav_store::Node& node) { ++counts[node.status]; });
+    StageFigures odometry{"odometry of " + session.session.name, {}, {}};
+    for (const auto& [health, count] : counts) {
+      odometry.values.emplace_back(urban_nav_core::toString(health), std::to_string(count));
+      if (health == urban_nav_core::Health::Lost)
+        odometry.warnings.push_back(std::to_string(count) + (count == 1 ? " pose is LOST" : " poses are LOST"));
+    }
+    figures.push_back(std::move(odometry));
+  }
+  return figures;
+}
+
 void writeDiagnostics(const std::vector<StageFigures>& figures, StampNs stamp, BagWriter& recording) {
-  if (figures.empty()) return;
   diagnostic_msgs::DiagnosticArray array;
   array.header.stamp = urban_nav_ros::toRosTime(stamp);
   for (const StageFigures& stage : figures) {
@@ -85,7 +102,7 @@ std::vector<std::string> recordResults(Store& store, const std::vector<std::vect
     writeClosureTopics(store, map, recording);
     writePlaceTopics(store, map, recording);
     writeTiles(store, map, memory_mb, recording);
-    writeDiagnostics(figures, map.last(), recording);
+    writeDiagnostics(figures.empty() ? storedFigures(store, map) : figures, map.last(), recording);
     recording.commit();
   }
   if (files.empty()) throw urban_nav_core::DataError(store.path(), "holds no poses", "");
