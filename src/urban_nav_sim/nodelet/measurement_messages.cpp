@@ -10,6 +10,7 @@
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/point_cloud.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/topics.hpp"
@@ -193,7 +194,9 @@ std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) c
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const LidarMeasurement& lidar) const {
-  return {onTopic(robot_topics::kPoints, toPointsMessage(lidar))};
+  sensor_msgs::PointCloud2 points = urban_nav_ros::toSweepMessage(lidar.sweep, lidar.stamp);
+  points.header.frame_id = frames::kLidar3d;
+  return {onTopic(robot_topics::kPoints, std::move(points))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const TruthMeasurement& truth) const {

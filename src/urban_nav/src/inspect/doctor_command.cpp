@@ -92,7 +92,8 @@ int runDoctor(const Arguments& arguments, Console& console) {
   const std::vector<std::string> readable = urban_nav_input::separateUnreadable(arguments.all("INPUT"), all);
   bool usable = all.empty();
   for (const urban_nav_input::Diagnosis& diagnosis : all) console.print(toText(diagnosis));
-  for (const urban_nav_input::InputSession& session : urban_nav_input::findSessions(readable, options.topics)) {
+  for (const urban_nav_input::InputSession& session :
+       urban_nav_input::findSessions(readable, options.topics, options.sessions)) {
     std::optional<Progress> bar;
     std::int64_t done = 0;
     all.push_back(urban_nav_input::examine(session, options, [&](std::int64_t pairs, std::int64_t total) {

@@ -186,62 +186,69 @@ int runExport(const Arguments& arguments, Console& console) {
 
 }  // namespace
 
+namespace {
+
+std::vector<Option> exportOptions() {
+  return {{"STORE", "", "session.db of a map; it is only read", true, false, {}},
+          {"--tum",
+           "FILE",
+           "base_link in map, a line per pose; maps that did not join go to FILE_2 and so on",
+           false,
+           false,
+           {}},
+          {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
+          {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
+          {"--ply", "FILE", "the map of laser points, with the bytes of map.ply", false, false, {}},
+          {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
+          {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
+          {"--crs",
+           "auto,EPSG:N",
+           "coordinate system of --las; needs GPS fixes (default: the frame map)",
+           false,
+           false,
+           {}},
+          {"--grid",
+           "FILE.yaml",
+           "obstacles and free ground for map_server; the PGM is written next to it",
+           false,
+           false,
+           {}},
+          {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
+          {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
+          {"--mcap",
+           "FILE.mcap",
+           "what map --mcap writes, for Foxglove; maps that did not join go to FILE_2 and so on",
+           false,
+           false,
+           {}},
+          {"--places",
+           "DIR",
+           "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
+           false,
+           false,
+           {}},
+          {"--results",
+           "DIR",
+           "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, with the "
+           "bytes "
+           "that map wrote",
+           false,
+           false,
+           {}},
+          {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
+          jsonOption(),
+          configOption(),
+          setOption(),
+          threadsOption()};
+}
+
+}  // namespace
+
 Command exportCommand() {
   Command command;
   command.name = "export";
   command.summary = "Writes what a session store holds in other programs' formats.";
-  command.options = {
-      {"STORE", "", "session.db of a map; it is only read", true, false, {}},
-      {"--tum",
-       "FILE",
-       "base_link in map, a line per pose; maps that did not join go to FILE_2 and so on",
-       false,
-       false,
-       {}},
-      {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
-      {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
-      {"--ply", "FILE", "the map of laser points, with the bytes of map.ply", false, false, {}},
-      {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
-      {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
-      {"--crs",
-       "auto,EPSG:N",
-       "coordinate system of --las; needs GPS fixes (default: the frame map)",
-       false,
-       false,
-       {}},
-      {"--grid",
-       "FILE.yaml",
-       "obstacles and free ground for map_server; the PGM is written beside it",
-       false,
-       false,
-       {}},
-      {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
-      {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
-      {"--mcap",
-       "FILE.mcap",
-       "what map --mcap writes, for Foxglove; maps that did not join go to FILE_2 and so on",
-       false,
-       false,
-       {}},
-      {"--places",
-       "DIR",
-       "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
-       false,
-       false,
-       {}},
-      {"--results",
-       "DIR",
-       "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, with the "
-       "bytes "
-       "that map wrote",
-       false,
-       false,
-       {}},
-      {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
-      jsonOption(),
-      configOption(),
-      setOption(),
-      threadsOption()};
+  command.options = exportOptions();
   command.examples = {"urban_nav export out/session.db --tum trajectory.tum --g2o graph.g2o",
                       "urban_nav export out/session.db --las map.las --grid map.yaml --ortho map.png"};
   command.more_help = commonHelp;

@@ -128,7 +128,8 @@ StoredResults readResults(Store& store) {
   StoredResults results;
   std::vector<const SessionOdometry*> runs;
   for (const SessionOdometry& run : sessions.runs) runs.push_back(&run);
-  for (const OutputFile& file : trajectoryFiles(runs, storedTrajectories(store, sessions)))
+  const std::vector<SessionTrajectory> trajectories = storedTrajectories(store, sessions);
+  for (const OutputFile& file : trajectoryFiles(runs, trajectories))
     if (file.content) results.files.push_back({file.name, file.content()});
   results.files.push_back({"closures.csv", closuresCsv(store, sessions)});
   const auto graph = urban_nav_store::TableStore<urban_nav_store::StoredGraph>(store).get({sessions.ids.front(), {}});

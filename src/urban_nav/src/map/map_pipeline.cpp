@@ -43,7 +43,8 @@ class MapRun {
     if (!options.closures.empty())
       for (const urban_nav_core::ClosureRow& row : urban_nav_core::readClosures(options.closures))
         context_.closures.push_back(toMetricClosure(row));
-    for (urban_nav_input::InputSession& input : urban_nav_input::findSessions(options.inputs, options.source.topics)) {
+    for (urban_nav_input::InputSession& input :
+         urban_nav_input::findSessions(options.inputs, options.source.topics, options.source.sessions)) {
       context_.sessions.emplace_back();
       context_.sessions.back().input = std::move(input);
     }

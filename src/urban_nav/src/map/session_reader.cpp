@@ -44,7 +44,8 @@ std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_n
 std::vector<std::string> SessionReader::calibrationFaults() const {
   std::vector<std::string> sentences;
   if (!source_->info().has_images) return sentences;
-  for (const urban_nav_input::CalibrationFault& fault : urban_nav_input::checkCalibration(source_->info().camera))
+  for (const urban_nav_input::Finding& fault :
+       urban_nav_input::checkCalibration(source_->info().camera, context_.options.source.baseline_scale))
     sentences.push_back(source_->info().name + ": " + fault.text + " (" + fault.remedy + ")");
   return sentences;
 }
@@ -157,7 +158,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
   std::vector<urban_nav_input::Finding> findings = source_->sensorFindings();
-  for (const urban_nav_input::Finding& finding : images.findings()) findings.push_back(finding);
+  for (const urban_nav_input::Finding& finding : images.findings(source_->info())) findings.push_back(finding);
   for (const urban_nav_input::Finding& finding : findings)
     faults.push_back(source_->info().name + ": " + finding.text + " (" + finding.remedy + ")");
   if (const std::string& note = context_.sessions[session_].input.note; !note.empty())

@@ -9,6 +9,8 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
@@ -269,6 +271,55 @@ TEST(Simulate, ViewsOfPixelsAndBeamsLieInTheTruthFolder) {
   EXPECT_EQ(row, beams.rows());
 }
 
+TEST(Simulate, SweepsAreWrittenOnRequestWithTheirTruth) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.world = "tunnel";
+  job.session.duration = 0.4;
+  job.session.sensors = {urban_nav_sim::Sensor::Lidar3d};
+  job.session.lidar = urban_nav_sim::parseLidarModel("16", "--lidar");
+  job.session.views = job.session.sensors;
+  job.session.defects.switchOff("all:all");
+  job.lags = {"lidar3d:0.02"};
+  Console console;
+  const Simulated result = simulate(job, console);
+  EXPECT_EQ(statedPoses(job.bag).count("lidar3d"), 1U);
+  const auto sweeps = messagesOfTopic<sensor_msgs::PointCloud2>(job.bag, "/points");
+  ASSERT_EQ(sweeps.size(), 3U);
+  for (const sensor_msgs::PointCloud2& sweep : sweeps) {
+    EXPECT_EQ(sweep.header.frame_id, "lidar3d");
+    const std::uint64_t true_stamp = sweep.header.stamp.toNSec() - 20'000'000;
+    const std::string view = result.truth_folder + "/lidar3d/" + std::to_string(true_stamp);
+    const cv::Mat range = cv::imread(view + ".pfm", cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(range.size(), cv::Size(2000, 16)) << view;
+    sensor_msgs::PointCloud2ConstIterator<float> x(sweep, "x"), time(sweep, "time");
+    sensor_msgs::PointCloud2ConstIterator<std::uint16_t> ring(sweep, "ring");
+    float last = -1.0F;
+    for (; x != x.end(); ++x, ++time, ++ring) {
+      ASSERT_GT(*time, last);
+      last = *time;
+      const int column = static_cast<int>(std::floor((*time + 0.1F) / 50e-6F - *ring / 16.0F + 0.5F));
+      ASSERT_NEAR(range.at<float>(*ring, column), std::hypot(x[0], std::hypot(x[1], x[2])), 1e-3F);
+    }
+    EXPECT_LT(last, 0.0F);
+  }
+  EXPECT_TRUE(fs::exists(result.truth_folder + "/lidar3d_rings.csv"));
+  EXPECT_FALSE(fs::exists(result.truth_folder + "/imu.csv"));
+}
+
+TEST(Simulate, WithoutThe3dLidarNothingOfItIsThere) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu, urban_nav_sim::Sensor::Wheels};
+  Console console;
+  const Simulated result = simulate(job, console);
+  EXPECT_EQ(statedPoses(job.bag).count("lidar3d"), 0U);
+  EXPECT_EQ(readFile(result.truth_folder + "/clocks.csv").find("lidar3d"), std::string::npos);
+  EXPECT_FALSE(fs::exists(result.truth_folder + "/lidar3d_rings.csv"));
+  EXPECT_TRUE(fs::exists(result.truth_folder + "/imu.csv"));
+  EXPECT_TRUE(fs::exists(result.truth_folder + "/wheels.csv"));
+}
+
 TEST(Simulate, RawPairsSayHowTheyAreRectified) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
@@ -389,6 +440,8 @@ TEST(Simulate, RefusesWhatThereIsNotAndLeavesNothing) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--world", "atlantis"},
                                                 {"--route", "moonwalk"},
                                                 {"--sensors", "stereo,sonar"},
+                                                {"--sensors", "imu", "--lidar", "16"},
+                                                {"--sensors", "lidar3d", "--lidar", "8"},
                                                 {"--fault", "melt:stereo:0:1"},
                                                 {"--fault", "stereo"},
                                                 {"--duration", "0"},

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "examination/stamp_check.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/examination/input_info.hpp"
 #include "urban_nav_input/examination/sampled_pairs.hpp"
@@ -96,7 +99,7 @@ class Reading {
       return;
     }
     if (2 * diagnosis_.complete > diagnosis_.pairs) append(checkStamps(stamps_));
-    append(images_.findings());
+    append(images_.findings(source_.info()));
     if (stamps_.size() > 1) {
       const auto [first, last] = std::minmax_element(stamps_.begin(), stamps_.end());
       diagnosis_.duration_s = urban_nav_core::secondsBetween(*first, *last);
@@ -106,7 +109,9 @@ class Reading {
     const auto incomplete = static_cast<double>(diagnosis_.pairs - diagnosis_.complete);
     if (diagnosis_.complete == 0)
       append({{FindingKind::Pairs, "no stereo pair is complete",
-               "both images of a pair need stamps within 5 ms of each other, and pixels that can be decoded", true}});
+               "both images of a pair need stamps within 5 ms of each other (input.pairing_tolerance), and pixels that "
+               "can be decoded",
+               true}});
     else if (incomplete > kIncomplete * static_cast<double>(diagnosis_.pairs))
       append({{FindingKind::Pairs,
                std::to_string(diagnosis_.pairs - diagnosis_.complete) + " of " + std::to_string(diagnosis_.pairs) +
@@ -158,12 +163,61 @@ std::vector<std::string> separateUnreadable(const std::vector<std::string>& inpu
   return readable;
 }
 
+namespace {
+
+/// Returns the source of a session. Where the baseline in the calibration is below zero, opens it with the other sign,
+/// so that it can be read, and sets `fault` to the error.
+std::unique_ptr<Source> openToExamine(const InputSession& session, SourceOptions& options,
+                                      std::optional<Finding>& fault) {
+  try {
+    return openSource(session.paths, options, nullptr, session.part);
+  } catch (const urban_nav_core::UserError& error) {
+    if (error.parts().found.find("baseline") == std::string::npos) throw;
+    fault = toFinding(error);
+    options.baseline_scale = -options.baseline_scale;
+    try {
+      return openSource(session.paths, options, nullptr, session.part);
+    } catch (const urban_nav_core::Error&) {
+      throw error;
+    }
+  }
+}
+
+/// Completes the finding of a baseline below zero by what the images show: exchanged cameras, or a wrong sign.
+Finding baselineFinding(Finding fault, const SourceOptions& options, std::vector<Finding>& found) {
+  const auto exchanged = std::find_if(found.begin(), found.end(), [](const Finding& finding) {
+    return finding.kind == FindingKind::Pairs && finding.text.find("are exchanged") != std::string::npos;
+  });
+  fault.kind = FindingKind::Calibration;
+  if (exchanged == found.end()) {
+    fault.text += "; the images are in order: P[3] of the right camera_info has the wrong sign";
+    fault.options = {"--set", "input.baseline_scale=" + urban_nav_core::printNumber(options.baseline_scale)};
+    fault.remedy = fault.options[0] + " " + fault.options[1] +
+                   "; for later recordings, P[3] of the right camera_info "
+                   "is -fx times the baseline in metres";
+    return fault;
+  }
+  fault.text += "; so are the images: the topics of the two cameras are exchanged";
+  for (std::string& option : exchanged->options) {  // calibrations with their images
+    if (option.rfind("left_info:=", 0) == 0) option.replace(0, 4, "right");
+    else if (option.rfind("right_info:=", 0) == 0) option.replace(0, 5, "left");
+  }
+  fault.options = exchanged->options;
+  fault.remedy = exchanged->remedy;
+  found.erase(exchanged);
+  return fault;
+}
+
+}  // namespace
+
 Diagnosis examine(const InputSession& session, const SourceOptions& options,
                   const std::function<void(std::int64_t done, std::int64_t total)>& progress) {
   Diagnosis diagnosis;
   diagnosis.name = session.paths.front();
+  SourceOptions used = options;
+  std::optional<Finding> fault;
   try {
-    const std::unique_ptr<Source> source = readAhead(openSource(session.paths, options, nullptr, session.part), 8);
+    const std::unique_ptr<Source> source = readAhead(openToExamine(session, used, fault), 8);
     diagnosis.name = source->info().name;
     diagnosis.kind = source->info().kind;
     diagnosis.contents = describe(source->info());
@@ -172,9 +226,10 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
     if (!session.note.empty()) notes.push_back(session.note);
     diagnosis.findings = readerFindings(notes);
     const bool has_images = source->info().has_images;
-    for (const CalibrationFault& fault :
-         has_images ? checkCalibration(source->info().camera) : std::vector<CalibrationFault>())
-      diagnosis.findings.push_back({FindingKind::Calibration, fault.text, fault.remedy});
+    if (has_images) {
+      for (Finding& finding : checkCalibration(source->info().camera, used.baseline_scale))
+        diagnosis.findings.push_back(std::move(finding));
+    }
     for (const std::string& path : session.paths) {
       if (inputKind(path) != InputKind::Bag) continue;
       const std::vector<Finding> streams = checkStreams(lookInto(path).streams);
@@ -183,6 +238,7 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
     Reading reading(*source, diagnosis);
     reading.read(progress);
     reading.conclude();
+    if (fault) diagnosis.findings.push_back(baselineFinding(*fault, used, diagnosis.findings));
   } catch (const urban_nav_core::Error& error) {
     diagnosis.findings.push_back(toFinding(error));
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/examination/finding.hpp"
 
+#include <array>
+
 namespace urban_nav_input {
 
 namespace {
@@ -10,6 +12,7 @@ struct KnownSentence {
   const char* part;
   FindingKind kind;
   const char* remedy;
+  std::array<const char*, 2> options = {{nullptr, nullptr}};
 };
 
 constexpr const char* kWholeIsUsed =
@@ -25,11 +28,6 @@ constexpr KnownSentence kKnownSentences[] = {
      "record the topic once; a driver that repeats images or stamps needs a restart or a repair"},
     {"came too late by their stamps", FindingKind::Stamps, "check the clock of the computer that stamps this topic"},
     {"no times.txt", FindingKind::Stamps, "--rate HZ states the rate of the images"},
-    {"later than the left ones", FindingKind::Pairs, "--set input.right_delay=MS with the delay stated here, in ms"},
-    {"earlier than the left ones", FindingKind::Pairs,
-     "--set input.right_delay=MS with the delay stated here, in ms, below zero"},
-    {"no partner within", FindingKind::Pairs,
-     "trigger both cameras together; --set input.right_delay=MS if one is late by a constant time"},
     {"no image of this camera", FindingKind::Pairs, "check the cable and the driver of this camera of the panorama"},
     {"no static tf", FindingKind::Tf,
      "--transform base_link,FRAME:X,Y,Z,QX,QY,QZ,QW states it for this recording (m, quaternion); for later ones "
@@ -45,6 +43,11 @@ constexpr KnownSentence kKnownSentences[] = {
      "publish images without distortion with a camera_info whose D is zero, or record the raw images"},
     {"although their topic is named as rectified", FindingKind::Calibration,
      "name raw images image_raw, and rectified ones image_rect"},
+    {"holds images of the same topics at the same time",
+     FindingKind::Stamps,
+     "nothing has to be done if these are recordings of different drives or robots (--set input.sessions=apart states "
+     "it); --set input.sessions=together if they are one recording; for later recordings keep the clock running",
+     {{"--set", "input.sessions=apart"}}},
     {"left aside", FindingKind::Calibration, "repair the file that the message names"},
     {"is cut off", FindingKind::Topics, kWholeIsUsed},
     {"was not closed by its recorder", FindingKind::Topics, kWholeIsUsed},
@@ -102,6 +105,7 @@ std::vector<Finding> readerFindings(const std::vector<std::string>& sentences) {
     for (const KnownSentence& known : kKnownSentences)
       if (contains(sentence, known.part)) {
         findings.push_back({known.kind, sentence, nameFrame(known.remedy, sentence)});
+        if (known.options[0] != nullptr) findings.back().options.assign(known.options.begin(), known.options.end());
         break;
       }
   return findings;

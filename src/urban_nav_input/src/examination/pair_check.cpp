@@ -6,12 +6,14 @@
 
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_ros/image_features.hpp"
 
 namespace urban_nav_input {
 
 using urban_nav_core::ImageView;
+using urban_nav_core::StampNs;
 using urban_nav_ros::extractFeatures;
 using urban_nav_ros::ImageFeatures;
 using urban_nav_ros::matchFeatures;
@@ -37,6 +39,16 @@ int countOnRow(const ImageFeatures& left, const ImageFeatures& right) {
 }
 
 double medianValue(const std::vector<double>& values) { return urban_nav_core::quantile(values, 0.5); }
+
+/// Returns the topics of the two cameras, exchanged, as options; each calibration stays with its side.
+std::vector<std::string> exchangeOptions(const SourceInfo& info) {
+  std::vector<std::string> options;
+  for (const auto& [role, topic] : info.topics) {
+    const std::string other = role == "left" ? "right" : role == "right" ? "left" : role;
+    options.insert(options.end(), {"--topic", other + ":=" + topic});
+  }
+  return options;
+}
 
 std::string printed(double value) { return urban_nav_core::formatNumber(value, 3); }
 std::string percent(double share) { return printed(100.0 * share) + " %"; }
@@ -93,26 +105,32 @@ void PairCheck::add(const ImageView& left, const ImageView& right, const ImageVi
   after_wins_ += after > kFewMatches && after > kClearly * static_cast<double>(now) && after > before;
 }
 
-std::vector<Finding> PairCheck::findings() const {
+std::vector<Finding> PairCheck::findings(const SourceInfo& info, StampNs interval) const {
   std::vector<Finding> findings;
   if (pairs_ < kMinPairs) return findings;
   greyFindings(findings);
-  orderFindings(findings);
-  rowsFindings(findings);
+  orderFindings(info, interval, findings);
+  rowsFindings(info, findings);
   return findings;
 }
 
-void PairCheck::orderFindings(std::vector<Finding>& findings) const {
+void PairCheck::orderFindings(const SourceInfo& info, StampNs interval, std::vector<Finding>& findings) const {
   if (textured_ < kMinPairs) return;
   const int wins = std::max(before_wins_, after_wins_);
   if (compared_ >= kMinPairs && 2 * wins > compared_) {
-    findings.push_back(
-        {FindingKind::Pairs,
-         "in " + std::to_string(wins) + " of " + std::to_string(compared_) +
-             " pairs the left image matches the right image of the pair " +
-             (after_wins_ > before_wins_ ? "after" : "before") + " better than its partner",
-         "the two cameras do not expose together: trigger them by one signal; if their stamps differ by a "
-         "constant time, --set input.right_delay=MS"});
+    const bool is_late = after_wins_ > before_wins_;
+    Finding finding{FindingKind::Pairs,
+                    "in " + std::to_string(wins) + " of " + std::to_string(compared_) +
+                        " pairs the left image matches the right image of the pair " + (is_late ? "after" : "before") +
+                        " better than its partner: the right images are stamped one interval " +
+                        (is_late ? "late" : "early"),
+                    "trigger the two cameras by one signal, and stamp images when they are exposed"};
+    if (info.right_delay && interval > 0) {
+      const double ms = std::round(1e-4 * static_cast<double>(*info.right_delay + (is_late ? interval : -interval)));
+      finding.options = {"--set", "input.right_delay=" + urban_nav_core::printNumber(ms / 100.0)};
+      finding.remedy = finding.options[0] + " " + finding.options[1] + "; for later recordings, " + finding.remedy;
+    }
+    findings.push_back(std::move(finding));
     return;
   }
   if (2 * unmatched_ > textured_)
@@ -122,7 +140,7 @@ void PairCheck::orderFindings(std::vector<Finding>& findings) const {
                         "--topic left:=NAME --topic right:=NAME names the two cameras of one head", true});
 }
 
-void PairCheck::rowsFindings(std::vector<Finding>& findings) const {
+void PairCheck::rowsFindings(const SourceInfo& info, std::vector<Finding>& findings) const {
   constexpr std::size_t kFew = 100;
   if (matches_.size() < kFew) return;
   // Robust plane through the row errors: the median, then least squares over what lies near it, narrower each time.
@@ -154,7 +172,8 @@ void PairCheck::rowsFindings(std::vector<Finding>& findings) const {
         {FindingKind::Pairs,
          percent(static_cast<double>(negative) / static_cast<double>(inliers)) +
              " of the matching points have a disparity below zero: left and right images are exchanged",
-         "--topic left:=NAME --topic right:=NAME, exchanged; in a folder, exchange the two image folders", true});
+         "--topic left:=NAME --topic right:=NAME, exchanged; in a folder, exchange the two image folders", true,
+         exchangeOptions(info)});
   const double worst = std::abs(plane[0]) + std::abs(plane[1]) + std::abs(plane[2]);
   if (std::abs(plane[0]) <= kOffsetTolerance && worst <= kCornerTolerance && spread <= kMaxScatter) return;
   const double tilt = 180.0 / M_PI * std::atan(plane[1] / half_width_);

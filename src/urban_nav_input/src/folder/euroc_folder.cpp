@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <tuple>
 
 #include "folder/unused_files.hpp"
@@ -6,6 +7,8 @@
 #include "urban_nav_input/folder/euroc_layout.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
 #include "urban_nav_input/sensors/accelerometer_finding.hpp"
+#include "urban_nav_input/sensors/pairing_examination.hpp"
+#include "urban_nav_input/session/calibration_file.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/accelerometer.hpp"
 
@@ -19,12 +22,17 @@ namespace {
 class EurocFolder : public Source {
  public:
   EurocFolder(const std::string& folder, const SourceOptions& options)
-      : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_, &info_.notes)) {
+      : mav0_(eurocFolder(folder)),
+        rig_(readEurocRig(mav0_)),
+        pairs_(readEurocPairs(mav0_, &info_.notes, options.pairing)) {
     scale_ = eurocScale(pairs_);
     if (pairs_.empty()) throw UserError(mav0_, "lists no images", "cam0/data.csv and cam1/data.csv");
     info_.name = folder;
     info_.kind = "EuRoC folder";
     info_.camera = rig_.rectification.camera;
+    scaleBaseline(options.baseline_scale, folder, info_.camera);
+    info_.right_delay = options.pairing.right_delay;
+    examinePairing(options.pairing);
     info_.T_base_camera = rig_.T_base_camera;
     info_.frames = static_cast<std::int64_t>(pairs_.size());
     info_.first = pairs_.front().stamp;
@@ -42,7 +50,11 @@ class EurocFolder : public Source {
 
   const SourceInfo& info() const override { return info_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
-  std::vector<Finding> sensorFindings() const override { return findings_; }
+  std::vector<Finding> sensorFindings() const override {
+    std::vector<Finding> findings = pairing_findings_;
+    findings.insert(findings.end(), findings_.begin(), findings_.end());
+    return findings;
+  }
 
   std::optional<SourceItem> next() override {
     if (position_ >= pairs_.size()) return std::nullopt;
@@ -59,6 +71,18 @@ class EurocFolder : public Source {
   }
 
  private:
+  void examinePairing(const PairingConvention& present) {
+    PairingExamination pairing;
+    std::array<std::int64_t, 2> missing = {{0, 0}};
+    for (const EurocPair& pair : pairs_) {
+      if (pair.left.empty()) ++missing[0];
+      else pairing.add(0, pair.stamp);
+      if (pair.right.empty()) ++missing[1];
+      else pairing.add(1, pair.right_stamp);
+    }
+    pairing_findings_ = pairing.findings({{"cam0", "cam1"}}, missing, present);
+  }
+
   void readMotion(double noise) {
     urban_nav_ros::GyroMotion gyroscope(noise, rig_.T_base_body.R());
     for (const EurocImu& row : readEurocImu(mav0_)) {
@@ -101,7 +125,7 @@ class EurocFolder : public Source {
   urban_nav_ros::GreyScale scale_;
   std::vector<urban_nav_core::MotionInput> motion_;
   std::vector<urban_nav_core::SpecificForce> forces_;
-  std::vector<Finding> findings_;
+  std::vector<Finding> pairing_findings_, findings_;
   std::size_t position_ = 0, next_motion_ = 0;
 };
 

@@ -26,8 +26,6 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr StampNs kPairing = 5'000'000;  // ns between the two images of a pair
-
 /// The images of a camera in order of stamps; later ones of the same stamp are left out.
 std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camera, std::vector<std::string>* notes) {
   const std::string path = (fs::path(camera) / "data.csv").string();
@@ -55,19 +53,22 @@ std::string eurocFolder(const std::string& path) {
   return fs::is_directory(fs::path(path) / "mav0") ? (fs::path(path) / "mav0").string() : path;
 }
 
-std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes) {
+std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes,
+                                      const PairingConvention& pairing) {
   const auto left = readImages((fs::path(mav0) / "cam0").string(), notes);
-  const auto right = readImages((fs::path(mav0) / "cam1").string(), notes);
+  auto right = readImages((fs::path(mav0) / "cam1").string(), notes);
+  for (auto& [stamp, path] : right) stamp -= pairing.right_delay;
   std::vector<EurocPair> pairs;
   std::size_t j = 0;
   for (const auto& [stamp, path] : left) {
-    for (; j < right.size() && right[j].first < stamp - kPairing; ++j)
-      pairs.push_back({right[j].first, "", right[j].second});
-    const bool partner = j < right.size() && std::abs(right[j].first - stamp) <= kPairing;
-    pairs.push_back({stamp, path, partner ? right[j].second : ""});
+    for (; j < right.size() && right[j].first < stamp - pairing.tolerance; ++j)
+      pairs.push_back({right[j].first, "", right[j].second, right[j].first + pairing.right_delay});
+    const bool partner = j < right.size() && std::abs(right[j].first - stamp) <= pairing.tolerance;
+    pairs.push_back({stamp, path, partner ? right[j].second : "", partner ? right[j].first + pairing.right_delay : 0});
     if (partner) ++j;
   }
-  for (; j < right.size(); ++j) pairs.push_back({right[j].first, "", right[j].second});
+  for (; j < right.size(); ++j)
+    pairs.push_back({right[j].first, "", right[j].second, right[j].first + pairing.right_delay});
   return pairs;
 }
 

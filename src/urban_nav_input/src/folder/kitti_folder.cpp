@@ -28,7 +28,7 @@ namespace {
 
 class KittiFolder : public Source {
  public:
-  KittiFolder(const std::string& folder, const SourceOptions& options) {
+  KittiFolder(const std::string& folder, const SourceOptions& options) : baseline_scale_(options.baseline_scale) {
     info_.name = folder;
     info_.kind = "KITTI folder";
     info_.T_base_camera = urban_nav_ros::opticalInBody();
@@ -166,13 +166,15 @@ class KittiFolder : public Source {
   void calibrate(const std::string& files) {
     if (files.empty()) {
       info_.camera = readKittiCamera(layout_, size_.width, size_.height);
+      scaleBaseline(baseline_scale_, info_.name, info_.camera);
       return;
     }
-    const auto [left, right] = readCalibration(files, size_.width, size_.height, layout_.pair);
+    auto [left, right] = readCalibration(files, size_.width, size_.height, layout_.pair);
     if (left.width != size_.width || left.height != size_.height)
       throw urban_nav_core::UserError(
           files, "images of " + sizeText(left.width, left.height),
           sizeText(size_.width, size_.height) + ", the size of the images of " + info_.name);
+    scaleBaseline(baseline_scale_, left, right);
     calibration_.emplace(left, right, false, files);
     info_.camera = calibration_->camera();
     info_.notes.push_back("calibration: " + files);
@@ -204,6 +206,7 @@ class KittiFolder : public Source {
   }
 
   KittiLayout layout_;
+  const double baseline_scale_;
   KittiFrames frames_;
   SourceInfo info_;
   std::optional<urban_nav_ros::StereoCalibration> calibration_;  // where the user gave one

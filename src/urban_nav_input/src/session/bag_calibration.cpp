@@ -15,7 +15,6 @@ using urban_nav_ros::ImagePair;
 
 namespace {
 
-constexpr StampNs kPartner = 5'000'000;          // ns, between the stamps of a pair
 constexpr StampNs kReceiptPartner = 25'000'000;  // ns, between the times of receipt of a pair without stamps
 
 /// Returns grey values in the depth of the image.
@@ -49,13 +48,11 @@ class StampedMessages {
 
   std::size_t size() const { return messages_.size(); }
   const RecordedMessage& operator[](std::size_t i) const { return messages_[i]; }
-  StampNs stamp(std::size_t i) const {
-    return by_receipt_ ? messages_[i].receipt() : readHeaderStamp(messages_[i]);
-  }
+  StampNs stamp(std::size_t i) const { return by_receipt_ ? messages_[i].receipt() : readHeaderStamp(messages_[i]); }
 
   /// Returns the message whose stamp is nearest to `stamp`, if within the tolerance of a pair: by bisection, since
   /// stamps mostly ascend, then among the neighbours.
-  const RecordedMessage* find(StampNs stamp) const {
+  const RecordedMessage* find(StampNs stamp, StampNs tolerance) const {
     constexpr std::size_t kNeighbours = 8;
     std::size_t low = 0, high = messages_.size();
     while (low < high) {
@@ -64,7 +61,7 @@ class StampedMessages {
       else high = middle;
     }
     const RecordedMessage* found = nullptr;
-    StampNs least = by_receipt_ ? kReceiptPartner : kPartner;
+    StampNs least = by_receipt_ ? std::max(kReceiptPartner, tolerance) : tolerance;
     for (std::size_t i = low > kNeighbours ? low - kNeighbours : 0; i < std::min(size(), low + kNeighbours); ++i) {
       const StampNs apart = std::abs(this->stamp(i) - stamp);
       if (apart > least) continue;
@@ -101,7 +98,7 @@ std::vector<ImagePair> samplePairs(Recording& recording, const StereoTopics& top
       right(recording, topics.right, part, by_receipt);
   std::vector<ImagePair> pairs;
   for (const std::size_t i : drawIndices(left.size(), count)) {
-    const RecordedMessage* partner = right.find(left.stamp(i) + topics.right_delay);
+    const RecordedMessage* partner = right.find(left.stamp(i) + topics.pairing.right_delay, topics.pairing.tolerance);
     if (partner == nullptr) continue;
     ImagePair pair{decodeGrey(left[i]), decodeGrey(*partner)};
     if (!pair.first.empty() && pair.second.size() == pair.first.size()) pairs.push_back(std::move(pair));

@@ -7,14 +7,15 @@
 #include "urban_nav_core/camera/camera_info.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/sensors/pairing_examination.hpp"
 #include "urban_nav_ros/stereo_calibration.hpp"
 
 namespace urban_nav_input {
 
-/// Topics of the images of a stereo camera in a recording.
+/// Topics of the images of a stereo camera in a recording, and the stamps by which they belong together.
 struct StereoTopics {
   std::string left, right;
-  urban_nav_core::StampNs right_delay = 0;  ///< ns by which right images are stamped later than the left ones
+  PairingConvention pairing = {};
 };
 
 /// camera_info of both cameras, and where they come from.

@@ -15,13 +15,13 @@
 #include "session/bag_sensors.hpp"
 #include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
-#include "session/pair_delay.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/sensors/pairing_examination.hpp"
 #include "urban_nav_input/sensors/topic_examination.hpp"
 #include "urban_nav_input/session/bag_panorama.hpp"
 #include "urban_nav_input/session/calibration_file.hpp"
@@ -58,7 +58,7 @@ class BagSource : public Source {
  public:
   BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* after,
             const ReceiptRange& part)
-      : options_(options), part_(part), name_(paths.front()), recording_(paths) {
+      : options_(options), part_(part), name_(paths.front()), convention_(options.pairing), recording_(paths) {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
@@ -66,6 +66,9 @@ class BagSource : public Source {
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";
     info_.notes = topics_.notes;
+    info_.right_delay = options.pairing.right_delay;
+    for (const Role role : {Role::Left, Role::Right, Role::LeftInfo, Role::RightInfo})
+      if (const auto topic = topics_.find(role)) info_.topics.emplace_back(toString(role), topic->name);
     if (info_.has_images) calibrate();
     place();
     info_.inputs = describeInputs(recording_, topics_, sweeps_in_bag_.streams());
@@ -92,7 +95,12 @@ class BagSource : public Source {
   std::vector<urban_nav_ros::Panorama> panoramas() const override { return panoramas_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return sensors_.forces(); }
   std::vector<Finding> sensorFindings() const override {
-    std::vector<Finding> findings = sensors_.findings();
+    using urban_nav_ros::Side;
+    std::vector<Finding> findings;
+    if (feed_)
+      findings = pairing_.findings({{topics_.find(Role::Left)->name, topics_.find(Role::Right)->name}},
+                                   {{feed_->missing(Side::Left), feed_->missing(Side::Right)}}, convention_);
+    for (Finding& finding : sensors_.findings()) findings.push_back(std::move(finding));
     for (Finding& finding : sweeps_in_bag_.findings()) findings.push_back(std::move(finding));
     return findings;
   }
@@ -109,15 +117,9 @@ class BagSource : public Source {
       if (counts.duplicate > 0)
         faults.push_back(topic + ": " + std::to_string(counts.duplicate) +
                          " images have the stamp of another and were dropped");
-      if (feed_->missing(side) > 0)
-        faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) +
-                         " images are missing: no partner within 5 ms" +
-                         describeDelay(image_stamps_[0], image_stamps_[1]));
     };
-    if (feed_) {
-      count(urban_nav_ros::Side::Left, Role::Left);
-      count(urban_nav_ros::Side::Right, Role::Right);
-    }
+    if (feed_) count(urban_nav_ros::Side::Left, Role::Left);
+    if (feed_) count(urban_nav_ros::Side::Right, Role::Right);
     for (std::string& fault : panorama_.faults()) faults.push_back(std::move(fault));
     for (std::string& warning : recording_.warnings()) faults.push_back(std::move(warning));
     return faults;
@@ -136,9 +138,8 @@ class BagSource : public Source {
 
   std::string listing() {
     std::string text;
-    for (const auto& [topic, type] : recording_.topicTypes()) {
+    for (const auto& [topic, type] : recording_.topicTypes())
       if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
-    }
     return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
   }
 
@@ -155,14 +156,14 @@ class BagSource : public Source {
       std::tie(left_info, right_info) = std::tie(infos.left, infos.right);
       if (!infos.frame.empty()) camera_frame_ = infos.frame;
     }
+    scaleBaseline(options_.baseline_scale, left_info, right_info);
     if (left_info.distortion_model.empty() && urban_nav_core::needsRectification(left_info))
       info_.notes.push_back("distortion_model is empty: coefficients are read as those of " +
                             std::string(left_info.D.size() > 5 ? "rational_polynomial" : "plumb_bob"));
     const std::string where = given
                                   ? options_.calibration
                                   : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
-    const StereoTopics topics{left.name, topics_.find(Role::Right)->name,
-                              static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay)};
+    const StereoTopics topics{left.name, topics_.find(Role::Right)->name, convention_};
     calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(makeCalibration(
         recording_, topics, part_, isRectifiedName(left.name), {left_info, right_info, where}, info_.notes));
     info_.camera = calibration_->camera();
@@ -244,7 +245,7 @@ class BagSource : public Source {
       feed.motion = true;
     }
     surveyOrder(leading);
-    if (stamps_are_receipts_) feed.pairing_tolerance = kReceiptTolerance;
+    feed.pairing_tolerance = convention_.tolerance;
     if (info_.has_images) feed_.emplace(feed, calibration_);
     listen();
     noteUnused();
@@ -266,9 +267,11 @@ class BagSource : public Source {
     is_sorted_ = survey.needs_sorting;
     if (info_.has_images && !sweeps_in_bag_.empty())
       is_sorted_ = is_sorted_ || surveyStamps(recording_, sweeps_in_bag_.topics(), part_).needs_sorting;
-    if (stamps_are_receipts_)
+    if (stamps_are_receipts_) {
+      convention_.tolerance = std::max(convention_.tolerance, kReceiptTolerance);
       info_.notes.push_back(std::string(survey.unset ? "no header has a stamp" : "all stamps of a topic are equal") +
                             ": the times at which messages were received are used instead");
+    }
     if (is_sorted_) info_.notes.push_back("messages lie in another order than their stamps: sorted by stamp");
     if (survey.back > kClockStep)
       info_.notes.push_back("stamps step back by " +
@@ -427,17 +430,15 @@ class BagSource : public Source {
     }
   }
 
-  /// Puts right what is known to be wrong with an image's stamp, and remembers the first stamps of each side.
+  /// Puts right what is known to be wrong with an image's stamp.
   void setStamp(urban_nav_ros::Side side, const RecordedMessage& instance, std_msgs::Header& header) {
-    constexpr std::size_t kRemembered = 400;
     const bool is_right = side == urban_nav_ros::Side::Right;
     if (!is_right) sensors_.addImage(instance.topic(), urban_nav_ros::toStampNs(header.stamp), instance.receipt());
     if (stamps_are_receipts_) header.stamp = urban_nav_ros::toRosTime(instance.receipt());
-    if (is_right && options_.right_delay != 0.0)
-      header.stamp = urban_nav_ros::toRosTime(urban_nav_ros::toStampNs(header.stamp) -
-                                              static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay));
-    std::vector<urban_nav_core::StampNs>& stamps = image_stamps_[is_right ? 1 : 0];
-    if (stamps.size() < kRemembered) stamps.push_back(urban_nav_ros::toStampNs(header.stamp));
+    const urban_nav_core::StampNs stamp = urban_nav_ros::toStampNs(header.stamp);
+    pairing_.add(is_right ? 1 : 0, stamp);
+    if (is_right && convention_.right_delay != 0)
+      header.stamp = urban_nav_ros::toRosTime(stamp - convention_.right_delay);
   }
 
   void takeSweeps() {
@@ -459,6 +460,7 @@ class BagSource : public Source {
   const SourceOptions options_;
   const ReceiptRange part_;
   const std::string name_;
+  PairingConvention convention_;
   Recording recording_;
   BagTopics topics_;
   SourceInfo info_;
@@ -483,7 +485,7 @@ class BagSource : public Source {
   std::unique_ptr<BagMessages> messages_;  // of the group
   bool is_sorted_ = false;                 // by stamp, else messages come as they were received
   bool stamps_are_receipts_ = false;
-  std::array<std::vector<urban_nav_core::StampNs>, 2> image_stamps_;  // left, right: the first of them
+  PairingExamination pairing_;
   bool ended_ = false;
 };
 

@@ -25,4 +25,15 @@ std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibratio
   return {urban_nav_core::leftInfo(camera), urban_nav_core::rightInfo(camera)};
 }
 
+void scaleBaseline(double scale, urban_nav_core::CameraInfo& left, urban_nav_core::CameraInfo& right) {
+  for (urban_nav_core::CameraInfo* info : {&left, &right}) info->P(0, 3) *= scale;
+}
+
+void scaleBaseline(double scale, const std::string& where, urban_nav_core::StereoCamera& camera) {
+  camera.baseline *= scale;
+  if (!(camera.baseline > 0.0))
+    throw UserError("input.baseline_scale", urban_nav_core::printNumber(scale),
+                    "a scale above zero: the baseline of " + where + " has the right sign");
+}
+
 }  // namespace urban_nav_input

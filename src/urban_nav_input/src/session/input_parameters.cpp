@@ -39,7 +39,7 @@ urban_nav_core::Row<P> scaleRow(const char* name, double P::*member, const char*
   return {name, member, unit, 1.0, 1e-6, 1e6, {}, sentence, "docs/files.md", {}, kRepair};
 }
 
-std::vector<urban_nav_core::Row<P>> ownRows() {
+std::vector<urban_nav_core::Row<P>> pairRows() {
   return {
       {"right_delay",
        &P::right_delay,
@@ -51,6 +51,45 @@ std::vector<urban_nav_core::Row<P>> ownRows() {
        "how much later the right images of a bag are stamped than the left ones, though they are exposed "
        "together; it is taken from their stamps",
        "docs/files.md"},
+      {"pairing_tolerance",
+       &P::pairing_tolerance,
+       "ms",
+       5.0,
+       0.1,
+       1000.0,
+       {},
+       "Largest difference between the stamps of the two images of a pair: less than half of the interval between "
+       "images.",
+       "docs/files.md",
+       {},
+       kRepair},
+      {"baseline_scale",
+       &P::baseline_scale,
+       "m",
+       1.0,
+       -1e6,
+       1e6,
+       {},
+       "Baseline of 1 in the calibration: 0.01 where it states centimetres, -1 where it has the wrong sign.",
+       "docs/files.md",
+       {},
+       kRepair},
+      {"sessions",
+       &P::sessions,
+       "",
+       "auto",
+       false,
+       false,
+       {"auto", "apart", "together"},
+       "Which recordings form a session: auto: those less than 5 s apart, unless they hold images of one topic at the "
+       "same time; apart: each one; together: all of them.",
+       "docs/files.md",
+       {},
+       kRepair}};
+}
+
+std::vector<urban_nav_core::Row<P>> sensorRows() {
+  return {
       {"accelerometer_axes",
        &P::accelerometer_axes,
        "",
@@ -131,8 +170,8 @@ PointsOptions toPointsOptions(const P& parameters) {
 
 const Table<InputParameters>& inputTable() {
   static const Table<P> table = [] {
-    std::vector<urban_nav_core::Row<P>> rows = ownRows();
-    for (urban_nav_core::Row<P>& row : pointsRows()) rows.push_back(std::move(row));
+    std::vector<urban_nav_core::Row<P>> rows = pairRows();
+    for (auto& more : {sensorRows(), pointsRows()}) rows.insert(rows.end(), more.begin(), more.end());
     return Table<P>("input", urban_nav_core::withMotionInput<P>(std::move(rows)));
   }();
   return table;
@@ -142,7 +181,6 @@ void apply(const InputParameters& parameters, SourceOptions& options) {
   options.motion_input = parameters.motion_input;
   options.wheel_noise = parameters.wheel_noise;
   options.gyro_noise = parameters.gyro_noise;
-  options.right_delay = parameters.right_delay;
   const auto axes = urban_nav_core::parseAxisMap(parameters.accelerometer_axes);
   if (!axes)
     throw urban_nav_core::UserError("input.accelerometer_axes", "\"" + parameters.accelerometer_axes + "\"",
@@ -151,6 +189,13 @@ void apply(const InputParameters& parameters, SourceOptions& options) {
   options.imu_delay = parameters.imu_delay;
   options.points = toPointsOptions(parameters);
   const auto toNs = [](double ms) { return static_cast<urban_nav_core::StampNs>(std::llround(1e6 * ms)); };
+  options.pairing = {toNs(parameters.right_delay), toNs(parameters.pairing_tolerance)};
+  if (parameters.baseline_scale == 0.0)
+    throw urban_nav_core::UserError("input.baseline_scale", "0", "a factor that leaves a baseline");
+  options.baseline_scale = parameters.baseline_scale;
+  options.sessions = parameters.sessions == "apart"      ? SessionRule::Apart
+                     : parameters.sessions == "together" ? SessionRule::Together
+                                                         : SessionRule::Auto;
   options.lasers = {
       {{parameters.laser_left_range_scale, parameters.laser_left_angle_scale, toNs(parameters.laser_left_delay)},
        {parameters.laser_right_range_scale, parameters.laser_right_angle_scale, toNs(parameters.laser_right_delay)}}};

@@ -87,9 +87,21 @@ std::vector<BagExtent> takeOnce(const std::vector<BagExtent>& bags, std::map<std
   return kept;
 }
 
+/// Returns the bags of each recording.
+std::vector<std::vector<BagExtent>> groupBags(const std::vector<BagExtent>& bags, SessionRule rule) {
+  if (rule == SessionRule::Auto) return separateRecordings(bags);
+  std::vector<std::vector<BagExtent>> recordings;
+  for (const BagExtent& bag : bags) {
+    if (recordings.empty() || rule == SessionRule::Apart) recordings.emplace_back();
+    recordings.back().push_back(bag);
+  }
+  return recordings;
+}
+
 }  // namespace
 
-std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics) {
+std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics,
+                                       SessionRule rule) {
   std::vector<InputSession> sessions;
   std::vector<std::string> paths;
   for (const std::string& input : inputs) {
@@ -98,15 +110,15 @@ std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, c
   }
   std::vector<BagExtent> earlier;
   std::map<std::string, std::string> copies;
-  for (const std::vector<BagExtent>& recording : separateRecordings(takeOnce(findExtents(paths), copies))) {
+  for (const std::vector<BagExtent>& recording : groupBags(takeOnce(findExtents(paths), copies), rule)) {
     const std::size_t first = sessions.size();
     appendSessions(recording, topics, sessions);
     const auto simultaneous = std::find_if(earlier.begin(), earlier.end(), [&](const BagExtent& bag) {
       return bag.span.second > recording.front().span.first;
     });
-    if (simultaneous != earlier.end())
-      sessions[first].note =
-          "holds images of the same topics at the same time as " + simultaneous->path + ": a session of its own";
+    if (rule == SessionRule::Auto && simultaneous != earlier.end())
+      sessions[first].note = "holds images of the same topics at the same time as " + simultaneous->path +
+                             ": a session of its own (--set input.sessions=together if they are one recording)";
     for (const BagExtent& bag : recording)
       if (const auto copy = copies.find(bag.path); copy != copies.end())
         sessions[first].note += (sessions[first].note.empty() ? "" : "; ") + copy->second;

@@ -10,7 +10,6 @@
 #include <functional>
 #include <map>
 
-#include "session/pair_delay.hpp"
 #include "urban_nav_input/examination/input_info.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_input/session/sessions.hpp"
@@ -77,7 +76,7 @@ struct Reading {
   std::vector<StampNs> stamps;
   int whole = 0;  ///< pairs with both images
   double left_grey = 0.0, right_grey = 0.0;
-  std::vector<std::string> faults;
+  std::vector<std::string> faults, options;
   std::string notes;
 };
 
@@ -94,6 +93,10 @@ Reading readBag(const std::string& path, const SourceOptions& options = {}, cons
     reading.right_grey = pair.right.data[0];
   }
   reading.faults = source->closingFaults();
+  for (const Finding& finding : source->sensorFindings()) {
+    reading.faults.push_back(finding.text);
+    reading.options.insert(reading.options.end(), finding.options.begin(), finding.options.end());
+  }
   return reading;
 }
 
@@ -138,8 +141,9 @@ TEST(ForeignBags, AConstantDelayOfOneCameraIsNamedAndCanBeTakenAway) {
   EXPECT_EQ(reading.whole, 0);
   ASSERT_FALSE(reading.faults.empty());
   EXPECT_NE(reading.faults[0].find("8 ms later"), std::string::npos) << reading.faults[0];
+  EXPECT_EQ(reading.options, (std::vector<std::string>{"--set", "input.right_delay=8"}));
   SourceOptions options;
-  options.right_delay = 8.0;
+  options.pairing.right_delay = 8'000'000;
   EXPECT_EQ(readBag(folder.file("a.bag"), options).whole, kPairs);
 }
 
@@ -284,16 +288,16 @@ TEST(ForeignBags, SimultaneousBagsOfOtherTopicsAreOneSession) {
   EXPECT_TRUE(sessions[0].note.empty());
 }
 
-TEST(PairDelay, IsFoundWhereItIsConstant) {
-  std::vector<StampNs> left, right, varying;
-  for (StampNs i = 0; i < 20; ++i) {
-    left.push_back(i * 50'000'000);
-    right.push_back(i * 50'000'000 - 8'000'000 + (i % 3) * 100'000);
-    varying.push_back(i * 50'000'000 + (i % 5) * 4'000'000);
-  }
-  EXPECT_NEAR(static_cast<double>(constantDelay(left, right).value()), -8e6, 2e5);
-  EXPECT_FALSE(constantDelay(left, varying));
-  EXPECT_FALSE(constantDelay({1, 2}, {1, 2}));
+TEST(ForeignBags, TheUserStatesWhichRecordingsFormASession) {
+  const TemporaryFolder folder;
+  writeBag(folder.file("a.bag"), {});
+  writeBag(folder.file("b.bag"), {}, kBegin + 1.0);
+  const std::vector<std::string> paths = {folder.file("a.bag"), folder.file("b.bag")};
+  EXPECT_EQ(findSessions(paths).size(), 1U);
+  EXPECT_EQ(findSessions(paths, {}, SessionRule::Apart).size(), 2U);
+  writeBag(folder.file("b.bag"), {}, kBegin + 3600.0);
+  EXPECT_EQ(findSessions(paths).size(), 2U);
+  EXPECT_EQ(findSessions(paths, {}, SessionRule::Together).size(), 1U);
 }
 
 /// Received from kBegin on without a break; after `kPairs` pairs the clock is set back by `back` (s).

@@ -40,7 +40,10 @@ TEST(ForeignInput, WhatOnlyHasTheNameOfARecordingIsNamed) {
 
 TEST(ForeignInput, StoresCompressedBagsAndFoldersOfBagsAreNamed) {
   const TemporaryFolder folder;
-  writeBytes(folder.file("session.db"), std::string("SQLite format 3\0", 16));
+  std::string store("SQLite format 3\0", 16);
+  store.resize(100);
+  store.replace(68, 4, "unav");  // the application that the file belongs to
+  writeBytes(folder.file("session.db"), store);
   EXPECT_NE(refusal(folder.file("session.db")).find("--store"), std::string::npos);
   writeBytes(folder.file("a.bag.gz"), "\x1f\x8b\x08 and so on");
   EXPECT_NE(refusal(folder.file("a.bag.gz")).find("gzip -d"), std::string::npos);

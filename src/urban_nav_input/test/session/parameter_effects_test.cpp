@@ -115,6 +115,7 @@ std::string readMovingBag(const std::string& path, const InputParameters& parame
   const std::unique_ptr<Source> source = openSource({path}, options);
   std::ostringstream text;
   text.precision(17);
+  text << source->info().camera << "\n";
   while (const auto item = source->next()) {
     const auto& pair = item->assembled.pair;
     text << pair.stamp << (pair.left.empty() ? "" : " left") << (pair.right.empty() ? "" : " right") << "\n";
@@ -137,27 +138,31 @@ TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
   writeMovingBag(folder.file("a.bag"));
   const auto read = [&](const InputParameters& parameters) { return readMovingBag(folder.file("a.bag"), parameters); };
   const std::string faults = urban_nav_core::testing::findParametersWithoutEffect(
-      inputTable(), {{"bag",
-                      read,
-                      {{"motion_input", "wheels"},
-                       {"motion_input", "gyroscope"},
-                       {"right_delay", 8.0},
-                       {"accelerometer_axes", "-y,x,z"},
-                       {"accelerometer_scale", 1.01},
-                       {"imu_delay", 5.0},
-                       {"laser_left_delay", 5.0},
-                       {"laser_right_delay", 5.0},
-                       {"laser_left_range_scale", 0.5},
-                       {"laser_right_range_scale", 0.5},
-                       {"laser_left_angle_scale", 0.5},
-                       {"laser_right_angle_scale", 0.5},
-                       {"points_time", "before,s,header"},
-                       {"points_deskewed", "yes"},
-                       {"points_near", 2.0},
-                       {"points0_delay", 5.0},
-                       {"points1_delay", 5.0}}},
-                     {"bag with wheels", read, {{"wheel_noise", 0.5}}, {{"motion_input", "wheels"}}},
-                     {"bag with an IMU", read, {{"gyro_noise", 0.5}}, {{"motion_input", "gyroscope"}}}});
+      inputTable(),
+      {{"bag",
+        read,
+        {{"motion_input", "wheels"},
+         {"motion_input", "gyroscope"},
+         {"right_delay", 8.0},
+         {"pairing_tolerance", 9.0},
+         {"baseline_scale", 0.5},
+         {"accelerometer_axes", "-y,x,z"},
+         {"accelerometer_scale", 1.01},
+         {"imu_delay", 5.0},
+         {"laser_left_delay", 5.0},
+         {"laser_right_delay", 5.0},
+         {"laser_left_range_scale", 0.5},
+         {"laser_right_range_scale", 0.5},
+         {"laser_left_angle_scale", 0.5},
+         {"laser_right_angle_scale", 0.5},
+         {"points_time", "before,s,header"},
+         {"points_deskewed", "yes"},
+         {"points_near", 2.0},
+         {"points0_delay", 5.0},
+         {"points1_delay", 5.0}}},
+       {"bag with wheels", read, {{"wheel_noise", 0.5}}, {{"motion_input", "wheels"}}},
+       {"bag with an IMU", read, {{"gyro_noise", 0.5}}, {{"motion_input", "gyroscope"}}}},
+      {{"sessions", "ForeignBags.TheUserStatesWhichRecordingsFormASession"}});
   EXPECT_EQ(faults, "");
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "urban_nav_core/io/cloud/pcd_writer.hpp"
+#include "urban_nav_core/laser/sweep.hpp"
 
 namespace urban_nav_ros {
 
@@ -19,5 +20,10 @@ sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<Eigen::Vector4f>&
 /// fields without gaps. Sets no header. Requires a whole number of points.
 sensor_msgs::PointCloud2 toPointCloudMessage(const std::vector<urban_nav_core::PcdField>& fields,
                                              std::string_view bytes);
+
+/// Converts a sweep to a cloud of one row with the fields of Velodyne's driver: x, y, z (m, axes of the sensor),
+/// intensity, ring, and time, s against `stamp`, which becomes that of the header. A range that is not finite makes x,
+/// y and z so, and the cloud not dense. Sets no frame.
+sensor_msgs::PointCloud2 toSweepMessage(const urban_nav_core::Sweep& sweep, urban_nav_core::StampNs stamp);
 
 }  // namespace urban_nav_ros

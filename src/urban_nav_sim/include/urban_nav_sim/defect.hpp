@@ -21,7 +21,13 @@ enum class Defect : std::uint8_t {
   Edges,       ///< echoes from two surfaces mix
   Losses,      ///< weak echoes are lost
   Steps,       ///< of what the device counts in
-  Offset,      ///< ranges 35 mm too long, the most that the data sheet allows
+  Offset,      ///< of lasers: ranges 35 mm too long, the most that the data sheet allows; of the IMU: large biases
+  Scale,       ///< constant scale errors, of the IMU with axes that are not square to each other
+  Delay,       ///< stamps that are late by a constant time
+  Axes,        ///< x and y exchanged
+  Degrees,     ///< rates in deg/s
+  Ned,         ///< axes forward, right, down
+  Gravity,     ///< accelerations without gravity
   Tyres,       ///< radii and track other than nominal
   Slip,        ///< of wheels
   Multipath,   ///< echoes of satellites from walls
@@ -34,7 +40,8 @@ enum class Defect : std::uint8_t {
 /// The defects of all sensors, each to be switched by itself.
 class Defects {
  public:
-  /// Defects that are on by default: all but Lens, Offset, Times and Clock.
+  /// Defects that are on by default: all but Lens, Offset, Scale, Delay, Axes, Degrees, Ned, Gravity, Times
+  /// and Clock.
   Defects();
 
   bool has(Sensor sensor, Defect defect) const { return on_.count({sensor, defect}) != 0; }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAny = "all";
 
-constexpr std::array<std::pair<Defect, const char*>, 17> kNames = {{{Defect::Noise, "noise"},
+constexpr std::array<std::pair<Defect, const char*>, 23> kNames = {{{Defect::Noise, "noise"},
                                                                     {Defect::Bias, "bias"},
                                                                     {Defect::Blur, "blur"},
                                                                     {Defect::Vignetting, "vignetting"},
@@ -25,6 +25,12 @@ constexpr std::array<std::pair<Defect, const char*>, 17> kNames = {{{Defect::Noi
                                                                     {Defect::Losses, "losses"},
                                                                     {Defect::Steps, "steps"},
                                                                     {Defect::Offset, "offset"},
+                                                                    {Defect::Scale, "scale"},
+                                                                    {Defect::Delay, "delay"},
+                                                                    {Defect::Axes, "axes"},
+                                                                    {Defect::Degrees, "degrees"},
+                                                                    {Defect::Ned, "ned"},
+                                                                    {Defect::Gravity, "gravity"},
                                                                     {Defect::Tyres, "tyres"},
                                                                     {Defect::Slip, "slip"},
                                                                     {Defect::Multipath, "multipath"},
@@ -33,14 +39,16 @@ constexpr std::array<std::pair<Defect, const char*>, 17> kNames = {{{Defect::Noi
                                                                     {Defect::Jitter, "jitter"},
                                                                     {Defect::Clock, "clock"}}};
 
-std::string surfaceClassName(Defect defect) {
+std::string defectName(Defect defect) {
   return std::find_if(kNames.begin(), kNames.end(), [defect](const auto& each) { return each.first == defect; })
       ->second;
 }
 
-bool isUsual(Defect defect) {
-  return defect != Defect::Lens && defect != Defect::Offset && defect != Defect::Times && defect != Defect::Clock;
-}
+constexpr std::array<Defect, 10> kUnusual = {Defect::Lens,  Defect::Offset,  Defect::Scale, Defect::Delay,
+                                             Defect::Axes,  Defect::Degrees, Defect::Ned,   Defect::Gravity,
+                                             Defect::Times, Defect::Clock};
+
+bool isUsual(Defect defect) { return std::find(kUnusual.begin(), kUnusual.end(), defect) == kUnusual.end(); }
 
 std::vector<Defect> availableDefects(Sensor sensor) {
   std::vector<Defect> defects;
@@ -52,8 +60,11 @@ std::vector<Defect> availableDefects(Sensor sensor) {
     case Sensor::Lasers:
       defects = {Defect::Noise, Defect::Bias, Defect::Edges, Defect::Losses, Defect::Steps, Defect::Offset};
       break;
-    case Sensor::Imu: defects = {Defect::Noise, Defect::Bias}; break;
-    case Sensor::Wheels: defects = {Defect::Tyres, Defect::Slip, Defect::Steps}; break;
+    case Sensor::Imu:
+      defects = {Defect::Noise, Defect::Bias,    Defect::Offset, Defect::Scale,  Defect::Delay,
+                 Defect::Axes,  Defect::Degrees, Defect::Ned,    Defect::Gravity};
+      break;
+    case Sensor::Wheels: defects = {Defect::Tyres, Defect::Slip, Defect::Steps, Defect::Scale, Defect::Delay}; break;
     case Sensor::Gps: defects = {Defect::Noise, Defect::Bias, Defect::Multipath, Defect::Gaps}; break;
     case Sensor::Lidar3d:
       defects = {Defect::Noise, Defect::Bias, Defect::Edges, Defect::Losses, Defect::Steps, Defect::Times};
@@ -65,7 +76,7 @@ std::vector<Defect> availableDefects(Sensor sensor) {
 
 std::string listDefects(Sensor sensor) {
   std::string list;
-  for (const Defect defect : availableDefects(sensor)) list += (list.empty() ? "" : ", ") + surfaceClassName(defect);
+  for (const Defect defect : availableDefects(sensor)) list += (list.empty() ? "" : ", ") + defectName(defect);
   return list;
 }
 
@@ -79,7 +90,7 @@ std::vector<std::pair<Sensor, Defect>> parse(const std::string& word, const std:
   std::vector<std::pair<Sensor, Defect>> meant;
   for (const Sensor sensor : sensors)
     for (const Defect defect : availableDefects(sensor))
-      if (name == kAny ? isUsual(defect) : name == surfaceClassName(defect)) meant.emplace_back(sensor, defect);
+      if (name == kAny ? isUsual(defect) : name == defectName(defect)) meant.emplace_back(sensor, defect);
   if (!meant.empty()) return meant;
   std::string list;
   for (const auto& each : kNames) list += (list.empty() ? "" : ", ") + std::string(each.second);
@@ -103,7 +114,9 @@ void Defects::switchOff(const std::string& word, const std::string& where) {
 }
 
 std::string defectHelp() {
-  std::string text = "Defects of the sensors (--with has lens, offset, times and clock, --without the others):\n";
+  std::string unusual;
+  for (const Defect defect : kUnusual) unusual += (unusual.empty() ? "" : ", ") + defectName(defect);
+  std::string text = "Defects of the sensors (only with --with: " + unusual + "):\n";
   for (const Sensor sensor : kAllSensors) {
     std::string name = toString(sensor);
     name.resize(9, ' ');

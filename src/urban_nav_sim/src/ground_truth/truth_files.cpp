@@ -85,6 +85,42 @@ void writeLidarRings(const std::string& path, const Lidar3d& lidar) {
   urban_nav_core::writeAtomically(path, text);
 }
 
+void writeImuErrors(const std::string& folder, const Imu& imu, const Clock& truth, double duration) {
+  const Schedule schedule = sensorSchedule(Sensor::Imu);
+  AtomicFile file(folder + "/imu.csv");
+  file.write(printCsvRow({"stamp_ns", "bx", "by", "bz", "ax", "ay", "az"}));
+  for (std::int64_t k = 0; k < schedule.count(duration); ++k) {
+    const double t = schedule.at(k);
+    std::vector<std::string> row = {std::to_string(truth.taken(t))};
+    for (const Eigen::Vector3d& bias : {imu.rateBias(t), imu.forceBias(t)})
+      for (const double value : bias) row.push_back(printNumber(roundedTo(value, 1e9)));
+    file.write(printCsvRow(row));
+  }
+  file.commit();
+  std::string text = printCsvRow({"sensor", "xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"});
+  for (const auto& [name, matrix] :
+       {std::pair<const char*, Eigen::Matrix3d>{"gyroscope", imu.rateMatrix()}, {"accelerometer", imu.forceMatrix()}}) {
+    std::vector<std::string> row = {name};
+    for (int i = 0; i < 9; ++i) row.push_back(printNumber(roundedTo(matrix(i / 3, i % 3), 1e9)));
+    text += printCsvRow(row);
+  }
+  urban_nav_core::writeAtomically(folder + "/imu_scale.csv", text);
+}
+
+void writeWheelErrors(const std::string& folder, const Wheels& wheels, const Clock& truth) {
+  const Schedule schedule = sensorSchedule(Sensor::Wheels);
+  AtomicFile file(folder + "/wheels.csv");
+  file.write(printCsvRow({"stamp_ns", "left_scale", "right_scale", "slip_left", "slip_right"}));
+  for (std::int64_t k = 0; k < wheels.count(); ++k) {
+    const Wheels::Errors& errors = wheels.errorsAt(k);
+    std::vector<std::string> row = {std::to_string(truth.taken(schedule.at(k)))};
+    for (const double value : {errors.left_scale, errors.right_scale, errors.slip_left, errors.slip_right})
+      row.push_back(printNumber(roundedTo(value, 1e9)));
+    file.write(printCsvRow(row));
+  }
+  file.commit();
+}
+
 void writeTruthFiles(const std::string& folder, const Motion& motion, const Clock& truth, const Clock& ladybug,
                      double false_percent, std::uint64_t seed) {
   const Noise noise(seed, "closures");

@@ -9,6 +9,8 @@
 #include "lidar/lidar3d.hpp"
 #include "motion/motion.hpp"
 #include "proprioception/clock.hpp"
+#include "proprioception/imu.hpp"
+#include "proprioception/wheels.hpp"
 
 namespace urban_nav_sim {
 
@@ -29,6 +31,12 @@ void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& 
 
 /// `ring,elevation_deg,elevation_error_deg,range_bias_m`: nominal elevation, true minus nominal, measured minus true.
 void writeLidarRings(const std::string& path, const Lidar3d& lidar);
+
+/// Biases at the true times of all measurements: imu.csv `stamp_ns,bx,by,bz,ax,ay,az` (gyroscope, rad/s; accelerometer,
+/// m/s^2); and imu_scale.csv `sensor,xx,xy,xz,yx,yy,yz,zx,zy,zz`: the matrices of their scale and axis errors.
+void writeImuErrors(const std::string& folder, const Imu& imu, const Clock& truth, double duration);
+/// wheels.csv: `stamp_ns,left_scale,right_scale,slip_left,slip_right` at the true times of all measurements.
+void writeWheelErrors(const std::string& folder, const Wheels& wheels, const Clock& truth);
 
 /// The truth folder of docs/files.md but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
 /// closures_true.csv and, if `false_percent` is above zero, closures_false.csv with so many per cent of the number of

@@ -11,13 +11,13 @@ namespace {
 constexpr double kLargestSlant = 0.02;  // m
 
 /// Second differences of the range across the beam, m; infinite or NaN where a ray met nothing.
-double slantOf(double middle, double above, double below, double left, double right) {
+double computeSlant(double middle, double above, double below, double left, double right) {
   return std::abs(above - 2.0 * middle + below) + std::abs(left - 2.0 * middle + right);
 }
 
 }  // namespace
 
-Echo echoOf(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int lane, float width) {
+Echo makeEcho(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int lane, float width) {
   Echo echo;
   if (hits.facet[lane] == kNothing) return echo;
   const Eigen::Vector3f direction = packet.beamDirection(lane);
@@ -27,7 +27,7 @@ Echo echoOf(const Snapshot& snapshot, const Packet& packet, const Hits& hits, in
   const float cosine = std::abs(point.normal.dot(direction.normalized()));
   echo.range = point.distance;
   echo.strength = static_cast<double>(look.infrared * (1.0F - look.gloss) * cosine);
-  // Glass that stands square to the beam is a mirror.
+  // Glass at a right angle to the beam is a mirror.
   if (cosine > 0.998F) echo.strength += static_cast<double>(look.gloss);
   echo.surface_class = point.surface_class;
   return echo;
@@ -35,7 +35,7 @@ Echo echoOf(const Snapshot& snapshot, const Packet& packet, const Hits& hits, in
 
 bool hasEdge(const std::array<double, kRaysOfBeam>& ranges) {
   const double near = *std::min_element(ranges.begin(), ranges.end());
-  return std::isfinite(near) && !(slantOf(ranges[0], ranges[1], ranges[2], ranges[3], ranges[4]) < kLargestSlant);
+  return std::isfinite(near) && !(computeSlant(ranges[0], ranges[1], ranges[2], ranges[3], ranges[4]) < kLargestSlant);
 }
 
 Echo mixEchoes(const BeamEchoes& footprint, double pulse) {
@@ -44,7 +44,7 @@ Echo mixEchoes(const BeamEchoes& footprint, double pulse) {
   for (const Echo& echo : footprint) near = std::min(near, echo.range);
   // A slanted surface spreads its echoes evenly about the middle one; an edge does not.
   const double slant =
-      slantOf(middle.range, footprint[1].range, footprint[2].range, footprint[3].range, footprint[4].range);
+      computeSlant(middle.range, footprint[1].range, footprint[2].range, footprint[3].range, footprint[4].range);
   if (!std::isfinite(near) || slant < kLargestSlant) return middle;
   // The first echo that is strong enough, drawn backwards by what follows it within the pulse.
   double weights = 0.0, sum = 0.0;

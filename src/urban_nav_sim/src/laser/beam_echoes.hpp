@@ -21,7 +21,7 @@ using BeamEchoes = std::array<Echo, kRaysOfBeam>;
 
 /// Returns the echo of the surface that a ray has met; of none if it met nothing. `width`: angle of the beam there,
 /// rad, over which the appearance of the surface is averaged.
-Echo echoOf(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int lane, float width);
+Echo makeEcho(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int lane, float width);
 
 /// Returns whether the ranges of a footprint differ by more than a slanted surface explains: an edge goes through it.
 bool hasEdge(const std::array<double, kRaysOfBeam>& ranges);

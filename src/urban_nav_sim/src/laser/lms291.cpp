@@ -79,7 +79,7 @@ BeamEchoes Lms291::echoes(const Snapshot& snapshot, const Packet& packet, const 
     const int lane = first_lane + ray;
     const float width =
         static_cast<float>(kDivergence) + static_cast<float>(kExit) / std::max(0.1F, hits.distance[lane]);
-    footprint[static_cast<std::size_t>(ray)] = echoOf(snapshot, packet, hits, lane, width);
+    footprint[static_cast<std::size_t>(ray)] = makeEcho(snapshot, packet, hits, lane, width);
   }
   return footprint;
 }

@@ -141,7 +141,7 @@ void Lidar3d::castColumn(const Snapshot& snapshot, const Column& column, Return*
     for (std::size_t ray = 0; ray < static_cast<std::size_t>(rays); ++ray) snapshot.closest(packets[ray], hits[ray]);
     for (int lane = 0; lane < lanes; ++lane) {
       const auto echo = [&](std::size_t ray) {
-        return echoOf(snapshot, packets[ray], hits[ray], lane, static_cast<float>(kBeamDivergence));
+        return makeEcho(snapshot, packets[ray], hits[ray], lane, static_cast<float>(kBeamDivergence));
       };
       const Echo middle = echo(0);
       Echo seen = middle;

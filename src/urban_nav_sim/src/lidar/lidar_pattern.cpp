@@ -11,11 +11,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRadian = M_PI / 180.0;
+constexpr double kRadiansPerDegree = M_PI / 180.0;
 constexpr int kColumnsOfTurn = 2000, kColumnsOfRosette = 4000;
-constexpr double kPrism = 0.5 * 35.2 * kRadian;                              // deflection by one prism, rad
+constexpr double kPrism = 0.5 * 35.2 * kRadiansPerDegree;                    // deflection by one prism, rad
 constexpr double kFirstPrism = 7294.0 / 60.0, kSecondPrism = 4664.0 / 60.0;  // turns per second
-constexpr double kLineSpacing = 0.42 * kRadian;
+constexpr double kLineSpacing = 0.42 * kRadiansPerDegree;
 
 double fraction(double turns) { return turns - std::floor(turns); }
 
@@ -45,7 +45,8 @@ double LidarPattern::time(int column, int ring) const {
 
 double LidarPattern::elevation(int ring) const {
   if (pattern_ == LidarModel::Pattern::Rosette) return kLineSpacing * (ring - 0.5 * (rings_ - 1));
-  const double low = rings_ < 32 ? -15.0 * kRadian : -25.0 * kRadian, high = 15.0 * kRadian;
+  const double low = rings_ < 32 ? -15.0 * kRadiansPerDegree : -25.0 * kRadiansPerDegree,
+               high = 15.0 * kRadiansPerDegree;
   return low + (high - low) * ring / (rings_ - 1);
 }
 

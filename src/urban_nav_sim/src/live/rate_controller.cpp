@@ -11,7 +11,7 @@ namespace {
 // A panorama may take half a second to render, which the frames after it make good.
 constexpr std::chrono::seconds kMaxLag{1};
 constexpr std::chrono::milliseconds kBetweenMarks{250};
-constexpr std::chrono::seconds kRemembered{5};
+constexpr std::chrono::seconds kMostStamps{5};
 constexpr double kMeasurable = 1.0;  // s
 constexpr double kSlow = 0.95;       // of what was asked for
 
@@ -38,7 +38,7 @@ void RateController::restart() {
 void RateController::passed(StampNs taken, Wall now) {
   if (!marks_.empty() && now - marks_.back().wall < kBetweenMarks) return;
   marks_.push_back({now, taken});
-  while (marks_.size() > 2 && now - marks_[1].wall >= kRemembered) marks_.pop_front();
+  while (marks_.size() > 2 && now - marks_[1].wall >= kMostStamps) marks_.pop_front();
 }
 
 std::optional<double> RateController::factor() const {

@@ -30,6 +30,8 @@ const Table<SimulatorParameters>& simulatorTable() {
           {"duration", &P::duration, "s", 60.0, 0.1, 86400.0, {}, "How long the session is.", ""},
           {"sensors", &P::sensors, "", "stereo, ladybug, lasers, imu, wheels, gps", false, false, {},
            "What the robot carries, separated by commas; what is left out costs no time.", "docs/architecture.md"},
+          {"lidar", &P::lidar, "", "64", false, false, {},
+           "Kind of the 3D LiDAR, if lidar3d is among the sensors: number of its rings, 16 to 128, or livox.", ""},
           {"with", &P::with, "", "", false, false, {},
            "Defects that sensors have besides the usual ones, separated by commas: stereo:lens, all:clock, as for "
            "`urban_nav simulate --with`.",
@@ -66,6 +68,7 @@ SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::
   options.seed = static_cast<std::uint32_t>(parameters.seed);
   options.day = parameters.day;
   options.duration = parameters.duration;
+  options.lidar = parseLidarModel(parameters.lidar, where + "lidar");
   options.sensors.clear();
   for (const std::string& word : splitWords(parameters.sensors))
     options.sensors.insert(parseSensor(word, where + "sensors"));

@@ -15,6 +15,7 @@ struct SimulatorParameters {
   int seed, day;
   double duration;            // s
   std::string sensors;        // words of sensorList()
+  std::string lidar;          // as --lidar takes it
   std::string with, without;  // defects as Defects takes them
   std::string fault;          // faults as parseFault takes them
   double rate;                // seconds of the session in a second

@@ -12,7 +12,16 @@ namespace urban_nav_sim {
 
 constexpr double kGravity = 9.81;  ///< m/s^2, along -z of `world`
 
-/// Errors of an XSens MTi (its data sheet). All zero: it measures the truth.
+/// Mistakes of a driver with measurements that are right.
+struct ImuMistakes {
+  bool exchanges_axes = false;   ///< x and y
+  bool uses_degrees = false;     ///< rates in deg/s
+  bool is_ned = false;           ///< axes forward, right, down
+  bool removes_gravity = false;  ///< accelerations of the sensor in place of specific forces
+};
+
+/// Errors of an XSens MTi (its data sheet). All zero: it measures the truth. Rates and forces are M x true + bias +
+/// noise, with a constant matrix M each.
 struct ImuOptions {
   double rate_density = 0.1 * M_PI / 180.0;                ///< rad/s/sqrt(Hz)
   double rate_bias = 0.2 * M_PI / 180.0;                   ///< rad/s, standard deviation at the start
@@ -20,9 +29,14 @@ struct ImuOptions {
   double force_density = 1e-3;                             ///< m/s^2/sqrt(Hz)
   double force_bias = 0.02;                                ///< m/s^2, drifts within this standard deviation
   double force_bias_time = 600.0;                          ///< s, time constant of that drift
-  double field_sigma = 5e-8;                               ///< T, of one measurement
-  double field_bias = 1e-6;                                ///< T, of the robot's own iron
-  double field_disturbance = 3e-6;                         ///< T, of iron in walls and ground, over some 5 m
+  double rate_offset = 0.0;         ///< rad/s, largest constant bias of an axis, added to rate_bias
+  double force_offset = 0.0;        ///< m/s^2, largest constant bias of an axis, added to force_bias
+  double scale_sigma = 0.0;         ///< of each axis, constant
+  double axes_sigma = 0.0;          ///< rad, of each axis towards each other one, constant
+  double field_sigma = 5e-8;        ///< T, of one measurement
+  double field_bias = 1e-6;         ///< T, of the robot's own iron
+  double field_disturbance = 3e-6;  ///< T, of iron in walls and ground, over some 5 m
+  ImuMistakes mistakes;
 };
 ImuOptions perfectImu();
 
@@ -38,10 +52,18 @@ class Imu {
 
   /// Measurement k = 0, 1, ..., taken at sensorSchedule(Sensor::Imu).at(k), in the axes of imu_link.
   ImuMeasurement at(std::int64_t k) const;
+  /// Biases at a time of the session, axes of imu_link: rad/s, m/s^2.
+  Eigen::Vector3d rateBias(double t) const { return rate_bias_.at(t) + rate_offset_; }
+  Eigen::Vector3d forceBias(double t) const { return force_bias_.at(t) + force_offset_; }
+  /// Scale and axis errors: M of the gyroscope and of the accelerometer.
+  const Eigen::Matrix3d& rateMatrix() const { return rate_matrix_; }
+  const Eigen::Matrix3d& forceMatrix() const { return force_matrix_; }
   /// Without any error, at any time of the motion; the stamp is left out.
   ImuMeasurement truth(double t) const;
 
  private:
+  void applyMistakes(double t, ImuMeasurement& measured) const;
+
   const Motion& motion_;
   urban_nav_core::Pose T_base_imu_;
   ImuOptions options_;
@@ -49,7 +71,8 @@ class Imu {
   Schedule schedule_ = sensorSchedule(Sensor::Imu);
   Noise rate_noise_, force_noise_, field_noise_;
   RandomWalk rate_bias_, force_bias_;
-  Eigen::Vector3d field_bias_;
+  Eigen::Vector3d field_bias_, rate_offset_, force_offset_;
+  Eigen::Matrix3d rate_matrix_, force_matrix_;
 };
 
 }  // namespace urban_nav_sim

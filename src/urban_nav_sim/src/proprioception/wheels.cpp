@@ -32,21 +32,24 @@ using Both = std::array<double, 2>;
 
 }  // namespace
 
-WheelOptions perfectWheels() { return {0.0, 0.0, 1.0, 0.0, false}; }
+WheelOptions perfectWheels() { return {0.0, 0.0, 1.0, 0.0, false, 0.0}; }
 
 Wheels::Wheels(const Motion& motion, const WheelOptions& options, const Clock& clock, const Noise& noise) {
   const Schedule schedule = sensorSchedule(Sensor::Wheels);
   const Noise slip_noise = noise.of("slip");
-  const double scale_both = 1.0 + options.scale_sigma * noise.normal(0),
+  const double scale_both = 1.0 + options.scale_sigma * noise.normal(0) +
+                            noise.of("scale").uniform(0, -options.largest_scale, options.largest_scale),
                apart = options.difference_sigma * noise.normal(1);
   const Both scale{scale_both - apart, scale_both + apart};
+  const auto slipAt = [&](std::size_t wheel, double t) {
+    return options.slip_sigma == 0.0 ? 0.0 : options.slip_sigma * smoothNoise(slip_noise.of(wheel), t / 0.5);
+  };
   const auto speedsAt = [&](double t) {
     const Rolling rolling = computeRolling(motion.at(t));
     Both speeds;
     for (std::size_t i = 0; i < 2; ++i) {
       const double side = i == 0 ? -0.5 : 0.5;
-      const double slip = options.slip_sigma == 0.0 ? 0.0 : options.slip_sigma * smoothNoise(slip_noise.of(i), t / 0.5);
-      speeds[i] = (rolling.speed + side * kTrack * options.track * rolling.turn) * scale[i] * (1.0 + slip);
+      speeds[i] = (rolling.speed + side * kTrack * options.track * rolling.turn) * scale[i] * (1.0 + slipAt(i, t));
     }
     return speeds;
   };
@@ -81,6 +84,7 @@ Wheels::Wheels(const Motion& motion, const WheelOptions& options, const Clock& c
       measured.speed = stepped(measured.speed, kCountsPerSpeed);
       measured.yaw_rate = stepped(measured.yaw_rate, kCountsPerTurn);
     }
+    errors_.push_back({scale[0], scale[1], slipAt(0, t), slipAt(1, t)});
     all_.push_back(measured);
     last = t;
   }

@@ -16,6 +16,7 @@ struct WheelOptions {
   double track = 1.02;               ///< effective over nominal track: tyres scrub as they turn
   double slip_sigma = 0.003;         ///< share of the way of each wheel that is lost or won within some half a second
   bool counts = true;                ///< in the steps of the base's counters (Segway RMP interface guide)
+  double largest_scale = 0.0;        ///< largest further error of the radius of both wheels, a share
 };
 WheelOptions perfectWheels();
 
@@ -27,10 +28,17 @@ class Wheels {
 
   /// Measurement k = 0 ... count() - 1, taken at sensorSchedule(Sensor::Wheels).at(k).
   const WheelMeasurement& at(std::int64_t k) const { return all_[static_cast<std::size_t>(k)]; }
+  /// Scale of each wheel (measured over true), and the share of its path that it slips at a measurement (above zero: it
+  /// measures more than it drives).
+  struct Errors {
+    double left_scale = 1.0, right_scale = 1.0, slip_left = 0.0, slip_right = 0.0;
+  };
+  const Errors& errorsAt(std::int64_t k) const { return errors_[static_cast<std::size_t>(k)]; }
   std::int64_t count() const { return static_cast<std::int64_t>(all_.size()); }
 
  private:
   std::vector<WheelMeasurement> all_;
+  std::vector<Errors> errors_;
 };
 
 }  // namespace urban_nav_sim

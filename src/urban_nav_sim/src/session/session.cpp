@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "camera/rig.hpp"
 #include "faults/fault_filter.hpp"
@@ -99,6 +100,10 @@ class Session::Implementation {
     for (const Sensor sensor : kAllSensors)
       if (sensor != Sensor::Lidar3d || has(sensor)) clocks[sensor] = clockErrors(sensor);
     writeClocks(folder + "/clocks.csv", clocks);
+    for (const char* name : {"imu.csv", "imu_scale.csv", "wheels.csv", "lidar3d_rings.csv"})
+      std::filesystem::remove(folder + "/" + name);  // of an earlier run
+    if (imu_) writeImuErrors(folder, *imu_, truthClock(), options_.duration);
+    if (wheels_) writeWheelErrors(folder, *wheels_, truthClock());
     if (has(Sensor::Lidar3d)) writeLidarRings(folder + "/lidar3d_rings.csv", optical_sensors_->lidarDevice());
     writeCloud(folder + "/cloud.ply", world_, *motion_);
   }

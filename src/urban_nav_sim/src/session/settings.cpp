@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/settings.hpp"
 
+#include <cmath>
+
 namespace urban_nav_sim {
 
 namespace {
 
 constexpr double kDataSheetError = 0.035;  // m: data sheet of the LMS291
+// The largest of the IMUs and bases that users connect: EuRoC's gyroscope has 0.08 rad/s.
+constexpr double kRateOffset = 0.1 / 1.7320508, kForceOffset = 0.2;  // rad/s, m/s^2, of each axis
+constexpr double kImuScale = 5e-3, kImuAxes = 0.2 * M_PI / 180.0;    // standard deviations
+constexpr double kWheelScale = 0.03, kLongestDelay = 0.05;           // share; s
 
 }  // namespace
 
@@ -60,6 +66,16 @@ ImuOptions imuOptions(const Defects& defects) {
     options.field_bias = usual.field_bias;
     options.field_disturbance = usual.field_disturbance;
   }
+  const auto has = [&](Defect defect) { return defects.has(Sensor::Imu, defect); };
+  if (has(Defect::Offset)) {
+    options.rate_offset = kRateOffset;
+    options.force_offset = kForceOffset;
+  }
+  if (has(Defect::Scale)) {
+    options.scale_sigma = kImuScale;
+    options.axes_sigma = kImuAxes;
+  }
+  options.mistakes = {has(Defect::Axes), has(Defect::Degrees), has(Defect::Ned), has(Defect::Gravity)};
   return options;
 }
 
@@ -73,6 +89,7 @@ WheelOptions wheelOptions(const Defects& defects) {
   }
   if (defects.has(Sensor::Wheels, Defect::Slip)) options.slip_sigma = usual.slip_sigma;
   options.counts = defects.has(Sensor::Wheels, Defect::Steps);
+  if (defects.has(Sensor::Wheels, Defect::Scale)) options.largest_scale = kWheelScale;
   return options;
 }
 
@@ -92,6 +109,8 @@ GpsOptions gpsOptions(const Defects& defects) {
 ClockOptions clockOptions(const Defects& defects, Sensor sensor, std::uint64_t seed) {
   ClockOptions options = defects.has(sensor, Defect::Clock) ? uncorrectedClock(sensor, seed) : correctedClock(sensor);
   if (!defects.has(sensor, Defect::Jitter)) options.jitter = 0.0;
+  if (defects.has(sensor, Defect::Delay))
+    options.offset += Noise(seed, "delay").of(static_cast<std::uint64_t>(sensor)).uniform(0, 0.0, kLongestDelay);
   return options;
 }
 

@@ -74,9 +74,9 @@ void addWalls(Site& site, const Extent& e, bool from_inside, std::uint32_t seed)
   const Finish trim{MaterialKind::PaintedWood, 1, 2};
   for (std::size_t side = 0; side < 4; ++side) {
     Draw draw(hash(seed, side, from_inside ? 0x0D1 : 0x0D2));
-    const Vector2d start = corners[side], way = corners[(side + 1) % 4] - start;
-    const double length = way.norm();
-    const Vector2d along = way / length;
+    const Vector2d start = corners[side], span = corners[(side + 1) % 4] - start;
+    const double length = span.norm();
+    const Vector2d along = span / length;
     const Finish wall{side % 2 == 0 ? MaterialKind::Render : MaterialKind::Brick, draw.bits() % 3,
                       static_cast<std::uint32_t>(draw.index(500))};
     std::vector<Opening> doors = placeDoors(length, draw);

@@ -14,6 +14,12 @@ TEST(Defects, SensorsHaveTheUsualOnes) {
   EXPECT_TRUE(defects.has(Sensor::Gps, Defect::Gaps));
   EXPECT_FALSE(defects.has(Sensor::Stereo, Defect::Lens));
   EXPECT_FALSE(defects.has(Sensor::Lasers, Defect::Offset));
+  EXPECT_TRUE(defects.has(Sensor::Lidar3d, Defect::Edges));
+  EXPECT_FALSE(defects.has(Sensor::Lidar3d, Defect::Times));
+  for (const Defect defect :
+       {Defect::Offset, Defect::Scale, Defect::Delay, Defect::Axes, Defect::Degrees, Defect::Ned, Defect::Gravity})
+    EXPECT_FALSE(defects.has(Sensor::Imu, defect));
+  EXPECT_FALSE(defects.has(Sensor::Wheels, Defect::Scale));
   for (const Sensor sensor : kAllSensors) {
     EXPECT_TRUE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
     EXPECT_FALSE(defects.has(sensor, Defect::Clock)) << toString(sensor);
@@ -61,7 +67,8 @@ TEST(Defects, SaysWhatThereIs) {
   expectDefectError("imu", "imu", "SENSOR:DEFECT");
   expectDefectError("", "\"\"", "SENSOR:DEFECT");
   expectDefectError("sonar:noise", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
-  expectDefectError("imu:blur", "imu:blur", "noise, bias, jitter, clock");
+  expectDefectError("imu:blur", "imu:blur",
+                    "noise, bias, offset, scale, delay, axes, degrees, ned, gravity, jitter, clock");
   expectDefectError("all:rust", "all:rust", "vignetting");
   for (const Sensor sensor : kAllSensors)
     EXPECT_NE(defectHelp().find(toString(sensor)), std::string::npos) << toString(sensor);

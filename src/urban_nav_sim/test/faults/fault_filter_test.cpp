@@ -117,6 +117,37 @@ TEST(FaultFilter, JumpsAndBlanks) {
   EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(black, pairAt(5.0))).right), 0);
 }
 
+LidarMeasurement sweepAt(double t) {
+  LidarMeasurement lidar;
+  lidar.stamp = at(t);
+  lidar.sweep.reference = at(t - 0.05);
+  lidar.sweep.beams.resize(200);
+  for (urban_nav_core::Beam& beam : lidar.sweep.beams) beam.stamp = at(t - 0.1), beam.range = static_cast<float>(t);
+  return lidar;
+}
+
+TEST(FaultFilter, SweepsFreezeWithTheirTimesAndBecomeInvalid) {
+  FaultFilter freeze = makeFilter("freeze:lidar3d:1:1");
+  applied(freeze, sweepAt(0.9));
+  const auto frozen = std::get<LidarMeasurement>(*applied(freeze, sweepAt(1.5)));
+  EXPECT_EQ(frozen.stamp, at(1.5));
+  EXPECT_EQ(frozen.sweep.reference, at(1.45));
+  EXPECT_EQ(frozen.sweep.beams[7].stamp, at(1.4));
+  EXPECT_EQ(frozen.sweep.beams[7].range, 0.9F);
+  FaultFilter blank = makeFilter("nan:lidar3d:0:9");
+  EXPECT_TRUE(std::isnan(std::get<LidarMeasurement>(*applied(blank, sweepAt(1.0))).sweep.beams[0].range));
+  FaultFilter lost = makeFilter("drop:lidar3d:0:9:1");
+  EXPECT_FALSE(applied(lost, sweepAt(1.0)));
+  FaultFilter corrupt = makeFilter("corrupt:lidar3d:0:9:0.5");
+  const auto spoilt = std::get<LidarMeasurement>(*applied(corrupt, sweepAt(1.0)));
+  int changed = 0;
+  for (const urban_nav_core::Beam& beam : spoilt.sweep.beams) {
+    EXPECT_TRUE(std::isfinite(beam.range));
+    changed += beam.range != 1.0F;
+  }
+  EXPECT_NEAR(changed, 100, 30);
+}
+
 TEST(FaultFilter, SameBytesAgain) {
   for (int run = 0; run < 2; ++run) {
     static cv::Mat first;

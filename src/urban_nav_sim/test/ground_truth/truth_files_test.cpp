@@ -8,6 +8,7 @@
 
 #include "proprioception/schedule.hpp"
 #include "proprioception/test_motion.hpp"
+#include "ray_tracing/small_worlds.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -87,6 +88,44 @@ TEST_F(TruthFiles, ShortSessionsHaveEmptyTables) {
   EXPECT_EQ(CsvTable::read(path("revisits.csv")).rows(), 0U);
   EXPECT_EQ(CsvTable::read(path("closures_true.csv")).rows(), 0U);
   EXPECT_EQ(CsvTable::read(path("closures_false.csv")).rows(), 0U);
+}
+
+TEST_F(TruthFiles, ErrorsOfImuAndWheelsAreWrittenAtTheTrueTimes) {
+  motion_ = testMotion(3.0);
+  ImuOptions options;
+  options.scale_sigma = 0.01;
+  const Imu imu(*motion_, urban_nav_core::Pose(), options, exact_, Noise(7, "imu"));
+  writeImuErrors(folder_.string(), imu, exact_, 3.0);
+  const CsvTable biases = CsvTable::read(path("imu.csv"));
+  EXPECT_EQ(biases.header(), (std::vector<std::string>{"stamp_ns", "bx", "by", "bz", "ax", "ay", "az"}));
+  ASSERT_EQ(biases.rows(), 299U);
+  for (std::size_t row = 0; row < biases.rows(); row += 60) {
+    const double t = 1e-9 * static_cast<double>(biases.integer(row, 0) - kTruthBegin);
+    EXPECT_NEAR(t, sensorSchedule(Sensor::Imu).at(static_cast<std::int64_t>(row)), 1e-9);
+    EXPECT_NEAR(biases.number(row, 2), imu.rateBias(t).y(), 1e-9);
+    EXPECT_NEAR(biases.number(row, 6), imu.forceBias(t).z(), 1e-9);
+  }
+  const CsvTable matrices = CsvTable::read(path("imu_scale.csv"));
+  ASSERT_EQ(matrices.rows(), 2U);
+  EXPECT_NEAR(matrices.number(1, 2), imu.forceMatrix()(0, 1), 1e-9);
+  const Wheels wheels(*motion_, WheelOptions(), exact_, Noise(7, "wheels"));
+  writeWheelErrors(folder_.string(), wheels, exact_);
+  const CsvTable errors = CsvTable::read(path("wheels.csv"));
+  EXPECT_EQ(errors.header(),
+            (std::vector<std::string>{"stamp_ns", "left_scale", "right_scale", "slip_left", "slip_right"}));
+  ASSERT_EQ(static_cast<std::int64_t>(errors.rows()), wheels.count());
+  EXPECT_NEAR(errors.number(5, 3), wheels.errorsAt(5).slip_left, 1e-9);
+}
+
+TEST_F(TruthFiles, RingErrorsOfTheLidarAreWritten) {
+  const World world = yard();
+  const Tracer tracer(world);
+  const Lidar3d lidar(tracer, urban_nav_core::Pose(), 7, LidarModel(), Lidar3d::Settings());
+  writeLidarRings(path("lidar3d_rings.csv"), lidar);
+  const CsvTable rings = CsvTable::read(path("lidar3d_rings.csv"));
+  ASSERT_EQ(rings.rows(), 64U);
+  EXPECT_NEAR(rings.number(0, 1), -25.0, 1e-6);
+  EXPECT_NEAR(rings.number(9, 3), lidar.ringErrors()[9].range, 1e-6);
 }
 
 TEST_F(TruthFiles, SaysWhichFileCannotBeWritten) {

@@ -25,7 +25,7 @@ constexpr LidarModel kSixteen{LidarModel::Pattern::Rings, 16};
 
 double secondsBeforeEnd(const Beam& beam) { return 1e-9 * static_cast<double>(kStamp - beam.stamp); }
 
-Vector3d endOf(const Beam& beam, const Motion& motion, double t_end) {
+Vector3d endpoint(const Beam& beam, const Motion& motion, double t_end) {
   const Pose T_world_lidar = motion.at(t_end - secondsBeforeEnd(beam)).T_world_base * lidarPose();
   return T_world_lidar * (static_cast<double>(beam.range) * beam.direction.cast<double>());
 }
@@ -44,7 +44,7 @@ TEST(Lidar3d, BeamsEndOnTheSurfaceAtTheirOwnTimes) {
     const Vector3d slanted(std::sin(0.35), -std::cos(0.35), 0.0);
     int on_wall = 0, on_ground = 0, on_box = 0;
     for (const Beam& beam : sweep.beams) {
-      const Vector3d p = endOf(beam, motion, t_end);
+      const Vector3d p = endpoint(beam, motion, t_end);
       const double t = t_end - secondsBeforeEnd(beam);
       const double to_ground = std::abs(p.z()), to_wall = std::abs(p.x() - 6.0),
                    to_slanted = std::abs(slanted.dot(p - Vector3d(-20, 4, 0)));
@@ -97,7 +97,7 @@ TEST(Lidar3d, TunnelWallsAreAtTheirDistance) {
   const Sweep sweep = lidar.sweep(motion, 0.2, kStamp, 0);
   int walls = 0, floor = 0;
   for (const Beam& beam : sweep.beams) {
-    const Vector3d p = endOf(beam, motion, 0.2);
+    const Vector3d p = endpoint(beam, motion, 0.2);
     if (p.z() > kTunnelSpring) continue;
     if (p.z() < 1e-4) {
       EXPECT_NEAR(p.z(), 0.0, 1e-4);
@@ -111,7 +111,7 @@ TEST(Lidar3d, TunnelWallsAreAtTheirDistance) {
   EXPECT_GT(floor, 2000);
 }
 
-TEST(Lidar3d, ErrsAsItsSettingsSay) {
+TEST(Lidar3d, HasTheErrorsOfItsSettings) {
   const World world = yard();
   const Tracer tracer(world);
   Lidar3d::Settings settings;

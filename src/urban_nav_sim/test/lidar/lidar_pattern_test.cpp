@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-double elevationOf(const Eigen::Vector3d& direction) { return std::asin(direction.z()); }
+double elevationAngle(const Eigen::Vector3d& direction) { return std::asin(direction.z()); }
 
 TEST(LidarPattern, TimesIncreaseByColumnThenByRing) {
   for (const LidarModel& model : {LidarModel{LidarModel::Pattern::Rings, 16},
@@ -38,12 +38,12 @@ TEST(LidarPattern, RingsRiseFromTheLowestAndTurnClockwiseFromTheBack) {
     EXPECT_NEAR(pattern.elevation(0), (rings == 16 ? -15.0 : -25.0) * kDegree, 1e-12);
     EXPECT_NEAR(pattern.elevation(rings - 1), 15.0 * kDegree, 1e-12);
     for (int ring = 0; ring < rings; ++ring)
-      EXPECT_NEAR(elevationOf(pattern.direction(0, 700, ring)), pattern.elevation(ring), 1e-12);
+      EXPECT_NEAR(elevationAngle(pattern.direction(0, 700, ring)), pattern.elevation(ring), 1e-12);
     const Eigen::Vector3d back = pattern.direction(0, 0, 0), left = pattern.direction(0, pattern.columns() / 4, 0);
     EXPECT_LT(back.x(), -0.9);
     EXPECT_GT(left.y(), 0.9);
     EXPECT_EQ(pattern.direction(0, 5, 3), pattern.direction(9, 5, 3));
-    EXPECT_NEAR(elevationOf(pattern.direction(0, 5, 3, 0.01)), pattern.elevation(3) + 0.01, 1e-12);
+    EXPECT_NEAR(elevationAngle(pattern.direction(0, 5, 3, 0.01)), pattern.elevation(3) + 0.01, 1e-12);
   }
 }
 

@@ -30,9 +30,11 @@ TEST(SimulatorParameters, TheirDefaultsAreThoseOfTheCommand) {
 TEST(SimulatorParameters, ListsAreSeparatedByCommasAndBlanks) {
   SimulatorParameters parameters;
   parameters.sensors = " stereo,imu, gps ";
+  parameters.lidar = "livox";
   parameters.fault = "unplug:lasers:20:5 drop:stereo:30:10:0.25";
   const SessionOptions options = sessionOptions(parameters, "");
   EXPECT_EQ(options.sensors, (std::set<Sensor>{Sensor::Stereo, Sensor::Imu, Sensor::Gps}));
+  EXPECT_EQ(options.lidar.pattern, LidarModel::Pattern::Rosette);
   ASSERT_EQ(options.faults.size(), 2U);
   EXPECT_EQ(options.faults[0].kind, FaultKind::Unplug);
   EXPECT_EQ(options.faults[1].value, 0.25);
@@ -76,7 +78,8 @@ TEST(SimulatorParameters, WhatThereIsNotIsNamedWithItsKeyAndWhatThereIs) {
   expectIn(sensors, sensorList());
   expectIn(errorMessage(&SimulatorParameters::sensors, " , "), sensorList());
   expectIn(errorMessage(&SimulatorParameters::with, "imu:blur"), "/simulator/with");
-  expectIn(errorMessage(&SimulatorParameters::without, "imu:blur"), "noise, bias, jitter, clock");
+  expectIn(errorMessage(&SimulatorParameters::without, "imu:blur"),
+           "noise, bias, offset, scale, delay, axes, degrees, ned, gravity, jitter, clock");
   const std::string fault = errorMessage(&SimulatorParameters::fault, "melt:stereo:0:1");
   expectIn(fault, "/simulator/fault melt:stereo:0:1");
   expectIn(fault, faultList());

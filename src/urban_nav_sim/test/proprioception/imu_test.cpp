@@ -125,5 +125,50 @@ TEST(Imu, StatedNoiseIsSmallBesideTheBoundOfTheGyroscope) {
   EXPECT_GT(std::sqrt(square), 0.01);
 }
 
+TEST(Imu, ErrorsAreAMatrixABiasAndNothingElse) {
+  const auto motion = testMotion(20.0);
+  ImuOptions options = perfectImu();
+  options.rate_offset = 0.05;
+  options.force_offset = 0.2;
+  options.scale_sigma = 0.01;
+  options.axes_sigma = 0.003;
+  const Imu imu = imuOn(*motion, options), perfect = imuOn(*motion, perfectImu());
+  EXPECT_EQ(perfect.rateMatrix(), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(perfect.rateBias(3.0), Vector3d::Zero());
+  EXPECT_GT((imu.rateMatrix() - Eigen::Matrix3d::Identity()).norm(), 1e-3);
+  EXPECT_GT((imu.rateMatrix() - imu.forceMatrix()).norm(), 1e-3);
+  EXPECT_GT(imu.rateBias(0.0).norm(), 0.005);
+  EXPECT_LE(imu.rateBias(0.0).cwiseAbs().maxCoeff(), 0.05);
+  EXPECT_LE(imu.forceBias(0.0).cwiseAbs().maxCoeff(), 0.2);
+  for (std::int64_t k = 0; k < 1000; k += 37) {
+    const double t = sensorSchedule(Sensor::Imu).at(k);
+    const ImuMeasurement truth = perfect.at(k), measured = imu.at(k);
+    EXPECT_LT((measured.rate - imu.rateMatrix() * truth.rate - imu.rateBias(t)).norm(), 1e-12);
+    EXPECT_LT((measured.specific_force - imu.forceMatrix() * truth.specific_force - imu.forceBias(t)).norm(), 1e-12);
+  }
+}
+
+TEST(Imu, MistakesOfDriversChangeUnitsAndAxes) {
+  const auto motion = testMotion(20.0);
+  const auto measure = [&](const ImuMistakes& mistakes) {
+    ImuOptions options = perfectImu();
+    options.mistakes = mistakes;
+    return Imu(*motion, Pose(), options, kImuClock, Noise(7, "imu")).at(700);
+  };
+  const ImuMeasurement truth = measure({});
+  const ImuMeasurement exchanged = measure({true, false, false, false});
+  EXPECT_EQ(exchanged.rate, Vector3d(truth.rate.y(), truth.rate.x(), truth.rate.z()));
+  EXPECT_EQ(exchanged.specific_force.x(), truth.specific_force.y());
+  const ImuMeasurement degrees = measure({false, true, false, false});
+  EXPECT_NEAR((degrees.rate * M_PI / 180.0 - truth.rate).norm(), 0.0, 1e-12);
+  EXPECT_EQ(degrees.specific_force, truth.specific_force);
+  const ImuMeasurement ned = measure({false, false, true, false});
+  EXPECT_EQ(ned.rate, Vector3d(truth.rate.x(), -truth.rate.y(), -truth.rate.z()));
+  EXPECT_LT(ned.specific_force.z(), -9.0);
+  const ImuMeasurement free = measure({false, false, false, true});
+  EXPECT_LT(free.specific_force.norm(), 3.0);
+  EXPECT_EQ(free.rate, truth.rate);
+}
+
 }  // namespace
 }  // namespace urban_nav_sim

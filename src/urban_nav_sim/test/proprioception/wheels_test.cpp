@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "motion/simulate_drive.hpp"
 #include "proprioception/test_motion.hpp"
 
 namespace urban_nav_sim {
@@ -71,6 +74,28 @@ TEST(Wheels, AreAsManyAsTheScheduleHas) {
   const Wheels wheels(*motion, WheelOptions{}, kWheelClock, Noise(7, "wheels"));
   EXPECT_EQ(wheels.count(), 1000);
   EXPECT_EQ(wheels.at(1).stamp - wheels.at(0).stamp, 36000000);
+}
+
+TEST(Wheels, StatedErrorsExplainTheSpeeds) {
+  const auto motion = testMotion(30.0);
+  const Wheels perfect(*motion, perfectWheels(), kWheelClock, Noise(7, "wheels"));
+  WheelOptions options;
+  options.track = 1.0;
+  options.counts = false;
+  options.largest_scale = 0.03;
+  const Wheels wheels(*motion, options, kWheelClock, Noise(7, "wheels"));
+  EXPECT_GT(std::abs(wheels.errorsAt(0).left_scale - 1.0), 1e-3);
+  EXPECT_LT(std::abs(wheels.errorsAt(0).left_scale - 1.0), 0.05);
+  for (std::int64_t k = 0; k < wheels.count(); k += 11) {
+    const Wheels::Errors& errors = wheels.errorsAt(k);
+    const WheelMeasurement &truth = perfect.at(k), &measured = wheels.at(k);
+    const double left = measured.speed - 0.5 * kTrack * measured.yaw_rate;
+    const double true_left = truth.speed - 0.5 * kTrack * truth.yaw_rate;
+    EXPECT_NEAR(left, true_left * errors.left_scale * (1.0 + errors.slip_left), 1e-9);
+    const double right = measured.speed + 0.5 * kTrack * measured.yaw_rate;
+    const double true_right = truth.speed + 0.5 * kTrack * truth.yaw_rate;
+    EXPECT_NEAR(right, true_right * errors.right_scale * (1.0 + errors.slip_right), 1e-9);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 namespace urban_nav_sim {
 namespace {
 
@@ -45,6 +48,12 @@ TEST(Settings, ADefectThatIsOffLeavesTheOthers) {
   EXPECT_GT(laserSettings(without("lasers:noise")).largest_bias, 0.0);
   EXPECT_FALSE(laserSettings(without("lasers:edges")).mixes);
   EXPECT_TRUE(laserSettings(without("lasers:edges")).loses);
+  EXPECT_EQ(lidarSettings(without("lidar3d:noise")).sigma, 0.0);
+  EXPECT_GT(lidarSettings(without("lidar3d:noise")).ring_range_sigma, 0.0);
+  EXPECT_EQ(lidarSettings(without("lidar3d:bias")).ring_angle_sigma, 0.0);
+  EXPECT_FALSE(lidarSettings(without("lidar3d:edges")).mixes);
+  EXPECT_TRUE(lidarSettings(without("lidar3d:edges")).loses);
+  EXPECT_EQ(lidarSettings(without("lidar3d:steps")).step, 0.0);
   EXPECT_EQ(imuOptions(without("imu:bias")).rate_walk, 0.0);
   EXPECT_GT(imuOptions(without("imu:bias")).rate_density, 0.0);
   EXPECT_EQ(wheelOptions(without("wheels:tyres")).track, 1.0);
@@ -56,6 +65,23 @@ TEST(Settings, ADefectThatIsOffLeavesTheOthers) {
 TEST(Settings, WhatIsUnusualIsSwitchedOn) {
   EXPECT_EQ(stereoImages(with("stereo:lens")), StereoImages::Raw);
   EXPECT_EQ(laserSettings(with("lasers:offset")).systematic_error, 0.035);
+  EXPECT_EQ(imuOptions(Defects()).rate_offset, 0.0);
+  EXPECT_EQ(imuOptions(Defects()).scale_sigma, 0.0);
+  EXPECT_FALSE(imuOptions(Defects()).mistakes.is_ned);
+  EXPECT_NEAR(imuOptions(with("imu:offset")).rate_offset, 0.1 / std::sqrt(3.0), 1e-6);
+  EXPECT_GT(imuOptions(with("imu:scale")).scale_sigma, 0.0);
+  EXPECT_GT(imuOptions(with("imu:scale")).axes_sigma, 0.0);
+  EXPECT_TRUE(imuOptions(with("imu:axes")).mistakes.exchanges_axes);
+  EXPECT_TRUE(imuOptions(with("imu:degrees")).mistakes.uses_degrees);
+  EXPECT_TRUE(imuOptions(with("imu:ned")).mistakes.is_ned);
+  EXPECT_TRUE(imuOptions(with("imu:gravity")).mistakes.removes_gravity);
+  EXPECT_EQ(wheelOptions(with("wheels:scale")).largest_scale, 0.03);
+  EXPECT_FALSE(lidarSettings(with("lidar3d:times")).has_times);
+  for (const Sensor sensor : {Sensor::Imu, Sensor::Wheels}) {
+    const double delay = clockOptions(with(toString(sensor) + std::string(":delay")), sensor, 3).offset;
+    EXPECT_GT(delay, 0.0);
+    EXPECT_LE(delay, 0.05);
+  }
   const ClockOptions usual = clockOptions(Defects(), Sensor::Imu, 3),
                      own = clockOptions(with("imu:clock"), Sensor::Imu, 3);
   EXPECT_EQ(usual.offset, 0.0);

@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/image/view.hpp"
 #include "urban_nav_input/examination/finding.hpp"
+#include "urban_nav_input/session/source.hpp"
 
 namespace urban_nav_input {
 
@@ -19,7 +20,8 @@ class PairCheck {
   /// Adds a pair and the right images of the pairs before and after it, which may be empty.
   void add(const urban_nav_core::ImageView& left, const urban_nav_core::ImageView& right,
            const urban_nav_core::ImageView& right_before, const urban_nav_core::ImageView& right_after);
-  std::vector<Finding> findings() const;
+  /// `info`: of the recording, for the options. `interval`: ns between pairs.
+  std::vector<Finding> findings(const SourceInfo& info, urban_nav_core::StampNs interval) const;
   /// Number of pairs added.
   int pairs() const { return pairs_; }
 
@@ -33,8 +35,8 @@ class PairCheck {
     double mean = 0.0, bright = 0.0;  ///< mean; share of pixels above 251
   };
   static Grey measureGrey(const urban_nav_core::ImageView& image);
-  void rowsFindings(std::vector<Finding>& findings) const;
-  void orderFindings(std::vector<Finding>& findings) const;
+  void rowsFindings(const SourceInfo& info, std::vector<Finding>& findings) const;
+  void orderFindings(const SourceInfo& info, urban_nav_core::StampNs interval, std::vector<Finding>& findings) const;
   void greyFindings(std::vector<Finding>& findings) const;
 
   std::vector<Match> matches_;

@@ -7,10 +7,12 @@
 
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_input/examination/pair_check.hpp"
+#include "urban_nav_input/examination/repeated_images.hpp"
 
 namespace urban_nav_input {
 
-/// Judges some of a recording's stereo pairs, evenly distributed, by what their images show. Not thread-safe.
+/// Examines some of a recording's stereo pairs, evenly distributed, by what their images show, and all of them by
+/// whether images repeat the one before. Not thread-safe.
 class SampledPairs {
  public:
   /// `frames`: pairs of the recording, 0 if unknown. About `samples` pairs are judged, at least `least_step` apart.
@@ -18,13 +20,16 @@ class SampledPairs {
 
   /// Adds the next pair. Its images stay alive until the pair after the next one.
   void add(const urban_nav_core::StereoPairWithMotion& pair);
-  std::vector<Finding> findings() const { return images_.findings(); }
+  /// `info`: of the recording, for the options.
+  std::vector<Finding> findings(const SourceInfo& info) const;
 
  private:
   std::int64_t step_, most_, count_ = 0;
   std::deque<urban_nav_core::StereoPairWithMotion>
       last_;  // up to three: neighbours tell whether partners belong together
   PairCheck images_;
+  RepeatedImages repeated_;
+  std::vector<urban_nav_core::StampNs> intervals_;  // ns, of the first pairs
 };
 
 }  // namespace urban_nav_input

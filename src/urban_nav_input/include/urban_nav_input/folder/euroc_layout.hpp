@@ -11,6 +11,7 @@
 #include "urban_nav_core/camera/rectify.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_input/sensors/pairing_examination.hpp"
 #include "urban_nav_ros/image.hpp"
 
 namespace urban_nav_input {
@@ -19,6 +20,7 @@ namespace urban_nav_input {
 struct EurocPair {
   urban_nav_core::StampNs stamp = 0;
   std::string left, right;
+  urban_nav_core::StampNs right_stamp = 0;  ///< of the right image, as recorded; 0 without one
 };
 
 struct EurocImu {
@@ -42,7 +44,8 @@ std::string eurocFolder(const std::string& path);
 
 /// All read data.csv and sensor.yaml; UserError with file and line where they are damaged. `notes`: what was put right
 /// in the lists of images, for the user.
-std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes = nullptr);
+std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes = nullptr,
+                                      const PairingConvention& pairing = {});
 /// Returns the depth of 16-bit images, 8...16, from the first ones of both cameras; 8 for 8-bit images.
 urban_nav_ros::GreyScale eurocScale(const std::vector<EurocPair>& pairs);
 EurocRig readEurocRig(const std::string& mav0);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/io/calibration.hpp"
 
 namespace urban_nav_input {
@@ -14,5 +15,9 @@ namespace urban_nav_input {
 /// Throws UserError for others.
 std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibration(
     const std::string& files, int width, int height, urban_nav_core::KittiPair pair = urban_nav_core::KittiPair::Grey);
+
+/// Multiply the baseline by a scale. The second throws UserError, with `where`, if nothing above zero remains.
+void scaleBaseline(double scale, urban_nav_core::CameraInfo& left, urban_nav_core::CameraInfo& right);
+void scaleBaseline(double scale, const std::string& where, urban_nav_core::StereoCamera& camera);
 
 }  // namespace urban_nav_input

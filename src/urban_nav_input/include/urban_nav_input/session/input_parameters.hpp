@@ -10,7 +10,9 @@ namespace urban_nav_input {
 
 /// Parameters of the readers of recordings: `input.motion_input` and so on. One member per row of inputTable().
 struct InputParameters : urban_nav_core::MotionInputParameters {
-  double right_delay;                                      // ms
+  double right_delay, pairing_tolerance;                   // ms
+  double baseline_scale;                                   // m
+  std::string sessions;                                    // auto, apart, together
   std::string accelerometer_axes;                          // as parseAxisMap() reads
   double accelerometer_scale;                              // m/s2
   double imu_delay;                                        // ms

@@ -11,6 +11,8 @@
 #include "urban_nav_core/laser/cloud/point_times.hpp"
 #include "urban_nav_core/laser/scan_check.hpp"
 #include "urban_nav_input/recording/receipt_range.hpp"
+#include "urban_nav_input/sensors/pairing_examination.hpp"
+#include "urban_nav_input/session/sessions.hpp"
 #include "urban_nav_input/session/source.hpp"
 
 namespace urban_nav_input {
@@ -31,7 +33,8 @@ struct SourceOptions {
   std::string motion_input = "none";                           ///< as input.motion_input
   double wheel_noise = 0.0;                                    ///< as input.wheel_noise
   double gyro_noise = 0.0;                                     ///< as input.gyro_noise
-  double right_delay = 0.0;                                    ///< ms, as input.right_delay
+  PairingConvention pairing = {};                              ///< as input.right_delay and input.pairing_tolerance
+  double baseline_scale = 1.0;                                 ///< as input.baseline_scale
   std::vector<std::string> read_elsewhere = {};                ///< topics of bags that do not count as unused
   double imu_delay = 0.0;                                      ///< ms, as input.imu_delay
   std::array<urban_nav_core::LaserConvention, 2> lasers = {};  ///< left, right: as input.laser_left_delay and so on
@@ -41,6 +44,7 @@ struct SourceOptions {
   /// Whether sweeps of 3D LiDARs are read. A session without images is then one if it has sweeps; otherwise it is
   /// refused.
   bool with_sweeps = false;
+  SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };

@@ -17,12 +17,21 @@ struct InputSession {
   ReceiptRange part = {};             ///< of the bags; {0, 0}: all of them
   std::string note = {};              ///< why the bags are more than one session, for the user; mostly empty
 };
+/// Which recordings form a session.
+enum class SessionRule {
+  Auto,     ///< those less than 5 s apart, unless they hold images of the same topic at the same time
+  Apart,    ///< each one
+  Together  ///< all of them
+};
+
 /// Returns the sessions of inputs: each folder is one, bags less than 5 s apart are one (a split recording) unless they
 /// hold images of the same topic at the same time (separateRecordings()). Where the stamps of the stereo images step
 /// back, because a clock was set, the next session begins. `topics`: ROLE:=NAME, for
-/// bags. Throws UserError for an input of unknown kind, DataError for a bag that cannot be read.
+/// bags. `rule`: in place of this one. Throws UserError for an input of unknown kind, DataError for a bag that cannot
+/// be read.
 std::vector<InputSession> findSessions(const std::vector<std::string>& inputs,
-                                       const std::vector<std::string>& topics = {});
+                                       const std::vector<std::string>& topics = {},
+                                       SessionRule rule = SessionRule::Auto);
 
 /// Returns the names of sessions in closures.csv, those of `earlier` ones first: the folder's name, or the stem of the
 /// first bag. Of two equal names the later one gets a number ("quad", "quad_2").

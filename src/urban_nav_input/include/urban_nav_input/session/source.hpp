@@ -104,7 +104,9 @@ struct SourceInfo {
   std::vector<LaserInfo> lasers;                ///< whose place on the robot is known
   std::vector<PanoramaCamera> panorama;         ///< cameras with images, ascending by number; empty: no panoramas
   std::vector<InputStream> inputs;              ///< by role
-  std::vector<std::string> notes;               ///< what was guessed or assumed, for the user
+  std::vector<std::pair<std::string, std::string>> topics = {};  ///< role and topic of the stereo camera; of recordings
+  std::optional<urban_nav_core::StampNs> right_delay = {};       ///< ns, as input.right_delay; of recordings
+  std::vector<std::string> notes;                                ///< what was guessed or assumed, for the user
 };
 
 /// Stereo pairs in order, whatever they are stored in, and what belongs to them. One caller at a time, from any thread.

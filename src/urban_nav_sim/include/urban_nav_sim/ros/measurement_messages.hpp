@@ -66,10 +66,6 @@ class MeasurementMessages {
   std::array<std::uint32_t, 2> turns_{};
 };
 
-/// Returns a sweep with the fields of Velodyne's driver: x, y, z (m, axes of the sensor), intensity, ring, and time, s
-/// against the stamp of the header, which is that of the end of the sweep. One row; points in the order of their times.
-sensor_msgs::PointCloud2 toPointsMessage(const LidarMeasurement& lidar);
-
 /// Where the sensors sit, for /tf_static, of the stamp at which the session begins.
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Session& session);
 
