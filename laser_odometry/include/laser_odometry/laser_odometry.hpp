@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "laser_odometry/parameters.hpp"
+#include "urban_nav_core/laser/sweep.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
+
+namespace laser_odometry {
+
+/// Reason of a status that is not OK: Status::reason of every output of this stage.
+enum class Reason : int {
+  None = 0,
+  NoPoints,       ///< no valid return in the sweep
+  TooFewPoints,   ///< fewer surface patches than the parameters require
+  Covered,        ///< most returns are nearer than min_range: the robot itself, or a cover
+  FreeDirection,  ///< the surroundings do not constrain a direction of the motion
+  Mismatch,       ///< the sweep does not fit the local map
+  BadStamp,       ///< the reference time is not later than the last one: the sweep is dropped
+  Gap,            ///< much more time since the last sweep than between the sweeps before
+  Overlap,        ///< the sweep begins long before the last one ended
+};
+/// Returns "" for None, else the enumerator in small letters and underscores.
+const char* toString(Reason reason);
+
+/// Motion of base_link between two sweeps by another sensor (stereo, wheels, gyroscope).
+struct MotionPrior {
+  urban_nav_core::RelativePose step;  ///< from the last sweep's reference time to that of this sweep
+};
+
+/// Figures of one sweep.
+struct Statistics {
+  int points = 0;           ///< valid beams
+  int near = 0;             ///< beams nearer than min_range
+  int used = 0;             ///< beams that belong to a matched surface patch
+  int moving = 0;           ///< beams of patches that contradict the local map
+  int patches = 0;          ///< surface patches of the sweep that were matched
+  int iterations = 0;       ///< of all rounds
+  int map_cells = 0;        ///< of all resolutions
+  double residual_m = 0.0;  ///< robust standard deviation of the distances between patches and planes
+  bool deskewed = false;    ///< whether the motion within the sweep was compensated by this stage
+};
+
+/// Result for one sweep. `odom` is the first base_link.
+struct LaserPose {
+  urban_nav_core::StampNs stamp = 0;  ///< reference time of the sweep
+  bool accepted = true;               ///< false: dropped because of its stamp; the pose is the last one
+  urban_nav_core::Pose T_odom_base;
+  /// Covariance of T_first_base in the axes of the first pose, tangent as in PoseWithCovariance.
+  urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
+  /// Motion since the last accepted sweep; from == to for the first one. Along a free direction the motion and its
+  /// variance are those of the prior.
+  urban_nav_core::RelativePose step;
+  /// Directions of the motion that the surroundings do not constrain: unit vectors, translation (m) before rotation
+  /// (rad times the mean lever of the surfaces), in the axes of base_link.
+  std::vector<urban_nav_core::Vector6d> free_directions;
+  urban_nav_core::Status status;
+  Statistics statistics;
+};
+
+/// Surface element of the local map.
+struct MapPoint {
+  Eigen::Vector3f p_odom = Eigen::Vector3f::Zero();  ///< m
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, in odom; sign undefined
+  float sigma = 0.0F;                                ///< standard deviation along the normal, m
+};
+
+/// Odometry by 3D LiDAR: each sweep is registered to a local map of surface elements
+/// (docs/derivations/laser_odometry.md).
+///
+/// Accepts any sweep in any order of time; each gives a finite pose and a positive definite covariance. Bad sweeps are
+/// reported in the status with a reason. Reads no clock, prints nothing, never throws for data. Not thread-safe;
+/// different objects are independent. The same calls give the same bits.
+class LaserOdometry {
+ public:
+  /// T_base_lidar: the sensor's frame in base_link.
+  LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar);
+  /// Continues from the `state` of another object. Throws UserError if that had other parameters or another
+  /// T_base_lidar, DataError if the bytes are damaged or of another version.
+  LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar, std::string_view state);
+  ~LaserOdometry();
+  LaserOdometry(LaserOdometry&&) noexcept;
+  LaserOdometry& operator=(LaserOdometry&&) noexcept;
+
+  /// Registers a sweep. `prior` replaces the prediction by constant velocity; its covariance must be positive definite.
+  LaserPose process(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior = std::nullopt);
+
+  /// Returns the planes of the local map, at the finest resolution at which each place has one.
+  std::vector<MapPoint> localMap() const;
+
+  /// Returns everything that further results depend on: an object made from it gives the same bits as this one.
+  std::string state() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace laser_odometry

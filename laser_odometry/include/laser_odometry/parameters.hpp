@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace laser_odometry {
+
+/// Parameters of the stage. table() states meaning, unit, default and range of each.
+struct Parameters {
+  double cell;                  // m
+  int levels;                   // resolutions
+  double min_range;             // m
+  double max_range;             // m
+  double map_range;             // m
+  bool deskew;                  //
+  int iterations;               // per round
+  int rounds;                   //
+  double surface_sigma;         // m
+  double acceleration;          // m/s^2
+  double angular_acceleration;  // rad/s^2
+  int lost_patches;             //
+  int degraded_patches;         //
+
+  Parameters();
+};
+
+/// Returns the table of the stage's parameters: the only place of their defaults and ranges. Thread-safe.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace laser_odometry

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "moments.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace laser_odometry {
+namespace {
+
+constexpr double kLeastPoints = 6.0;
+constexpr double kLeastRatio = 10.0;  // of variances in and across the plane
+// More points do not tell a normal better: what is not plane is common to them.
+constexpr double kReachedSigmas = 2.5;
+constexpr double kMostForNormal = 50.0;
+
+}  // namespace
+
+void Moments::add(const Moments& other, const Vector3d& shift) {
+  const Vector3d& s = other.sum;
+  const double n = other.count;
+  outer[0] += other.outer[0] + 2.0 * shift.x() * s.x() + n * shift.x() * shift.x();
+  outer[1] += other.outer[1] + shift.x() * s.y() + shift.y() * s.x() + n * shift.x() * shift.y();
+  outer[2] += other.outer[2] + shift.x() * s.z() + shift.z() * s.x() + n * shift.x() * shift.z();
+  outer[3] += other.outer[3] + 2.0 * shift.y() * s.y() + n * shift.y() * shift.y();
+  outer[4] += other.outer[4] + shift.y() * s.z() + shift.z() * s.y() + n * shift.y() * shift.z();
+  outer[5] += other.outer[5] + 2.0 * shift.z() * s.z() + n * shift.z() * shift.z();
+  sum += s + n * shift;
+  count += n;
+}
+
+void Moments::scale(double factor) {
+  count *= factor;
+  sum *= factor;
+  outer *= factor;
+}
+
+Matrix3d Moments::covariance() const {
+  const Vector3d m = mean();
+  Matrix3d C;
+  C << outer[0], outer[1], outer[2], outer[1], outer[3], outer[4], outer[2], outer[4], outer[5];
+  return C / count - m * m.transpose();
+}
+
+bool isBeside(const Plane& plane, const Vector3d& p) {
+  const Vector3d d = p - plane.mean;
+  const double across = d.dot(plane.narrow), along = d.dot(plane.normal.cross(plane.narrow));
+  return across * across > kReachedSigmas * kReachedSigmas * plane.width ||
+         along * along > kReachedSigmas * kReachedSigmas * plane.length;
+}
+
+Plane fitPlane(const Moments& moments, const Vector3d& origin) {
+  Plane plane;
+  if (moments.count < kLeastPoints) return plane;
+  Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
+  solver.computeDirect(moments.covariance());
+  plane.variance = std::max(0.0, solver.eigenvalues()[0]);
+  plane.width = solver.eigenvalues()[1];
+  plane.length = solver.eigenvalues()[2];
+  plane.narrow = solver.eigenvectors().col(1);
+  plane.usable = plane.width > kLeastRatio * plane.variance && plane.width > 0.0;
+  if (!plane.usable) return plane;
+  plane.normal_variance = (plane.variance + kBeamVariance) / (plane.width * std::min(moments.count, kMostForNormal));
+  plane.normal = solver.eigenvectors().col(0);
+  plane.mean = origin + moments.mean();
+  return plane;
+}
+
+}  // namespace laser_odometry

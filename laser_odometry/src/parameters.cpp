@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_odometry/parameters.hpp"
+
+#include <cstdint>
+
+namespace laser_odometry {
+
+using urban_nav_core::Audience;
+using urban_nav_core::Table;
+
+Parameters::Parameters() { table().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<Parameters>& table() {
+  using P = Parameters;
+  static const Table<Parameters> rows(
+      "laser_odometry",
+      {
+          {"cell", &P::cell, "m", 0.5, 0.1, 5.0, {},
+           "Edge of the smallest cubes of the local map. Smaller is more accurate near surfaces and slower.",
+           "laser_odometry/bench, accuracy"},
+          {"levels", &P::levels, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{6}, {},
+           "Resolutions of the local map, each twice as coarse as the one before.",
+           "laser_odometry/bench, accuracy"},
+          {"min_range", &P::min_range, "m", 1.0, 0.0, 100.0, {},
+           "Returns nearer than this are left out: the robot itself.", "docs/derivations/laser_odometry.md"},
+          {"max_range", &P::max_range, "m", 100.0, 1.0, 1000.0, {},
+           "Returns further than this are left out.", "docs/derivations/laser_odometry.md"},
+          {"map_range", &P::map_range, "m", 100.0, 1.0, 1000.0, {},
+           "Distance from the robot at which the local map ends; bounds its memory.", "docs/derivations/laser_odometry.md"},
+          {"deskew", &P::deskew, "", true, false, false, {},
+           "Compensates the motion within a sweep where the times of its points are known.",
+           "laser_odometry/bench, accuracy"},
+          {"iterations", &P::iterations, "", std::int64_t{12}, std::int64_t{1}, std::int64_t{100}, {},
+           "Gauss-Newton steps in a round, at most.", "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"rounds", &P::rounds, "", std::int64_t{2}, std::int64_t{1}, std::int64_t{10}, {},
+           "How often a sweep is deskewed by the motion estimated so far and registered again.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"surface_sigma", &P::surface_sigma, "m", 0.02, 0.001, 1.0, {},
+           "Standard deviation that the whole of a surface patch has in common: what is not plane, beam width, incidence.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"acceleration", &P::acceleration, "m/s^2", 3.0, 0.01, 1000.0, {},
+           "Change of velocity in a second (one sigma) that the prediction allows where nothing else is known.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"angular_acceleration", &P::angular_acceleration, "rad/s^2", 1.0, 0.01, 1000.0, {},
+           "Change of angular velocity in a second (one sigma) that the prediction allows.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"lost_patches", &P::lost_patches, "", std::int64_t{30}, std::int64_t{6}, std::int64_t{100000}, {},
+           "With fewer matched surface patches a sweep is LOST: the pose is that of the prior.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"degraded_patches", &P::degraded_patches, "", std::int64_t{100}, std::int64_t{6}, std::int64_t{100000}, {},
+           "With fewer matched surface patches a sweep is DEGRADED.", "docs/derivations/laser_odometry.md", {},
+           Audience::Experts},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace laser_odometry

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "status.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+
+namespace laser_odometry {
+
+using urban_nav_core::Health;
+using urban_nav_core::Sweep;
+
+namespace {
+
+constexpr double kLongestSweep = 1.0;   // s from the reference: a sweep takes 10 ms to 1 s
+constexpr std::int32_t kLostLimit = 5;  // sweeps by prediction alone after which the map begins anew
+constexpr double kPruneStep = 5.0;      // m between prunings of the map
+constexpr double kReach = 60.0;        // edges of a cube: the distance at which beams of 0.5 deg are half an edge apart
+constexpr int kStartRounds = 4;        // in which the first two sweeps are deskewed by each other
+constexpr double kStartStep = 0.3;     // m between positions from which the second sweep is registered
+constexpr double kStartSpeed = 40.0;   // m/s, the highest that the search covers
+constexpr double kStartSteps = 12.0;   // at most, ahead and behind
+constexpr double kUnknownStart = 0.4;  // m, errors at the surfaces where the velocity is not known,
+constexpr double kPredictedStart = 0.1;  // and after a prediction
+constexpr double kStartGain = 1.005;     // by which a position must fit better than standing still
+
+}  // namespace
+
+Pipeline::Pipeline(const Parameters& parameters, const Pose& T_base_lidar)
+    : parameters_(parameters),
+      T_base_lidar_(T_base_lidar),
+      map_(parameters.cell, parameters.levels, kReach * parameters.cell),
+      motion_(parameters) {}
+
+LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>& prior) {
+  if (started_ && sweep.reference <= stamp_) return drop(sweep);
+  const Pose T_odom_last = T_odom_base_;
+  LaserPose result;
+  result.stamp = sweep.reference;
+  const Prediction prediction = predict(sweep, prior);
+  const SweepPoints points =
+      collectPoints(sweep, T_base_lidar_, parameters_.min_range, parameters_.max_range, kLongestSweep);
+  result.statistics.points = points.valid;
+  result.statistics.near = points.near;
+  result.statistics.deskewed = parameters_.deskew && points.last_s > points.first_s;
+  result.step.from = started_ ? stamp_ : sweep.reference;
+  result.step.to = sweep.reference;
+  result.step.source = "laser_odometry";
+  if (map_.empty()) {
+    continueByPrediction(prediction, result);
+    beginMap(points, parameters_.deskew ? motion_.twist() : Vector6d::Zero());
+    result.status = started_ ? statusOfRestart(points, parameters_) : statusOfStart(points, parameters_);
+  } else {
+    const Aligned aligned = first_.p.empty() ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
+                                             : alignSecond(points, prediction);
+    assess(aligned, points, sweep, prediction, result);
+    if (result.status.health == Health::Lost) {
+      if (!first_.p.empty()) map_.clear();  // of a sweep whose velocity stays unknown
+      first_ = SweepPoints();
+      continueByPrediction(prediction, result);
+      restartIfLost(points, result);
+    } else {
+      accept(aligned, points, prediction, sweep, result);
+    }
+  }
+  if (started_) accumulate(T_odom_last, result.step);
+  result.T_odom_base = T_odom_base_;
+  result.covariance = covariance_;
+  result.step.status = result.status;
+  result.statistics.map_cells = static_cast<int>(map_.size());
+  if (started_)
+    usual_s_ = usual_s_ > 0.0 ? usual_s_ + 0.1 * (std::min(prediction.seconds, 2.0 * usual_s_) - usual_s_)
+                              : prediction.seconds;
+  stamp_ = sweep.reference;
+  started_ = true;
+  ++sweep_;
+  return result;
+}
+
+void Pipeline::accumulate(const Pose& T_odom_last, const urban_nav_core::RelativePose& step) {
+  using urban_nav_core::transformCovariance;
+  // A path has half of the covariance of its first step, half of that of its last one, and the drifts (RelativePose).
+  if (!has_step_) drift_ = 0.5 * step.covariance;
+  has_step_ = true;
+  const urban_nav_core::Composition path = urban_nav_core::compose(T_odom_last, step.T_from_to);
+  drift_ = transformCovariance(path.J1, drift_) + transformCovariance(path.J2, step.drift_covariance);
+  covariance_ = drift_ + transformCovariance(path.J2, 0.5 * step.covariance);
+}
+
+LaserPose Pipeline::drop(const Sweep& sweep) const {
+  LaserPose result;
+  result.stamp = sweep.reference;
+  result.accepted = false;
+  result.T_odom_base = T_odom_base_;
+  result.covariance = covariance_;
+  result.step.covariance = kFirstCovariance * Matrix6d::Identity();
+  result.step.from = result.step.to = stamp_;
+  result.step.source = "laser_odometry";
+  result.status = statusOfStamp(stamp_, sweep.reference);
+  result.step.status = result.status;
+  return result;
+}
+
+Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<MotionPrior>& prior) const {
+  Prediction prediction;
+  if (!started_) return prediction;
+  prediction.seconds = urban_nav_core::secondsBetween(stamp_, sweep.reference);
+  if (prior && prior->step.T_from_to.isFinite() && prior->step.covariance.allFinite()) {
+    prediction.T_last_now = prior->step.T_from_to;
+    prediction.covariance = prior->step.covariance;
+    prediction.is_measured = true;
+    return prediction;
+  }
+  prediction.T_last_now = motion_.predict(prediction.seconds);
+  prediction.covariance = motion_.predictionCovariance(prediction.seconds);
+  return prediction;
+}
+
+void Pipeline::beginMap(const SweepPoints& points, const Vector6d& twist) {
+  map_.clear();
+  first_ = points;
+  std::vector<Vector3d> moved = deskew(points, twist);
+  for (Vector3d& p : moved) p = T_odom_base_ * p;
+  map_.insert(moved, T_odom_base_ * T_base_lidar_.t(), sweep_);
+  pruned_at_ = T_odom_base_.t();
+}
+
+Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& prediction, const Pose& guess) {
+  Aligned aligned;
+  const Pose predicted = T_odom_base_ * prediction.T_last_now;
+  aligned.registration.T_odom_base = guess;
+  RegistrationOptions options;
+  options.iterations = parameters_.iterations;
+  options.surface_sigma = parameters_.surface_sigma;
+  options.coarse_level = prediction.is_measured ? 0 : 1;
+  options.start_sigma = prediction.is_measured ? 0.0 : motion_.isKnown() ? kPredictedStart : kUnknownStart;
+  const int rounds = parameters_.deskew && points.last_s > points.first_s ? parameters_.rounds : 1;
+  for (int round = 0; round < rounds; ++round) {
+    const Pose T_last_now = T_odom_base_.inverse() * aligned.registration.T_odom_base;
+    const Vector6d twist = parameters_.deskew && prediction.seconds > 0.0
+                               ? motion_.sweepTwist(T_last_now, prediction.seconds)
+                               : Vector6d::Zero();
+    aligned.points = deskew(points, twist);
+    const std::vector<Patch> patches = makePatches(aligned.points, parameters_.cell);
+    aligned.registration = registerPatches(patches, map_, predicted, aligned.registration.T_odom_base, options);
+    aligned.iterations += aligned.registration.iterations;
+    options.coarse_level = 0;
+    options.start_sigma = 0.0;
+  }
+  return aligned;
+}
+
+Pose Pipeline::searchStart(const SweepPoints& points, const Prediction& prediction) {
+  const std::vector<Patch> patches = makePatches(deskew(points, Vector6d::Zero()), parameters_.cell);
+  RegistrationOptions options;
+  options.iterations = 6;
+  options.surface_sigma = parameters_.surface_sigma;
+  options.coarse_level = 0;
+  options.start_sigma = kUnknownStart;
+  const auto fit = [&](const Pose& pose) {
+    double sum = 0.0;
+    for (const PatchMatch& match : matchPatches(patches, map_, pose, parameters_.surface_sigma, 0))
+      sum += 1.0 / (1.0 + match.residual * match.residual * match.row.weight);
+    return sum;
+  };
+  Pose best = registerPatches(patches, map_, T_odom_base_, T_odom_base_, options).T_odom_base;
+  double most = kStartGain * fit(best);
+  const int steps = static_cast<int>(std::min(kStartSteps, std::ceil(kStartSpeed * prediction.seconds / kStartStep)));
+  for (int i = -steps; i <= steps; ++i) {
+    if (i == 0) continue;
+    const Pose guess = T_odom_base_ * Pose(Eigen::Quaterniond::Identity(), {i * kStartStep, 0.0, 0.0});
+    const Registration found = registerPatches(patches, map_, guess, guess, options);
+    if (found.free.leavesPositionFree()) continue;  // it stays where it began
+    const double sum = fit(found.T_odom_base);
+    if (sum <= most) continue;
+    most = sum;
+    best = found.T_odom_base;
+  }
+  return best;
+}
+
+Pipeline::Aligned Pipeline::alignSecond(const SweepPoints& points, const Prediction& prediction) {
+  const Pose T_odom_first = T_odom_base_;
+  const bool is_known = prediction.is_measured || motion_.isKnown();
+  Pose guess = is_known ? T_odom_base_ * prediction.T_last_now : searchStart(points, prediction);
+  Aligned aligned;
+  const SweepPoints first = first_;
+  for (int round = 0; round < kStartRounds; ++round) {
+    const Vector6d twist = parameters_.deskew && prediction.seconds > 0.0
+                               ? Vector6d(urban_nav_core::logSe3(T_odom_first.inverse() * guess) / prediction.seconds)
+                               : Vector6d::Zero();
+    --sweep_;  // the map is that of the sweep before
+    beginMap(first, twist);
+    ++sweep_;
+    aligned = align(points, prediction, guess);
+    guess = aligned.registration.T_odom_base;
+  }
+  return aligned;
+}
+
+Matrix6d Pipeline::skewCovariance(const Sweep& sweep) const {
+  if (sweep.times == Sweep::Times::Deskewed) return Matrix6d::Zero();
+  if (sweep.times == Sweep::Times::Measured && parameters_.deskew) return Matrix6d::Zero();
+  // The returns of a sweep are spread evenly over its duration; their mean displacement is not known.
+  const double seconds = std::min(std::max(sweep.duration, 0.0), kLongestSweep);
+  const Vector6d shift = motion_.twist() * seconds / std::sqrt(12.0);
+  Matrix6d C = Matrix6d::Zero();
+  C.topLeftCorner<3, 3>().diagonal().setConstant(shift.head<3>().squaredNorm());
+  C.bottomRightCorner<3, 3>().diagonal().setConstant(shift.tail<3>().squaredNorm());
+  return C;
+}
+
+void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const Prediction& prediction,
+                      const Sweep& sweep, LaserPose& result) {
+  const Registration& registration = aligned.registration;
+  const Pose T_odom_last = T_odom_base_;
+  T_odom_base_ = registration.T_odom_base;
+  errors_.observe(registration.matches, sweep_);
+
+  const urban_nav_core::Between step = urban_nav_core::between(T_odom_last, T_odom_base_);
+  result.step.T_from_to = step.T_b_c;
+  // The prior covariance in odom: d_odom = J2^-1 d_step.
+  const Matrix3d R = T_odom_last.R();
+  Matrix6d to_odom = Matrix6d::Zero();
+  to_odom.topLeftCorner<3, 3>() = R;
+  to_odom.bottomRightCorner<3, 3>() = R;
+  const Matrix6d prior = to_odom * prediction.covariance * to_odom.transpose();
+  const Matrix6d unit = covarianceOfObserved(registration.information, registration.free, Matrix6d::Zero());
+  const Matrix6d along_free = covarianceOfObserved(registration.information, registration.free, prior) - unit;
+  const Matrix6d floor = ErrorModel::endFloor();
+  const Matrix6d end = errors_.passing() * unit + floor + skewCovariance(sweep);
+  const double age = errors_.age();
+  const double share = 2.0 / (2.0 * age + 1.0);
+  const double length = step.T_b_c.t().norm();
+  const Matrix6d drift =
+      errors_.lasting() / age * unit + share * share * end + along_free + ErrorModel::driftFloor(length);
+  result.step.drift_covariance = urban_nav_core::transformCovariance(step.J2, drift);
+  result.step.covariance = urban_nav_core::transformCovariance(step.J1, end_covariance_) +
+                           urban_nav_core::transformCovariance(step.J2, end + drift);
+  end_covariance_ = end;
+
+  const Matrix3d R_base_odom = T_odom_base_.R().transpose();
+  for (const Vector6d& direction : registration.free.directions) {
+    Vector6d turned;
+    turned << R_base_odom * direction.head<3>(), R_base_odom * direction.tail<3>();
+    result.free_directions.push_back(turned.normalized());
+  }
+  motion_.update(step.T_b_c, prediction.seconds, prediction.is_measured || !registration.free.isFree());
+  lost_ = 0;
+  grow(aligned, points);
+}
+
+void Pipeline::grow(const Aligned& aligned, const SweepPoints& points) {
+  if (!motion_.isKnown()) {  // sweeps that are not placed in all directions would blur each other
+    beginMap(points, parameters_.deskew ? motion_.twist() : Vector6d::Zero());
+    return;
+  }
+  first_ = SweepPoints();
+  std::vector<Vector3d> placed = aligned.points;
+  for (Vector3d& p : placed) p = T_odom_base_ * p;
+  map_.insert(placed, T_odom_base_ * T_base_lidar_.t(), sweep_);
+  if ((T_odom_base_.t() - pruned_at_).norm() > kPruneStep) {
+    map_.prune(T_odom_base_.t(), parameters_.map_range);
+    pruned_at_ = T_odom_base_.t();
+  }
+}
+
+void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& result) {
+  result.step.T_from_to = prediction.T_last_now;
+  result.step.covariance = started_ ? prediction.covariance : Matrix6d(kFirstCovariance * Matrix6d::Identity());
+  result.step.drift_covariance = started_ ? prediction.covariance : Matrix6d(Matrix6d::Zero());
+  T_odom_base_ = T_odom_base_ * prediction.T_last_now;
+  if (started_) motion_.update(prediction.T_last_now, prediction.seconds, prediction.is_measured);
+  for (int i = 0; started_ && i < 6; ++i) result.free_directions.push_back(Vector6d::Unit(i));
+}
+
+void Pipeline::restartIfLost(const SweepPoints& points, LaserPose& result) {
+  if (++lost_ < kLostLimit || points.p.empty()) return;
+  motion_ = MotionModel(parameters_);
+  beginMap(points, parameters_.deskew ? motion_.twist() : Vector6d::Zero());
+  result.status.sentence += "; a new local map begins";
+}
+
+}  // namespace laser_odometry

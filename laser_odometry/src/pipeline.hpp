@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "error_model.hpp"
+#include "laser_odometry/laser_odometry.hpp"
+#include "motion.hpp"
+#include "registration.hpp"
+#include "surface_map.hpp"
+#include "sweep_points.hpp"
+
+namespace laser_odometry {
+
+/// Variance of the first pose, which is the origin: numbers that are positive, m^2 and rad^2.
+constexpr double kFirstCovariance = 1e-12;
+
+/// The odometry itself: prediction, deskewing, registration, covariance, growth of the map.
+class Pipeline {
+ public:
+  Pipeline(const Parameters& parameters, const Pose& T_base_lidar);
+
+  LaserPose process(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior);
+  std::vector<MapPoint> localMap() const;
+  std::string state() const;
+  void restore(std::string_view state);
+
+ private:
+  /// Motion since the last sweep before it is registered: T_last_now and its covariance (tangent as in
+  /// PoseWithCovariance).
+  struct Prediction {
+    double seconds = 0.0;
+    Pose T_last_now;
+    Matrix6d covariance = Matrix6d::Identity();
+    bool is_measured = false;  ///< by another sensor
+  };
+  /// A registered sweep with the points of its last round, in base_link.
+  struct Aligned {
+    Registration registration;
+    std::vector<Vector3d> points;
+    int iterations = 0;
+  };
+
+  Prediction predict(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior) const;
+  void beginMap(const SweepPoints& points, const Vector6d& twist);
+  Pose searchStart(const SweepPoints& points, const Prediction& prediction);
+  Aligned align(const SweepPoints& points, const Prediction& prediction, const Pose& guess);
+  Aligned alignSecond(const SweepPoints& points, const Prediction& prediction);
+  void accept(const Aligned& aligned, const SweepPoints& points, const Prediction& prediction,
+              const urban_nav_core::Sweep& sweep, LaserPose& result);
+  void grow(const Aligned& aligned, const SweepPoints& points);
+  bool isPlausible(const Registration& registration, const Prediction& prediction) const;
+  void continueByPrediction(const Prediction& prediction, LaserPose& result);
+  void restartIfLost(const SweepPoints& points, LaserPose& result);
+  void accumulate(const Pose& T_odom_last, const urban_nav_core::RelativePose& step);
+  LaserPose drop(const urban_nav_core::Sweep& sweep) const;
+  void assess(const Aligned& aligned, const SweepPoints& points, const urban_nav_core::Sweep& sweep,
+              const Prediction& prediction, LaserPose& result) const;
+  Matrix6d skewCovariance(const urban_nav_core::Sweep& sweep) const;
+  std::string fingerprint() const;
+  void archive(urban_nav_core::Archive& archive);
+
+  Parameters parameters_;
+  Pose T_base_lidar_;
+
+  SurfaceMap map_;
+  MotionModel motion_;
+  ErrorModel errors_;
+  std::int32_t sweep_ = 0;  ///< number of the next sweep
+  bool started_ = false;
+  urban_nav_core::StampNs stamp_ = 0;
+  Pose T_odom_base_;
+  Matrix6d end_covariance_ = Matrix6d::Zero();  ///< of the last pose against the map
+  bool has_step_ = false;
+  Matrix6d drift_ = Matrix6d::Zero();  ///< covariance of T_odom_base without the error of its own end
+  Matrix6d covariance_ = kFirstCovariance * Matrix6d::Identity();  ///< of T_odom_base
+  double usual_s_ = 0.0;                                           ///< usual time between sweeps
+  std::int32_t lost_ = 0;  ///< sweeps without registration since the last one with it
+  Vector3d pruned_at_ = Vector3d::Zero();
+  SweepPoints first_;  ///< of the sweep that began the map, until the next one tells its velocity
+};
+
+}  // namespace laser_odometry

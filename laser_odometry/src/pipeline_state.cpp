@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline.hpp"
+
+#include <cmath>
+
+#include "status.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace laser_odometry {
+
+using urban_nav_core::Health;
+
+namespace {
+
+constexpr const char* kStateName = "laser_odometry";
+constexpr std::uint32_t kStateVersion = 1;
+constexpr double kPlausible = 15.0;  // standard deviations of the prediction by constant velocity
+constexpr double kGap = 1.7;         // usual times between sweeps
+constexpr double kOverlap = 0.7;     // of the duration of a sweep, from one to the next
+
+}  // namespace
+
+void Pipeline::assess(const Aligned& aligned, const SweepPoints& points, const urban_nav_core::Sweep& sweep,
+                      const Prediction& prediction, LaserPose& result) const {
+  const Registration& registration = aligned.registration;
+  result.status = statusOfRegistration(registration, points, registration.T_odom_base, parameters_);
+  Statistics& figures = result.statistics;
+  figures.patches = static_cast<int>(registration.matches.size());
+  figures.iterations = aligned.iterations;
+  figures.residual_m = registration.residual_m;
+  double used = 0.0, moving = 0.0;
+  for (const PatchMatch& match : registration.matches) {
+    (match.robust > 0.1 ? used : moving) += match.count;
+  }
+  figures.used = static_cast<int>(used);
+  figures.moving = static_cast<int>(moving);
+  if (result.status.health == Health::Lost) return;
+  if (!isPlausible(registration, prediction)) {
+    result.status = statusOfJump(prediction.T_last_now, T_odom_base_.inverse() * registration.T_odom_base);
+    return;
+  }
+  if (lost_ > 0 && result.status.health == Health::Ok) result.status.health = Health::Recovered;
+  if (result.status.reason != 0) return;
+  if (usual_s_ > 0.0 && prediction.seconds > kGap * usual_s_) {
+    result.status.reason = static_cast<int>(Reason::Gap);
+    result.status.sentence = std::to_string(static_cast<int>(1e3 * prediction.seconds)) +
+                             " ms since the last sweep, usual are " + std::to_string(static_cast<int>(1e3 * usual_s_)) +
+                             ": sweeps are missing";
+  } else if (sweep.times == urban_nav_core::Sweep::Times::Measured && prediction.seconds < kOverlap * sweep.duration) {
+    result.status.reason = static_cast<int>(Reason::Overlap);
+    result.status.sentence = std::to_string(static_cast<int>(1e3 * prediction.seconds)) +
+                             " ms from sweep to sweep, which last " +
+                             std::to_string(static_cast<int>(1e3 * sweep.duration)) + " ms: sweeps overlap";
+  }
+}
+
+bool Pipeline::isPlausible(const Registration& registration, const Prediction& prediction) const {
+  // Another sensor knows its motion better than its covariance may say; at the start nothing is known.
+  if (prediction.is_measured || !motion_.isKnown() || !first_.p.empty()) return true;
+  const Vector6d d = urban_nav_core::boxMinus(T_odom_base_.inverse() * registration.T_odom_base, prediction.T_last_now);
+  const double sigma = std::sqrt(prediction.covariance(0, 0)), turn_sigma = std::sqrt(prediction.covariance(3, 3));
+  return d.head<3>().norm() <= kPlausible * sigma && d.tail<3>().norm() <= kPlausible * turn_sigma;
+}
+
+std::vector<MapPoint> Pipeline::localMap() const {
+  std::vector<MapPoint> points;
+  for (int level = 0; level < map_.levels(); ++level) {
+    for (const MapCell& cell : map_.cells(level)) {
+      // A plane of a finer level at the same place replaces this one.
+      bool is_covered = false;
+      for (int finer = 0; finer < level && !is_covered; ++finer) is_covered = map_.hasPlane(cell, finer);
+      const Plane plane = cell.is_current ? cell.plane : fitPlane(cell.moments, cell.centre);
+      if (is_covered || !plane.usable) continue;
+      points.push_back(
+          {plane.mean.cast<float>(), plane.normal.cast<float>(), static_cast<float>(std::sqrt(plane.variance))});
+    }
+  }
+  return points;
+}
+
+std::string Pipeline::fingerprint() const {
+  std::string text;
+  for (const auto& row : table().rows()) text += row.name + "=" + printValue(table().get(parameters_, row.name)) + ";";
+  urban_nav_core::Archive archive;
+  Pose place = T_base_lidar_;
+  archive(place);
+  return text + archive.take();
+}
+
+void Pipeline::archive(urban_nav_core::Archive& archive) {
+  archive(map_, motion_, errors_, sweep_, started_, stamp_, T_odom_base_, end_covariance_, has_step_, drift_,
+          covariance_, usual_s_, lost_, pruned_at_, first_);
+  archive.require(sweep_ >= 0 && lost_ >= 0 && usual_s_ >= 0.0, "a negative number");
+}
+
+std::string Pipeline::state() const {
+  urban_nav_core::Archive archive;
+  std::string known = fingerprint();
+  archive(known);
+  const_cast<Pipeline*>(this)->archive(archive);  // writes alone
+  return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
+}
+
+void Pipeline::restore(std::string_view state) {
+  urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), "state of laser_odometry");
+  std::string known;
+  archive(known);
+  if (known != fingerprint())
+    throw urban_nav_core::UserError("state of laser_odometry", "written with other parameters or another T_base_lidar",
+                                    "the parameters and the mounting that it was written with");
+  this->archive(archive);
+  archive.finish();
+}
+
+}  // namespace laser_odometry

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "registration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace laser_odometry {
+namespace {
+
+constexpr std::size_t kFewestMatches = 12;
+constexpr double kSmallStep = 2e-5;       // m and rad: a tenth of what a sweep is known to
+constexpr double kCauchy = 2.385;         // 95 % efficiency for normal errors (Holland, Welsch 1977)
+constexpr double kSmallStart = 0.005;     // m
+constexpr double kThickest = 6.0;         // variance of a patch over that of its plane
+constexpr double kNormalMedian = 0.6745;  // of |x| of a standard normal variable
+
+/// Median of |values|, which are reordered.
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Robust standard deviation of residual / sqrt(variance); 0 without matches.
+double robustSpread(const std::vector<PatchMatch>& matches) {
+  std::vector<double> whitened;
+  whitened.reserve(matches.size());
+  for (const PatchMatch& match : matches) whitened.push_back(std::abs(match.residual) * std::sqrt(match.row.weight));
+  return median(whitened) / kNormalMedian;
+}
+
+/// Sets the factors of the kernel. `scale`: spread of the whitened residuals. `start_sigma`: of what an error of the
+/// pose may add, m.
+void setRobustFactors(std::vector<PatchMatch>& matches, double scale, double start_sigma) {
+  const double least = 1e-6;
+  for (PatchMatch& match : matches) {
+    const double variance = std::max(scale * scale, least) / match.row.weight + start_sigma * start_sigma;
+    match.robust = 1.0 / (1.0 + match.residual * match.residual / (kCauchy * kCauchy * variance));
+  }
+}
+
+}  // namespace
+
+std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& T_odom_base,
+                                     double surface_sigma, int level) {
+  std::vector<PatchMatch> matches;
+  matches.reserve(patches.size());
+  const Matrix3d R = T_odom_base.R();
+  for (const Patch& patch : patches) {
+    const Vector3d turned = R * patch.mean;
+    const Vector3d p = turned + T_odom_base.t();
+    MapCell* cell = map.find(p, level);
+    if (cell == nullptr) continue;
+    const Plane& plane = cell->plane;
+    PatchMatch match;
+    match.cell = cell;
+    match.residual = plane.normal.dot(p - plane.mean);
+    const Vector3d normal_base = R.transpose() * plane.normal;
+    const double thickness = std::max(0.0, normal_base.dot(patch.covariance * normal_base));
+    if (thickness > kThickest * (plane.variance + kBeamVariance)) continue;  // it reaches over an edge
+    const double tilt = plane.normal_variance * (p - plane.mean).squaredNorm();
+    match.row = {plane.normal, turned, std::sqrt(plane.normal_variance),
+                 1.0 / (plane.variance + thickness + tilt + kBeamVariance + surface_sigma * surface_sigma)};
+    match.count = patch.count;
+    match.p_odom = p;
+    matches.push_back(match);
+  }
+  return matches;
+}
+
+Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& prior, const Pose& start,
+                             const RegistrationOptions& options) {
+  Registration result;
+  result.T_odom_base = start;
+  std::vector<PlaneRow> rows;
+  double start_sigma = options.start_sigma;
+  int level = std::min(options.coarse_level, map.levels() - 1);
+  for (int i = 0; i < options.iterations; ++i) {
+    result.matches = matchPatches(patches, map, result.T_odom_base, options.surface_sigma, level);
+    result.iterations = i + 1;
+    if (result.matches.size() < kFewestMatches) break;
+    result.scale = robustSpread(result.matches);
+    setRobustFactors(result.matches, result.scale, start_sigma);
+    const bool is_narrow = start_sigma < kSmallStart;
+    start_sigma = is_narrow ? 0.0 : 0.5 * start_sigma;
+    Matrix6d H = Matrix6d::Zero();
+    Vector6d g = Vector6d::Zero();
+    rows.clear();
+    for (const PatchMatch& match : result.matches) {
+      PlaneRow row = match.row;
+      row.weight *= match.robust;
+      const Vector6d J = row.jacobian();
+      H.noalias() += row.weight * J * J.transpose();
+      g -= row.weight * match.residual * J;
+      rows.push_back(row);
+    }
+    result.free = findFreeSubspace(rows);
+    result.information = H;
+    const Vector6d back = urban_nav_core::boxMinus(prior, result.T_odom_base);
+    const Vector6d step = solveObserved(H, g, result.free, back);
+    result.T_odom_base = urban_nav_core::boxPlus(result.T_odom_base, step);
+    result.solved = true;
+    const bool is_small = step.head<3>().norm() < kSmallStep && step.tail<3>().norm() * result.free.lever < kSmallStep;
+    if (is_small && level == 0 && is_narrow) break;
+    if (level > 0 && (is_small || step.head<3>().norm() < 0.02)) --level;
+  }
+  std::vector<double> distances;
+  double agreeing = 0.0;
+  for (const PatchMatch& match : result.matches) {
+    distances.push_back(std::abs(match.residual));
+    agreeing += match.robust;
+  }
+  result.share = result.matches.empty() ? 0.0 : agreeing / static_cast<double>(result.matches.size());
+  result.residual_m = median(distances) / kNormalMedian;
+  return result;
+}
+
+}  // namespace laser_odometry

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "observability.hpp"
+#include "patches.hpp"
+#include "surface_map.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace laser_odometry {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
+
+/// A patch of a sweep and the plane of the map that it lies on.
+struct PatchMatch {
+  MapCell* cell = nullptr;
+  double residual = 0.0;               ///< distance of the patch from the plane, m
+  double robust = 1.0;                 ///< factor of the robust kernel, 0...1
+  double count = 0.0;                  ///< points of the patch
+  PlaneRow row;                        ///< normal, lever and `weight` without the robust factor
+  Vector3d p_odom = Vector3d::Zero();  ///< m
+};
+
+struct RegistrationOptions {
+  int iterations = 12;
+  double surface_sigma = 0.02;  ///< m
+  int coarse_level = 0;         ///< finest level of the map that the first steps use
+  /// Residuals that the first step expects from an error of the start, m (one sigma at the surfaces); halved with each
+  /// step. Without it the many patches of the ground would make outliers of the walls that a wrong heading moves.
+  double start_sigma = 0.1;
+};
+
+/// Result of a registration. Tangents as in PoseWithCovariance: parent frame odom.
+struct Registration {
+  Pose T_odom_base;
+  Matrix6d information = Matrix6d::Zero();  ///< of independent patches, with robust weights
+  FreeSubspace free;
+  std::vector<PatchMatch> matches;
+  double scale = 1.0;       ///< robust standard deviation of residual / sqrt(variance)
+  double residual_m = 0.0;  ///< robust standard deviation of the residuals, m
+  double share = 0.0;       ///< of the patches near surfaces of the map, those that agree with them
+  int iterations = 0;
+  bool solved = false;  ///< false: too few matches for a solution; the pose is `start`
+};
+
+/// Registers patches to the map: point to plane with each plane's own variance, Cauchy kernel at the observed spread.
+/// Begins at `start`. Directions that the matches do not constrain are those of `prior`. The map's planes are brought
+/// up to date.
+Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& prior, const Pose& start,
+                             const RegistrationOptions& options);
+
+/// Matches of the patches at a pose, in their order, without robust factors.
+std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& T_odom_base,
+                                     double surface_sigma, int level);
+
+}  // namespace laser_odometry

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/laser/sweep.hpp"
+
+namespace laser_odometry {
+
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
+using urban_nav_core::Vector6d;
+
+/// Returns of a sweep in base_link, each as base_link was when it was measured.
+struct SweepPoints {
+  std::vector<Eigen::Vector3f> p;      ///< m
+  std::vector<float> time;             ///< s after the reference time; zeros without times
+  double first_s = 0.0, last_s = 0.0;  ///< range of `time`
+  int valid = 0;                       ///< finite beams, `near` and far ones included
+  int near = 0;                        ///< left out: nearer than min_range
+
+  void archive(urban_nav_core::Archive& archive);
+};
+
+/// Returns the beams of a sweep between two ranges (m). Beams that are not finite are left out; so are times more than
+/// `longest_s` from the reference, which no sweep has.
+SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, double min_range,
+                          double max_range, double longest_s);
+
+/// Returns the points as base_link sees them at the reference time if it moves with the constant twist (SE(3) tangent
+/// in base_link: m/s, rad/s). Error below 1 um for rotations of 0.3 rad in a sweep.
+std::vector<Vector3d> deskew(const SweepPoints& points, const Vector6d& twist);
+
+}  // namespace laser_odometry
