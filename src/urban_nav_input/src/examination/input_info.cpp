@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "recording/bag_order.hpp"
-#include "recording/message/connection_definition.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"

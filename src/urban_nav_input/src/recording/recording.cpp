@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "recording/bag_contents.hpp"
-#include "recording/message/connection_definition.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 #include "recording/recording_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 

@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "recording/message/connection_definition.hpp"
 #include "recording/message/ros1_form.hpp"
 #include "recording/message/transcoder.hpp"
 #include "recording/storage/bag_file_writer.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 #include "urban_nav_input/recording/mcap_writer.hpp"
 
 namespace urban_nav_input {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "recording/message/connection_definition.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/laser/cloud/cloud_survey.hpp"
 #include "urban_nav_core/laser/cloud/livox.hpp"

@@ -31,6 +31,8 @@ class RecordedMessage {
 
   const Connection& connection() const;
   const std::string& topic() const { return connection().topic; }
+  /// Returns the file that holds the message.
+  const std::string& path() const;
   /// Returns the time at which the recorder received the message, ns.
   urban_nav_core::StampNs receipt() const { return entry_.receipt; }
   /// Returns the message as it is encoded, valid until another one of the recording is read; no data if it is damaged.
@@ -70,7 +72,6 @@ class RecordedMessage {
   };
   /// Returns the bytes as those of a type; nullopt if they are of another type, or could not be read.
   std::optional<Encoded> encodedAs(const Type& type) const;
-  const std::string& path() const;
 
   RecordingFile* file_;
   std::size_t connection_;

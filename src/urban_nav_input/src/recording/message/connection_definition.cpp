@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recording/message/connection_definition.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 
+#include <strings.h>
+
+#include <algorithm>
 #include <stdexcept>
 
 #include "recording/message/known_types.hpp"
@@ -17,6 +20,22 @@ MessageDefinition findDefinition(const Connection& connection) {
   if (!known) throw std::invalid_argument("the recording does not hold the definition of " + connection.type);
   const MessageDefinition definition = parseDefinition(connection.type, known->definition);
   return connection.encoding == "ros1" ? definition : withoutSequence(definition);
+}
+
+MessageDefinition withRos1Names(MessageDefinition definition) {
+  for (MessageLayout& layout : definition.layouts) {
+    const std::optional<KnownType> known = findKnownType(layout.type);
+    if (!known) continue;
+    const MessageDefinition ros1 = parseDefinition(layout.type, known->definition);
+    const std::vector<MessageField>& members = ros1.layouts.front().fields;
+    for (MessageField& field : layout.fields) {
+      const auto same = std::find_if(members.begin(), members.end(), [&](const MessageField& member) {
+        return strcasecmp(member.name.c_str(), field.name.c_str()) == 0;
+      });
+      if (same != members.end()) field.name = same->name;
+    }
+  }
+  return definition;
 }
 
 }  // namespace urban_nav_input

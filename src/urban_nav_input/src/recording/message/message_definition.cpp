@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recording/message/message_definition.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 
 #include <algorithm>
 #include <boost/uuid/detail/md5.hpp>

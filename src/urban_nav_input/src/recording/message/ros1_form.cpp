@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "recording/message/connection_definition.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 #include "recording/message/known_types.hpp"
 
 namespace urban_nav_input {

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "urban_nav_input/recording/member_reader.hpp"
+
 namespace urban_nav_input {
 
 namespace {
@@ -25,22 +27,17 @@ class TranscoderRun {
   TranscoderRun(Transcoder& transcoder, ByteView in, MessageEncoding from, MessageEncoding to)
       : transcoder_(transcoder),
         out_(transcoder.out_),
-        at_(in.data),
-        end_(in.data + in.size),
-        reads_cdr_(from != MessageEncoding::Ros1),
+        in_(in, from),
         swaps_(from == MessageEncoding::CdrBigEndian),
         writes_cdr_(to != MessageEncoding::Ros1) {
     out_.clear();
     out_.reserve(in.size + in.size / 8);
-    if (reads_cdr_) take(kEncapsulation);
-    begin_ = at_;
     if (writes_cdr_) out_ = {0, 1, 0, 0};
   }
 
   void copyMessage(std::size_t source, std::size_t target) {
     const Transcoder::Plan& plan = transcoder_.plan(source, target);
-    // ROS 2 gives a message without members one of a byte.
-    if (reads_cdr_ && transcoder_.source_.layouts[source].fields.empty()) take(1);
+    in_.enter(transcoder_.source_.layouts[source]);
     for (const Transcoder::Step& step : plan) {
       if (step.source != nullptr && step.target != nullptr) copyField(*step.source, *step.target);
       else if (step.source != nullptr) skipField(*step.source);
@@ -50,38 +47,16 @@ class TranscoderRun {
   }
 
  private:
-  const std::uint8_t* take(std::size_t size) {
-    if (size > static_cast<std::size_t>(end_ - at_)) throw std::runtime_error("a message ends before its last member");
-    const std::uint8_t* taken = at_;
-    at_ += size;
-    return taken;
-  }
-  const std::uint8_t* takeNumbers(std::size_t count, std::size_t size) {
-    if (count == 0) return at_;
-    if (reads_cdr_) {
-      const std::size_t beyond = static_cast<std::size_t>(at_ - begin_) % size;
-      if (beyond != 0) take(size - beyond);
-    }
-    if (count > static_cast<std::size_t>(end_ - at_) / size)
-      throw std::runtime_error("a message ends before its last member");
-    return take(count * size);
-  }
-  std::uint32_t takeCount() {
-    std::uint32_t count = 0;
-    std::memcpy(&count, takeNumbers(1, sizeof(count)), sizeof(count));
-    return swaps_ ? __builtin_bswap32(count) : count;
-  }
-
   void alignOut(std::size_t size) {
     if (!writes_cdr_) return;
     const std::size_t beyond = (out_.size() - kEncapsulation) % size;
     if (beyond != 0) out_.resize(out_.size() + size - beyond, 0);
   }
-  void putNumbers(const std::uint8_t* from, std::size_t count, std::size_t size) {
-    if (count == 0) return;
+  void putNumbers(ByteView numbers, std::size_t size) {
+    if (numbers.size == 0) return;
     alignOut(size);
     const std::size_t begin = out_.size();
-    out_.insert(out_.end(), from, from + count * size);
+    out_.insert(out_.end(), numbers.data, numbers.data + numbers.size);
     if (!swaps_ || size == 1) return;
     for (std::size_t i = begin; i < out_.size(); i += size)
       std::reverse(out_.begin() + static_cast<std::ptrdiff_t>(i), out_.begin() + static_cast<std::ptrdiff_t>(i + size));
@@ -94,54 +69,42 @@ class TranscoderRun {
     out_.insert(out_.end(), bytes, bytes + sizeof(number));
   }
 
-  ByteView takeText() {
-    const std::size_t size = takeCount();
-    const std::uint8_t* text = take(size);
-    return {text, reads_cdr_ && size > 0 && text[size - 1] == 0 ? size - 1 : size};
-  }
   void putText(ByteView text) {
     putCount(text.size + (writes_cdr_ ? 1 : 0));
     out_.insert(out_.end(), text.data, text.data + text.size);
     if (writes_cdr_) out_.push_back(0);
   }
 
-  std::size_t readSize(const MessageField& field) {
-    if (field.array != MessageField::Array::Sequence) return field.count;
-    const std::size_t count = takeCount();
-    if (count > static_cast<std::size_t>(end_ - at_)) throw std::runtime_error("a message ends before its last member");
-    return count;
-  }
-
   void copyField(const MessageField& source, const MessageField& target) {
-    const std::size_t count = readSize(source);
+    const std::size_t count = in_.count(source);
     if (target.array == MessageField::Array::Sequence) putCount(count);
     switch (source.kind) {
       case FieldKind::Text:
-        for (std::size_t i = 0; i < count; ++i) putText(takeText());
+        for (std::size_t i = 0; i < count; ++i) putText(in_.text());
         return;
       case FieldKind::Message:
         for (std::size_t i = 0; i < count; ++i) copyMessage(source.layout, target.layout);
         return;
-      case FieldKind::Time: putNumbers(takeNumbers(2 * count, 4), 2 * count, 4); return;
-      default: putNumbers(takeNumbers(count, numberSize(source.kind)), count, numberSize(source.kind));
+      case FieldKind::Time: putNumbers(in_.numbers(2 * count, 4), 4); return;
+      default: putNumbers(in_.numbers(count, numberSize(source.kind)), numberSize(source.kind));
     }
   }
 
   void skipField(const MessageField& field) {
-    const std::size_t count = readSize(field);
+    const std::size_t count = in_.count(field);
     switch (field.kind) {
       case FieldKind::Text:
-        for (std::size_t i = 0; i < count; ++i) takeText();
+        for (std::size_t i = 0; i < count; ++i) in_.text();
         return;
       case FieldKind::Message:
         for (std::size_t i = 0; i < count; ++i) {
           const MessageLayout& layout = transcoder_.source_.layouts[field.layout];
-          if (reads_cdr_ && layout.fields.empty()) take(1);
+          in_.enter(layout);
           for (const MessageField& member : layout.fields) skipField(member);
         }
         return;
-      case FieldKind::Time: takeNumbers(2 * count, 4); return;
-      default: takeNumbers(count, numberSize(field.kind));
+      case FieldKind::Time: in_.numbers(2 * count, 4); return;
+      default: in_.numbers(count, numberSize(field.kind));
     }
   }
 
@@ -151,24 +114,22 @@ class TranscoderRun {
     for (std::size_t i = 0; i < field.count; ++i) {
       switch (field.kind) {
         case FieldKind::Text: putText({}); break;
-        case FieldKind::Time: putNumbers(kZeros, 2, 4); break;
+        case FieldKind::Time: putNumbers({kZeros, 8}, 4); break;
         case FieldKind::Message: {
           const MessageLayout& layout = transcoder_.target_.layouts[field.layout];
           if (writes_cdr_ && layout.fields.empty()) out_.push_back(0);
           for (const MessageField& member : layout.fields) writeDefault(member);
           break;
         }
-        default: putNumbers(kZeros, 1, numberSize(field.kind));
+        default: putNumbers({kZeros, numberSize(field.kind)}, numberSize(field.kind));
       }
     }
   }
 
   Transcoder& transcoder_;
   std::vector<std::uint8_t>& out_;
-  const std::uint8_t* at_;
-  const std::uint8_t* end_;
-  const std::uint8_t* begin_ = nullptr;  // alignment counts from here
-  bool reads_cdr_, swaps_, writes_cdr_;
+  MemberReader in_;
+  bool swaps_, writes_cdr_;
 };
 
 Transcoder::Transcoder(MessageDefinition source, MessageDefinition target)

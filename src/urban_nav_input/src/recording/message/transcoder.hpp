@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "recording/message/message_definition.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 #include "urban_nav_input/recording/byte_view.hpp"
 #include "urban_nav_input/recording/message_encoding.hpp"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "recording/message/message_definition.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 #include "recording/storage/packed_message.hpp"
 #include "recording/storage/sqlite_file.hpp"
 #include "recording/storage/storage.hpp"

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "recording/message/message_definition.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 #include "recording/storage/byte_reader.hpp"
 #include "recording/storage/mapped_file.hpp"
 #include "recording/storage/mcap_chunk_cache.hpp"

@@ -16,7 +16,7 @@
 
 #include <stdexcept>
 
-#include "recording/message/message_definition.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 #include "recording/storage/byte_writer.hpp"
 #include "recording/storage/crc32.hpp"
 #include "recording/storage/inflate.hpp"
