@@ -149,7 +149,7 @@ command_is_current() {
     \( -name test -o -name testing -o -name bench -o -name README.md \) -prune -o -newer "$ws/command.built" -print -quit)" ]
 }
 
-# Builds the command and what it needs, nothing else.
+# Builds the command with the Python module, and what they need, nothing else.
 build_command() (
   use_system_tools
   lock
@@ -158,6 +158,6 @@ build_command() (
   configure_command
   if [ ! -x "$program" ]; then say "Building the urban_nav command; the first time takes some minutes"; fi
   : >"$ws/command.started"
-  compile "$ws" "Building the urban_nav command" urban_nav || die "the command does not compile"
+  compile "$ws" "Building the urban_nav command" urban_nav urban_nav_python || die "the command does not compile"
   mv "$ws/command.started" "$ws/command.built"
 )

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/console.hpp"
+#include "base/python_path.hpp"
 #include "base/version.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text.hpp"
@@ -74,7 +75,8 @@ std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
       "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
       "trust both.\n\n"
-      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more; urban_nav --version)\n\n";
+      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more; urban_nav --version)\n"
+      "       urban_nav --python-path          (folder for PYTHONPATH with which `import urban_nav` works)\n\n";
   return text + summaryLines(commands) +
          "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
 }
@@ -238,6 +240,10 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
     }
     if (name == "--version") {
       console.print("urban_nav " + suiteVersion() + "\n");
+      return 0;
+    }
+    if (name == "--python-path") {
+      console.print(pythonPath() + "\n");
       return 0;
     }
     const Command& command = findCommand(commands, name, "urban_nav", "command");
