@@ -196,5 +196,16 @@ void f(const int x) {
         self.assertEqual(len(breaches(lint.nodelet_lines, **{path: "\n" * (most - 50)})), 1, "a limit above today's number")
 
 
+class Versions(unittest.TestCase):
+    def test_packages_have_the_version_of_the_change_log(self):
+        package = "<package><version>{}</version></package>"
+        log = "# Changes\n\n## 1.2.3 (today)\n\n## 1.2.2\n"
+        self.assertEqual(breaches(lint.versions, CHANGELOG_md=log, a__package_xml=package.format("1.2.3")), [])
+        self.assertEqual(breaches(lint.versions, CHANGELOG_md=log, a__package_xml=package.format("1.2.2")),
+                         ["a/package.xml: version 1.2.2, in CHANGELOG.md 1.2.3"])
+        self.assertEqual(len(breaches(lint.versions, CHANGELOG_md="## next\n")), 1)
+        self.assertEqual(len(breaches(lint.versions)), 1)
+
+
 if __name__ == "__main__":
     unittest.main()
