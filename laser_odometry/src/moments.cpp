@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLeastPoints = 6.0;
 constexpr double kLeastRatio = 10.0;  // of variances in and across the plane
-// More points do not tell a normal better: what is not plane is common to them.
+// More points do not make a normal better known: what is not plane is common to them.
 constexpr double kReachedSigmas = 2.5;
 constexpr double kMostForNormal = 50.0;
 
@@ -41,7 +41,7 @@ Matrix3d Moments::covariance() const {
   return C / count - m * m.transpose();
 }
 
-bool isBeside(const Plane& plane, const Vector3d& p) {
+bool isOutside(const Plane& plane, const Vector3d& p) {
   const Vector3d d = p - plane.mean;
   const double across = d.dot(plane.narrow), along = d.dot(plane.normal.cross(plane.narrow));
   return across * across > kReachedSigmas * kReachedSigmas * plane.width ||

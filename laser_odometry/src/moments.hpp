@@ -53,9 +53,9 @@ struct Plane {
   double normal_variance = 0.0;         ///< of the normal about the direction in which it is known worst, rad^2
 };
 
-/// Returns whether a point lies beside the points of the plane rather than among them: further than 2.5 standard
+/// Returns whether a point lies outside the points of the plane rather than among them: further than 2.5 standard
 /// deviations from their mean in a direction of the plane. There the plane would be extrapolated.
-bool isBeside(const Plane& plane, const Vector3d& p);
+bool isOutside(const Plane& plane, const Vector3d& p);
 
 /// Fits a plane to the moments, whose origin lies at `origin`. Not usable with fewer than six points, or if their
 /// spread along the narrower direction of the plane is below four times that along the normal (standard deviations

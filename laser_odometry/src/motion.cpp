@@ -6,7 +6,7 @@
 namespace laser_odometry {
 namespace {
 
-// What a vehicle may do where nothing is known of it.
+// Usual limits of a vehicle of which nothing is known.
 constexpr double kUsualSpeed = 15.0;  // m/s
 constexpr double kUsualRate = 1.0;    // rad/s
 

@@ -13,6 +13,10 @@ namespace {
 // and the least number of standard deviations of the normal.
 constexpr double kLeastSine = 0.12;
 constexpr double kLeastSigmas = 4.0;
+// Mean square of the rows along a direction that so many of them certainly hold: what lies below kLeastSine could
+// not add up to it.
+constexpr double kSurelyObserved = 0.1;
+constexpr std::size_t kManyRows = 200;
 // Effective number of patches, and their share of all, below which a direction is free.
 constexpr double kLeastPatches = 6.0;
 constexpr double kLeastShare = 0.002;
@@ -100,6 +104,10 @@ FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
   for (int i = 0; i < 6; ++i) {
     const Vector6d direction = eigen.vectors.col(i);
     double patches = 0.0;
+    if (eigen.values[i] > kSurelyObserved * total && rows.size() > kManyRows) {
+      free.evidence.push_back(eigen.values[i] / usual);
+      continue;
+    }
     const Eigen::Vector3d shift = direction.head<3>(), turn = direction.tail<3>() / free.lever;
     for (const PlaneRow& row : rows) {
       const Eigen::Vector3d displacement = shift + turn.cross(row.lever);

@@ -36,7 +36,7 @@ struct FreeSubspace {
 };
 
 /// Finds the directions along which fewer than a handful of patches hold the pose. A patch counts along a direction
-/// only if its plane stands across the displacement by more than its normal may err: noise of the normals is no
+/// only if its plane is across the displacement by more than its normal may err: noise of the normals is no
 /// information (docs/derivations/laser_odometry.md). Invariant to the scale of the weights.
 FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows);
 

@@ -80,7 +80,7 @@ class Pipeline {
   double usual_s_ = 0.0;                                           ///< usual time between sweeps
   std::int32_t lost_ = 0;  ///< sweeps without registration since the last one with it
   Vector3d pruned_at_ = Vector3d::Zero();
-  SweepPoints first_;  ///< of the sweep that began the map, until the next one tells its velocity
+  SweepPoints first_;  ///< of the sweep that began the map, until the next one shows its velocity
 };
 
 }  // namespace laser_odometry

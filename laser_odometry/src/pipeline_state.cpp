@@ -55,7 +55,7 @@ void Pipeline::assess(const Aligned& aligned, const SweepPoints& points, const u
 }
 
 bool Pipeline::isPlausible(const Registration& registration, const Prediction& prediction) const {
-  // Another sensor knows its motion better than its covariance may say; at the start nothing is known.
+  // Another sensor may know its motion better than its covariance states; at the start nothing is known.
   if (prediction.is_measured || !motion_.isKnown() || !first_.p.empty()) return true;
   const Vector6d d = urban_nav_core::boxMinus(T_odom_base_.inverse() * registration.T_odom_base, prediction.T_last_now);
   const double sigma = std::sqrt(prediction.covariance(0, 0)), turn_sigma = std::sqrt(prediction.covariance(3, 3));

@@ -8,7 +8,7 @@ namespace laser_odometry {
 namespace {
 
 constexpr std::size_t kFewestMatches = 12;
-constexpr double kSmallStep = 2e-5;       // m and rad: a tenth of what a sweep is known to
+constexpr double kSmallStep = 1e-4;       // m at the surfaces: a tenth of what a sweep is known to
 constexpr double kCauchy = 2.385;         // 95 % efficiency for normal errors (Holland, Welsch 1977)
 constexpr double kSmallStart = 0.005;     // m
 constexpr double kThickest = 6.0;         // variance of a patch over that of its plane
@@ -83,7 +83,7 @@ Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map,
     result.scale = robustSpread(result.matches);
     setRobustFactors(result.matches, result.scale, start_sigma);
     const bool is_narrow = start_sigma < kSmallStart;
-    start_sigma = is_narrow ? 0.0 : 0.5 * start_sigma;
+    start_sigma = is_narrow ? 0.0 : 0.3 * start_sigma;
     Matrix6d H = Matrix6d::Zero();
     Vector6d g = Vector6d::Zero();
     rows.clear();

@@ -28,8 +28,9 @@ struct RegistrationOptions {
   int iterations = 12;
   double surface_sigma = 0.02;  ///< m
   int coarse_level = 0;         ///< finest level of the map that the first steps use
-  /// Residuals that the first step expects from an error of the start, m (one sigma at the surfaces); halved with each
-  /// step. Without it the many patches of the ground would make outliers of the walls that a wrong heading moves.
+  /// Residuals that the first step expects from an error of the start, m (one sigma at the surfaces); it falls to a
+  /// third with each step. Without it the many patches of the ground would make outliers of the walls that a wrong
+  /// heading moves.
   double start_sigma = 0.1;
 };
 

@@ -115,7 +115,7 @@ MapCell* SurfaceMap::find(const Vector3d& p, int level) {
     const std::uint32_t number = levels_[i].table.find(*key);
     if (number == CellTable::kNone) continue;
     MapCell& cell = levels_[i].cells[number];
-    if (cell.currentPlane().usable && !isBeside(cell.plane, p)) return &cell;
+    if (cell.currentPlane().usable && !isOutside(cell.plane, p)) return &cell;
   }
   return nullptr;
 }

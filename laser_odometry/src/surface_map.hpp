@@ -42,8 +42,8 @@ class SurfaceMap {
   /// Adds the points of one sweep (in odom), seen from `origin`.
   void insert(const std::vector<Vector3d>& points, const Vector3d& origin, std::int32_t sweep);
 
-  /// Returns the cube with a usable plane that holds a point which is not beside the plane, of the finest level not
-  /// below `level`; null if there is none.
+  /// Returns the cube with a usable plane that holds a point within the extent of the plane, of the finest level not
+  /// below `level`; null without one.
   MapCell* find(const Vector3d& p, int level);
 
   /// Removes the cubes further than `distance` from `p`, m.

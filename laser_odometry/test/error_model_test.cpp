@@ -33,7 +33,7 @@ struct Surfaces {
   }
 };
 
-TEST(ErrorModel, PassingErrorsAreToldFromLastingOnes) {
+TEST(ErrorModel, PassingErrorsDifferFromLastingOnes) {
   Surfaces passing(0.0), lasting(0.01);
   ErrorModel a, b;
   for (int i = 0; i < 30; ++i) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/parameter_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -12,8 +13,8 @@ namespace {
 
 using urban_nav_core::parseSetting;
 
-TEST(Parameters, YamlAndReadmeAreAsTheTableSays) {
-  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows()), "");
+TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
 TEST(Parameters, TheYamlFileGivesTheDefaults) {

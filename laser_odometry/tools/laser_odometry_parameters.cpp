@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md and config/laser_odometry.yaml say of the parameters; test/parameters_test.cpp compares both with the
-// table.
+// Writes the tables of README.md and config/laser_odometry.yaml; test/parameters_test.cpp compares both with the
+// tables.
 #include "laser_odometry/parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 
 int main(int argc, char** argv) {
   const auto& stage = laser_odometry::table();
-  return urban_nav_core::documentParameters(argc, argv, {{stage.stage(), stage.rows()}});
+  const auto& nodelet = laser_odometry::nodeletTable();
+  return urban_nav_core::documentParameters(argc, argv,
+                                            {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
 }

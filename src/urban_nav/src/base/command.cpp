@@ -75,7 +75,7 @@ std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
       "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
       "trust both.\n\n"
-      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more; urban_nav --version)\n"
+      "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help for more; urban_nav --version)\n"
       "       urban_nav --python-path          (folder for PYTHONPATH with which `import urban_nav` works)\n\n";
   return text + summaryLines(commands) +
          "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";

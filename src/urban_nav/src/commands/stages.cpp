@@ -4,6 +4,7 @@
 #include "topics/graph/graph.hpp"
 #include "topics/labels/labels.hpp"
 #include "topics/lasers/lasers.hpp"
+#include "topics/lo/lo.hpp"
 #include "topics/localization/localization.hpp"
 #include "topics/loops/loops.hpp"
 #include "topics/places/places.hpp"
@@ -16,6 +17,7 @@ AllStages makeStages() {
   const auto calibrations = std::make_shared<std::vector<SessionCalibration>>();
   AllStages stages;
   stages.push_back(makeVoStage());
+  stages.push_back(makeLoStage());
   stages.push_back(makeKeyframesStage());
   stages.push_back(makePlacesStage());
   stages.push_back(makeStereoStage());

@@ -158,7 +158,8 @@ StoreInfo readStoreInfo(const std::string& path) {
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       each.frames.push_back(extrinsic.frame);
     const std::vector<std::string> stages = store.states().stages(session.id);
-    each.resumable = std::find(stages.begin(), stages.end(), kVoStage) != stages.end();
+    each.resumable = std::find(stages.begin(), stages.end(), kVoStage) != stages.end() ||
+                     std::find(stages.begin(), stages.end(), kLoStage) != stages.end();
     each.next_bag = std::find(stages.begin(), stages.end(), kBagStage) != stages.end();
     each.state_bytes = store.states().bytes(session.id);
   }

@@ -52,6 +52,7 @@ MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
           arguments.get("store"),
           arguments.has("overwrite"),
           arguments.get("localise"),
+          parseOdometryOption(arguments.get("odometry")),
           arguments.has("calibrate"),
           mcapPath(arguments)};
 }
@@ -83,12 +84,23 @@ Option mcapOption() {
       {}};
 }
 
+Option odometryOption() {
+  return {"--odometry",
+          "SOURCE",
+          "auto, stereo or laser: the sensor that the path comes from (default auto: stereo; laser where there are "
+          "sweeps of a 3D LiDAR but no images)",
+          false,
+          false,
+          {}};
+}
+
 std::vector<Option> mapOptions(const AllStages& stages) {
   return {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
       {"--overwrite", "", "replaces the map of other inputs in DIR (otherwise it is refused)", false, false, {}},
       {"--stages", "LIST", stagesSentence(stages), false, true, {}},
+      odometryOption(),
       {"--closures",
        "FILE",
        "closures.csv: pairs of stamps at one place; the stage loops measures their transforms (without it, those in "

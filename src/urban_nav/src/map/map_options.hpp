@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parameter_set.hpp"
+#include "map/odometry_source.hpp"
 #include "urban_nav_input/session/open.hpp"
 
 namespace urban_nav {
@@ -28,6 +29,7 @@ struct MapOptions {
   std::string store = {};     ///< session store to continue from; empty: none
   bool overwrite = false;     ///< replaces the run of other inputs that `out` holds
   std::string localise = {};  ///< session store whose map is only read; empty: none
+  OdometryOption odometry = OdometryOption::Auto;
   bool calibrate = false;     ///< estimates delay and mounting of the lasers before the map is rendered
   std::string mcap = {};      ///< file for the results as MCAP; empty: none
 };

@@ -31,10 +31,37 @@ std::string inputNames(const std::vector<std::string>& inputs) {
   return listText(names);
 }
 
+/// Returns a word for what the frames of the sessions are.
+std::string countedThings(const MapContext& context) {
+  bool is_stereo = false, is_laser = false;
+  for (const MapSession& session : context.sessions)
+    (session.odometry->source == OdometrySource::Laser ? is_laser : is_stereo) = true;
+  if (is_stereo && is_laser) return "stereo frames and sweeps";
+  return is_laser ? "sweeps" : "stereo frames";
+}
+
+/// Returns the object "odometry" of summary.json: the source, and how many steps each one has measured.
+Json odometryJson(const MapContext& context) {
+  std::int64_t by_stereo = 0, by_laser = 0, by_none = 0;
+  for (const MapSession& session : context.sessions)
+    for (std::size_t i = 1; i < session.odometry->settled.size(); ++i) {
+      const bool is_lost = session.odometry->settled[i].status.health == urban_nav_core::Health::Lost;
+      ++(is_lost ? by_none : session.odometry->source == OdometrySource::Laser ? by_laser : by_stereo);
+    }
+  Json json = Json::object();
+  json["source"] = by_laser > by_stereo ? "laser" : "stereo";
+  Json& steps = json["steps"] = Json::object();
+  steps["stereo"] = by_stereo;
+  steps["laser"] = by_laser;
+  steps["both"] = 0;
+  steps["none"] = by_none;
+  return json;
+}
+
 std::vector<Tile> runTiles(const MapState& state) {
   const RunTotals extent = ownTotals(state.context);
   return {{urban_nav_core::formatNumber(extent.distance_m, 4), "m", "driven", Grade::Plain},
-          {std::to_string(extent.frames), "", "stereo frames", Grade::Plain},
+          {std::to_string(extent.frames), "", countedThings(state.context), Grade::Plain},
           {urban_nav_core::formatNumber(extent.seconds, 4), "s", "of data", Grade::Plain},
           {urban_nav_core::formatNumber(realtimeFactor(state), 3), "x", "real time, reading included", Grade::Plain}};
 }
@@ -163,6 +190,7 @@ Json mapSummary(const MapState& state, const std::vector<StageResult>& results) 
   json["sessions"] = state.context.sessions.size();
   Json& inputs = json["inputs"] = Json::array();
   for (const MapSession& session : state.context.sessions) appendInputs(session.info.inputs, inputs);
+  json["odometry"] = odometryJson(state.context);
   for (const SessionEvaluations& evaluation : state.context.evaluations)
     if (evaluation.map) {
       addToJson(*evaluation.map, json);

@@ -19,12 +19,12 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// The steps of a chain by where they end: what visual odometry says, where several say something.
+/// The steps of a chain by their ends: those of visual or laser odometry where there are several.
 std::map<StampNs, Edge> collectSteps(Store& store, const SessionId& id) {
   std::map<StampNs, Edge> steps;
   store.graph().forEachEdge(id, [&](const Edge& edge) {
     if (edge.kind != EdgeKind::Odometry || edge.b.session != id) return;
-    if (edge.source == kVoStage) {
+    if (edge.source == kVoStage || edge.source == kLoStage) {
       steps[edge.b.stamp] = edge;
     } else {
       steps.emplace(edge.b.stamp, edge);
@@ -70,7 +70,7 @@ SessionOdometry makeChain(Store& store, const SessionId& id) {
     run.frames.push_back(row);
   };
   store.inputs().forEach(id, [&](const urban_nav_store::InputEvent& event) {
-    if (event.stream == kVoStream) add(event.stamp, event.used);
+    if (event.stream == kVoStream || event.stream == kLoStream) add(event.stamp, event.used);
   });
   if (run.frames.empty())  // a store without the order of inputs
     for (const SmoothedFrame& settled : run.settled) add(settled.stamp, true);

@@ -142,6 +142,7 @@ std::string digestOfOptions(const MapOptions& options, const StageList& stages) 
   std::string bytes;
   for (const std::string& topic : options.source.topics) appendText(bytes, topic);
   urban_nav_store::appendNumber(bytes, options.source.rate);
+  if (options.odometry != OdometryOption::Auto) appendInteger(bytes, static_cast<std::uint64_t>(options.odometry));
   for (const Stage* stage : stages)
     if (!stage->passSettings(options.parameters).empty()) appendText(bytes, stage->describe().key);
   std::string calibration = options.source.calibration;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "map/odometry_source.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
@@ -35,9 +36,10 @@ struct SmoothedFrame {
 /// Odometry of one session, whichever sensor it comes from.
 struct SessionOdometry {
   std::string input;
+  OdometrySource source = OdometrySource::Stereo;
   urban_nav_core::StereoCamera camera;
   urban_nav_core::Pose T_base_camera;
-  std::vector<OdometryFrame> frames;   ///< one per frame
+  std::vector<OdometryFrame> frames;   ///< one per stereo frame, or per sweep by laser
   std::vector<SmoothedFrame> settled;  ///< smoothed poses, one per accepted frame that has left the window
   std::string cameras;  ///< describeCameras() of a session that the store holds; empty: of `camera`
   std::vector<urban_nav_core::SpecificForce>

@@ -8,6 +8,9 @@ namespace urban_nav {
 /// Keys of visual odometry in a session store: the source of its edges and of its finished state, its stream.
 constexpr const char* kVoStage = "swf_vo";
 constexpr const char* kVoStream = "stereo";
+/// Keys of laser odometry.
+constexpr const char* kLoStage = "laser_odometry";
+constexpr const char* kLoStream = "points";
 /// Key of the state at the end of a bag (bag_checkpoint.hpp).
 constexpr const char* kBagStage = "bag";
 using urban_nav_store::kForcesStage;

@@ -162,7 +162,7 @@ TEST_F(Map, SaysThatTheCamerasAreExchanged) {
   EXPECT_NE(said.find("16 DEGRADED of 16 frames; most often: left and right are exchanged"), std::string::npos) << said;
   const std::string summary = readFile(folder.file("out/summary.json"));
   EXPECT_NE(summary.find("\"swapped\": 16"), std::string::npos);
-  EXPECT_EQ(summary.find("\"none\":"), std::string::npos);
+  EXPECT_EQ(summary.find("\"none\":", summary.find("\"reason_counts\"")), std::string::npos);
 }
 
 TEST_F(Map, RefusesWhatCannotBeMapped) {

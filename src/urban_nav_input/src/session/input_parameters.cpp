@@ -127,7 +127,9 @@ std::vector<urban_nav_core::Row<P>> pointsRows() {
        "Times of the points of 3D LiDARs: FIELD,UNIT,REFERENCE with UNIT s, ms, us or ns and REFERENCE header (the "
        "value is added to the stamp of the header) or absolute (it is the stamp); none: clouds have none; auto: found "
        "from the values.",
-       "docs/files.md"},
+       "docs/files.md",
+       {},
+       kRepair},
       {"points_deskewed",
        &P::points_deskewed,
        "",
@@ -137,7 +139,9 @@ std::vector<urban_nav_core::Row<P>> pointsRows() {
        {"auto", "yes", "no"},
        "Whether the sweeps of 3D LiDARs are free of the motion within a sweep already; auto: those of KITTI's "
        "velodyne/ are.",
-       "docs/files.md"},
+       "docs/files.md",
+       {},
+       kRepair},
       {"points_near",
        &P::points_near,
        "m",
@@ -146,7 +150,9 @@ std::vector<urban_nav_core::Row<P>> pointsRows() {
        10.0,
        {},
        "Returns of 3D LiDARs nearer than this are of the robot itself, and are left out.",
-       "docs/files.md"},
+       "docs/files.md",
+       {},
+       kRepair},
       delayRow("points0_delay", &P::points0_delay, "clouds of points0"),
       delayRow("points1_delay", &P::points1_delay, "clouds of points1")};
 }

@@ -49,6 +49,12 @@ constexpr const char* kVoLandmarks = "vo/landmarks";
 constexpr const char* kVoTracks = "vo/tracks";
 constexpr const char* kVoPath = "vo/path";
 
+// laser_odometry.
+constexpr const char* kLoOdometry = "lo/odometry";
+constexpr const char* kLoRelativePose = "lo/relative_pose";
+constexpr const char* kLoLocalMap = "lo/local_map";
+constexpr const char* kLoStatus = "lo/status";
+
 // dense_stereo.
 constexpr const char* kStereoDisparity = "stereo/disparity";
 constexpr const char* kStereoPoints = "stereo/points2";

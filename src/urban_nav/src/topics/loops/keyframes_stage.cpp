@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/loops/loops.hpp"
 
+#include "map/odometry_source.hpp"
 #include "topics/loops/keyframe_writer.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -57,6 +58,7 @@ class KeyframesStage final : public Stage {
     return {isRequested(options, "loops") || !options.localise.empty(), "neither loops nor --localise", {}};
   }
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
     return std::make_unique<KeyframesPass>(context, start);
   }
 };

@@ -2,6 +2,7 @@
 #include "topics/places/places.hpp"
 
 #include "base/plot.hpp"
+#include "map/odometry_source.hpp"
 #include "topics/places/places_pass.hpp"
 #include "topics/places/places_report.hpp"
 #include "topics/places/places_run.hpp"
@@ -35,6 +36,7 @@ class PlacesStage final : public Stage {
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
     return std::make_unique<PlacesPass>(context, start, model(context), ms_features_);
   }
 

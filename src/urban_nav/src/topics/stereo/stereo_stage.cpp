@@ -4,6 +4,7 @@
 #include <map>
 
 #include "dense_stereo/parameters.hpp"
+#include "map/odometry_source.hpp"
 #include "topics/stereo/stereo_pass.hpp"
 #include "topics/stereo/stereo_report.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -25,6 +26,7 @@ class StereoStage final : public Stage {
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
     return std::make_unique<StereoPass>(context, start, runs_[start.session]);
   }
   bool restoreSession(MapContext&, std::size_t session, std::string_view finished) override {

@@ -10,8 +10,6 @@ namespace urban_nav {
 
 /// Returns stats.csv: one row per frame of all sessions.
 std::string statsCsv(const std::vector<const VoRun*>& runs);
-/// Returns graph.g2o of odometry alone: one pose per frame and one edge per step; information in g2o's tangent.
-std::string chainG2o(const VoRun& run);
 /// Returns landmarks.ply in binary: float x y z (m, `odom`), float sigma (m, along the line of sight), uchar red green
 /// blue. Landmarks that were observed in fewer than three frames are left out.
 std::string landmarksPly(const VoRun& run);

@@ -4,12 +4,14 @@
 #include <algorithm>
 
 #include "base/plot.hpp"
+#include "map/chain_g2o.hpp"
+#include "map/odometry_source.hpp"
+#include "map/odometry_store_writer.hpp"
 #include "map/store_keys.hpp"
 #include "topics/vo/vo_files.hpp"
 #include "topics/vo/vo_recorder.hpp"
 #include "topics/vo/vo_report.hpp"
 #include "topics/vo/vo_run_state.hpp"
-#include "topics/vo/vo_store_writer.hpp"
 #include "topics/vo/vo_summary.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -39,7 +41,7 @@ class VoPass final : public SessionPass {
       : console_(context.console),
         run_(run),
         recorder_(makeRecorder(context, start)),
-        writer_(*context.store, context.sessions[start.session].id),
+        writer_(*context.store, context.sessions[start.session].id, kVoStage, kVoStream),
         faults_reported_(run_.faults.size()) {}
 
   void process(PassItem& item) override {
@@ -69,7 +71,7 @@ class VoPass final : public SessionPass {
   Console& console_;
   VoRun& run_;
   VoRecorder recorder_;
-  VoStoreWriter writer_;
+  OdometryStoreWriter writer_;
   std::size_t faults_reported_;
 };
 
@@ -103,6 +105,7 @@ class VoStage final : public Stage {
   Selection select(const MapOptions&) const override { return {true, "", {}}; }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
     return std::make_unique<VoPass>(context, start, restart(context, start.session, VoRun()));
   }
   bool restoreSession(MapContext& context, std::size_t session, std::string_view finished) override {
@@ -123,13 +126,14 @@ class VoStage final : public Stage {
   }
 
   StageResult result(const MapContext& context) const override {
-    StageResult made;
+    StageResult stage_result;
     const std::vector<const VoRun*> of_sessions = runs();
+    if (of_sessions.empty() && !context.sessions.empty() && isByLaser(context)) return stage_result;
     const VoSummary summary = summarise(of_sessions, context.options.parameters.get(swf_vo::table()));
-    made.method = "Visual odometry";
-    made.tiles = {
+    stage_result.method = "Visual odometry";
+    stage_result.tiles = {
         {urban_nav_core::formatNumber(summary.ms_median, 3), "ms", "median time in the filter", Grade::Plain}};
-    made.verdicts = voVerdicts(summary);
+    stage_result.verdicts = voVerdicts(summary);
     const std::size_t previous = context.previous.runs.size();
     for (std::size_t i = 0; i < of_sessions.size(); ++i) {
       const bool compared = previous + i < context.evaluations.size() && context.evaluations[previous + i].map;
@@ -138,20 +142,26 @@ class VoStage final : public Stage {
           section.id += std::to_string(i + 1);
           section.title += " (session " + std::to_string(i + 1) + ")";
         }
-        made.sections.push_back({report_place::kOdometry, std::move(section)});
+        stage_result.sections.push_back({report_place::kOdometry, std::move(section)});
       }
+      if (!runs_[i]) continue;
       const std::string suffix = fileSuffix(previous + i);
       const VoRun& run = *of_sessions[i];
-      if (!context.relaxed) made.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
-      made.files.push_back({"landmarks" + suffix + ".ply", [&run] { return landmarksPly(run); }});
+      if (!context.relaxed) stage_result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
+      stage_result.files.push_back({"landmarks" + suffix + ".ply", [&run] { return landmarksPly(run); }});
     }
-    made.data_faults = summary.warnings;
-    made.files.push_back({"stats.csv", [of_sessions] { return statsCsv(of_sessions); }});
-    made.summary = toJson(summary);
-    return made;
+    stage_result.data_faults = summary.warnings;
+    stage_result.files.push_back({"stats.csv", [of_sessions] { return statsCsv(of_sessions); }});
+    stage_result.summary = toJson(summary);
+    return stage_result;
   }
 
  private:
+  /// Returns whether the odometry of all sessions that were begun is that of a laser.
+  static bool isByLaser(const MapContext& context) {
+    return std::all_of(context.sessions.begin(), context.sessions.end(),
+                       [](const MapSession& session) { return session.odometry->source == OdometrySource::Laser; });
+  }
   /// Makes `run` the odometry of a session.
   VoRun& restart(MapContext& context, std::size_t session, VoRun run) {
     runs_.resize(context.sessions.size());

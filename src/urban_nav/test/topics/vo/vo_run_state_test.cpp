@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "map/chain_g2o.hpp"
 #include "map/trajectory_files.hpp"
 #include "topics/vo/vo_files.hpp"
 #include "topics/vo/vo_recorder.hpp"

@@ -34,11 +34,11 @@ TEST(MemberReader, TakesPackedMembersOneAfterAnother) {
 }
 
 TEST(MemberReader, AlignsMembersOfCdrAfterTheEncapsulation) {
-  const Bytes bytes = {0, 1, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0, 'a', 'b', 0, 0, 5, 0, 0, 0, 0, 0, 0, 0};
+  const Bytes bytes = {0, 1, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0, 'a', 'b', 0, 0, 0, 0, 0, 0, 5, 0, 0, 0, 0, 0, 0, 0};
   MemberReader reader(view(bytes), MessageEncoding::CdrLittleEndian);
   EXPECT_EQ(reader.numbers(1, 1).data[0], 7);
   EXPECT_EQ(toText(reader.text()), "ab") << "without the zero at its end";
-  EXPECT_EQ(reader.numbers(1, 8).data, bytes.data() + 20 - 4) << "a multiple of 8 after the encapsulation";
+  EXPECT_EQ(reader.numbers(1, 8).data, bytes.data() + 20) << "a multiple of 8 after the encapsulation";
 }
 
 TEST(MemberReader, ReadsCountsOfBigEndianMessages) {

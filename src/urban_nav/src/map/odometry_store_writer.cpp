@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "topics/vo/vo_store_writer.hpp"
+#include "map/odometry_store_writer.hpp"
 
 #include "map/store_keys.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
@@ -11,9 +11,9 @@ using urban_nav_core::Matrix6d;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
 
-void VoStoreWriter::write(const VoRun& run) {
+void OdometryStoreWriter::write(const SessionOdometry& run) {
   for (; rows_ < run.frames.size(); ++rows_)
-    store_.inputs().append(id_, {kVoStream, run.frames[rows_].stamp, run.frames[rows_].accepted});
+    store_.inputs().append(id_, {stream_, run.frames[rows_].stamp, run.frames[rows_].accepted});
   for (; nodes_ < run.settled.size(); ++nodes_) {
     const SmoothedFrame& settled = run.settled[nodes_];
     const urban_nav_core::RelativePose& step = settled.from_previous;
@@ -25,7 +25,7 @@ void VoStoreWriter::write(const VoRun& run) {
                                    step.constants, settled.T_odom_base.covariance});
     if (first) continue;
     Edge edge{{id_, step.from},         {id_, step.to},
-              EdgeKind::Odometry,       kVoStage,
+              EdgeKind::Odometry,       source_,
               {step.T_from_to, {}},     1.0,
               ClosureVerdict::Accepted, ""};
     edge.measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
@@ -33,7 +33,7 @@ void VoStoreWriter::write(const VoRun& run) {
   }
 }
 
-void VoStoreWriter::writeForces(const VoRun& run) {
+void OdometryStoreWriter::writeForces(const SessionOdometry& run) {
   if (!run.forces.empty()) store_.states().put(id_, kForcesStage, packForces(run.forces));
 }
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pluginlib/class_list_macros.hpp>
+
+#include <tf2_msgs/TFMessage.h>
+
+#include <tuple>
+#include <variant>
+
+#include "live/live_laser_odometry.hpp"
+#include "live/nodelet_parameters.hpp"
+#include "publisher.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/sweep_feed.hpp"
+#include "urban_nav_ros/topics.hpp"
+
+namespace laser_odometry {
+
+namespace {
+
+constexpr double kPointsTimeout = 1.0;  // s; the slowest LiDARs have 5 Hz
+
+}  // namespace
+
+/// Laser odometry on topics.
+class LaserOdometryStage {
+ public:
+  static constexpr const char* name = "laser_odometry";
+  static constexpr const char* topic = "laser odometry";
+  using Input = std::variant<tf2_msgs::TFMessageConstPtr, sensor_msgs::PointCloud2ConstPtr>;
+  using Node = urban_nav_ros::StageNodeWith<Input>;
+
+  explicit LaserOdometryStage(Node& node);
+
+  void handle(Input& input);
+  bool idle() {
+    publisher_->publishMap(*odometry_, newest_);
+    return false;
+  }
+  std::string reset() {
+    odometry_->end("reset");
+    return "the session has ended, the next sweep begins a new one";
+  }
+  void close() {}
+  urban_nav_live::StageReport report() const { return odometry_->report(); }
+
+ private:
+  void add(const sensor_msgs::PointCloud2ConstPtr& cloud);
+  void begin(const std::string& frame);
+
+  Node& node_;
+  NodeletParameters nodelet_;
+  Parameters parameters_;
+  urban_nav_core::CloudOptions clouds_;
+  std::unique_ptr<Publisher> publisher_;
+  std::unique_ptr<LiveLaserOdometry> odometry_;
+  std::unique_ptr<urban_nav_ros::SweepFeed> feed_;
+  urban_nav_ros::StaticTransforms transforms_;
+  std::string frame_;  ///< of the LiDAR
+  urban_nav_core::StampNs newest_ = 0;
+};
+
+LaserOdometryStage::LaserOdometryStage(Node& node) : node_(node) {
+  std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
+  node.setQueueSize(nodelet_.queue_size);
+  clouds_.are_deskewed = nodelet_.deskewed;
+  publisher_ = std::make_unique<Publisher>(
+      node, Publisher::Frames{nodelet_.odom_frame, nodelet_.base_frame, nodelet_.publish_tf});
+  odometry_ = std::make_unique<LiveLaserOdometry>(parameters_, [this](const LaserPose& pose, double process_ms) {
+    newest_ = pose.stamp;
+    publisher_->publish(pose, process_ms);
+  });
+  urban_nav_ros::TopicOptions transforms;
+  transforms.is_monitored = transforms.is_paused = false;
+  node.subscribeInput<tf2_msgs::TFMessage>(urban_nav_ros::topics::kStaticTransforms, transforms,
+                                           [](const tf2_msgs::TFMessageConstPtr& message) { return message; });
+  urban_nav_ros::TopicOptions options;
+  options.timeout = kPointsTimeout;
+  options.queue = nodelet_.queue_size;
+  node.subscribeInput<sensor_msgs::PointCloud2>(
+      urban_nav_ros::topics::kPoints, options, [](const sensor_msgs::PointCloud2ConstPtr& message) { return message; });
+}
+
+void LaserOdometryStage::handle(Input& input) {
+  if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) transforms_.add(**transforms);
+  else add(std::get<sensor_msgs::PointCloud2ConstPtr>(input));
+}
+
+void LaserOdometryStage::begin(const std::string& frame) {
+  odometry_->end("another LiDAR: frame " + frame);
+  frame_ = frame;
+  feed_ = std::make_unique<urban_nav_ros::SweepFeed>(clouds_);
+}
+
+void LaserOdometryStage::add(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+  if (!feed_ || cloud->header.frame_id != frame_) begin(cloud->header.frame_id);
+  const auto T_base_lidar = transforms_.lookup(nodelet_.base_frame, frame_);
+  if (!T_base_lidar) {
+    odometry_->setFault("no transform from " + nodelet_.base_frame + " to " + frame_ + " on /tf_static");
+    return;
+  }
+  odometry_->setFault("");
+  odometry_->place(*T_base_lidar);
+  for (const urban_nav_core::ReadSweep& read : feed_->add(cloud)) {
+    if (!read.fault.empty()) {
+      node_.gate().countInvalid();
+      node_.logWarning("cloud", read.fault);
+      continue;
+    }
+    const std::int64_t before = odometry_->sessions();
+    odometry_->process(read.sweep);
+    if (odometry_->sessions() != before)
+      node_.logInfo("session " + std::to_string(odometry_->sessions()) + ": LiDAR " + frame_);
+  }
+}
+
+class LaserOdometryNodelet : public urban_nav_ros::StageNodelet<LaserOdometryStage> {};
+
+}  // namespace laser_odometry
+
+PLUGINLIB_EXPORT_CLASS(laser_odometry::LaserOdometryNodelet, nodelet::Nodelet)

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_laser_odometry.hpp"
+
+#include <chrono>
+
+#include "urban_nav_core/sequence/time_jump.hpp"
+
+namespace laser_odometry {
+
+void LiveLaserOdometry::place(const urban_nav_core::Pose& T_base_lidar) {
+  if (is_placed_ && isApprox(T_base_lidar, T_base_lidar_, 0.0)) return;
+  end("the LiDAR is mounted elsewhere");
+  T_base_lidar_ = T_base_lidar;
+  is_placed_ = true;
+}
+
+void LiveLaserOdometry::process(const urban_nav_core::Sweep& sweep) {
+  if (odometry_ && urban_nav_core::jumpsBack(sweep.reference, newest_.stamp)) end("time went back");
+  if (!odometry_) {
+    odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_);
+    ++sessions_;
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const LaserPose pose = odometry_->process(sweep);
+  process_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  ++sweeps_;
+  if (pose.accepted) newest_ = pose;
+  else newest_.status = pose.status;
+  if (listener_) listener_(pose, process_ms_);
+}
+
+void LiveLaserOdometry::end(const std::string& why) {
+  if (!odometry_) return;
+  odometry_.reset();
+  newest_ = LaserPose();
+  waiting_ = "no session (" + why + ")";
+}
+
+std::vector<MapPoint> LiveLaserOdometry::localMap() const {
+  return odometry_ ? odometry_->localMap() : std::vector<MapPoint>();
+}
+
+urban_nav_live::StageReport LiveLaserOdometry::report() const {
+  urban_nav_live::StageReport report;
+  report.status = newest_.status;
+  report.reason_name = toString(static_cast<Reason>(newest_.status.reason));
+  if (!odometry_ || !fault_.empty()) {
+    report.status.health = urban_nav_core::Health::Ok;  // of no sweep; the warning counts
+    report.summary = fault_.empty() ? waiting_ : fault_;
+    report.is_warning = true;
+  }
+  const Statistics& figures = newest_.statistics;
+  report.add("returns", figures.points);
+  report.add("returns on matched surfaces", figures.used);
+  report.add("returns that contradict the map", figures.moving);
+  report.add("surface patches", figures.patches);
+  report.add("residual (m)", figures.residual_m);
+  report.add("free directions", newest_.free_directions.size());
+  report.add("cells of the local map", figures.map_cells);
+  report.add("time of the last sweep (ms)", process_ms_);
+  report.add("sweeps", sweeps_);
+  report.add("sessions", sessions_);
+  return report;
+}
+
+}  // namespace laser_odometry

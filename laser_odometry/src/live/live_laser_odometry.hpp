@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "laser_odometry/laser_odometry.hpp"
+#include "urban_nav_live/stage_report.hpp"
+
+namespace laser_odometry {
+
+/// Laser odometry of a live robot: one object for each session, and figures for the operator. Used by one thread.
+class LiveLaserOdometry {
+ public:
+  using Listener = std::function<void(const LaserPose& pose, double process_ms)>;
+
+  LiveLaserOdometry(const Parameters& parameters, Listener listener)
+      : parameters_(parameters), listener_(std::move(listener)) {}
+
+  /// Sets where the LiDAR is mounted. Another place than before ends the session.
+  void place(const urban_nav_core::Pose& T_base_lidar);
+  /// Processes a sweep. The first one begins a session; so does one whose reference is more than a second before the
+  /// newest. Requires place().
+  void process(const urban_nav_core::Sweep& sweep);
+  /// Ends the session. `why`: for the report.
+  void end(const std::string& why);
+  /// Sets the reason for which sweeps cannot be used; empty: none.
+  void setFault(const std::string& fault) { fault_ = fault; }
+
+  bool isPlaced() const { return is_placed_; }
+  bool isRunning() const { return odometry_ != nullptr; }
+  std::int64_t sessions() const { return sessions_; }
+  /// Returns the planes of the local map; empty without a session.
+  std::vector<MapPoint> localMap() const;
+  /// Returns the state for the operator: a warning while there is no session.
+  urban_nav_live::StageReport report() const;
+
+ private:
+  const Parameters parameters_;
+  const Listener listener_;
+  bool is_placed_ = false;
+  urban_nav_core::Pose T_base_lidar_;
+  std::unique_ptr<LaserOdometry> odometry_;
+  LaserPose newest_;
+  double process_ms_ = 0.0;
+  std::int64_t sweeps_ = 0, sessions_ = 0;
+  std::string waiting_ = "no sweeps yet", fault_;
+};
+
+}  // namespace laser_odometry

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/nodelet_parameters.hpp"
+
+#include "urban_nav_core/types/frames.hpp"
+
+namespace laser_odometry {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"base_frame", &P::base_frame, "", urban_nav_core::frames::kBaseLink, false, false, {},
+           "Frame of the robot.", "REP-105"},
+          {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
+           "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
+          {"publish_tf", &P::publish_tf, "", false, false, true, {},
+           "Whether to publish odom_frame to base_frame on /tf: only where this is the odometry of the robot.",
+           "REP-105"},
+          {"deskewed", &P::deskewed, "", false, false, true, {},
+           "Whether the driver has compensated the motion within a sweep already.", "docs/architecture.md"},
+          {"queue_size", &P::queue_size, "messages", std::int64_t{20}, std::int64_t{2}, std::int64_t{1000000}, {},
+           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace laser_odometry

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace laser_odometry {
+
+/// Parameters of the nodelet apart from those of the stage (laser_odometry/parameters.hpp). One member per row of
+/// nodeletTable().
+struct NodeletParameters {
+  std::string base_frame, odom_frame;
+  bool publish_tf;
+  bool deskewed;
+  int queue_size;  // messages
+
+  NodeletParameters();
+};
+
+const urban_nav_core::Table<NodeletParameters>& nodeletTable();
+
+}  // namespace laser_odometry

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
+#include <urban_nav_msgs/LaserOdometryStatus.h>
+#include <urban_nav_msgs/RelativePose.h>
+
+#include <cstring>
+
+#include "../support/spinning_lidar.hpp"
+#include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
+#include "urban_nav_ros/testing/receipts.hpp"
+
+namespace laser_odometry::test {
+namespace {
+
+/// A sweep as Velodyne's driver writes it: the header has the time of the last point.
+sensor_msgs::PointCloud2 toVelodyneCloud(const Sweep& sweep) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.stamp = urban_nav_ros::toRosTime(sweep.reference + 50'000'000);
+  cloud.header.frame_id = "velodyne";
+  const auto add = [&cloud](const char* name, std::uint32_t offset, std::uint8_t datatype) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = offset;
+    field.datatype = datatype;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  };
+  using sensor_msgs::PointField;
+  add("x", 0, PointField::FLOAT32);
+  add("y", 4, PointField::FLOAT32);
+  add("z", 8, PointField::FLOAT32);
+  add("intensity", 12, PointField::FLOAT32);
+  add("ring", 16, PointField::UINT16);
+  add("time", 18, PointField::FLOAT32);
+  cloud.point_step = 22;
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(sweep.beams.size());
+  cloud.row_step = cloud.width * cloud.point_step;
+  cloud.data.resize(cloud.row_step);
+  std::uint8_t* at = cloud.data.data();
+  for (const urban_nav_core::Beam& beam : sweep.beams) {
+    const Eigen::Vector3f p = beam.range * beam.direction;
+    const float intensity = 10.0F;
+    const auto time = static_cast<float>(urban_nav_core::secondsBetween(sweep.reference, beam.stamp) - 0.05);
+    std::memcpy(at, p.data(), 12);
+    std::memcpy(at + 12, &intensity, 4);
+    std::memcpy(at + 16, &beam.ring, 2);
+    std::memcpy(at + 18, &time, 4);
+    at += 22;
+  }
+  return cloud;
+}
+
+/// A robot that publishes, and a listener that keeps everything.
+class LaserGraph : public urban_nav_ros::testing::Listener {
+ public:
+  LaserGraph() : Listener("laser_odometry"), receipts_("laser_odometry") {
+    keep("lo/odometry", odometry);
+    keep("lo/relative_pose", relative);
+    keep("lo/status", statuses);
+    keep("lo/local_map", maps);
+    keep("/tf", transforms);
+  }
+  void place(const Pose& T_base_lidar) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(
+        urban_nav_ros::toStaticTransform(urban_nav_core::frames::kBaseLink, "velodyne", T_base_lidar));
+    EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); }));
+  }
+  void show(const Sweep& sweep) {
+    EXPECT_TRUE(receipts_.await({{"points", 1}}, [&] { points_.publish(toVelodyneCloud(sweep)); }));
+  }
+
+  std::vector<nav_msgs::Odometry> odometry;
+  std::vector<urban_nav_msgs::RelativePose> relative;
+  std::vector<urban_nav_msgs::LaserOdometryStatus> statuses;
+  std::vector<sensor_msgs::PointCloud2> maps;
+  std::vector<tf2_msgs::TFMessage> transforms;
+
+ private:
+  const urban_nav_ros::testing::Receipts receipts_;
+  ros::Publisher points_ = advertise<sensor_msgs::PointCloud2>("points");
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+};
+
+TEST(LaserOdometryNodelet, FollowsADriveAndSaysWhatIsWrong) {
+  LaserGraph graph;
+  ASSERT_TRUE(LaserGraph::until([&] { return graph.isConnected(); }));
+  const Pose T_base_lidar(urban_nav_core::expSo3({0.0, 0.0, 0.5}), {0.3, 0.0, 0.2});
+  const BoxWorld world = makeRoom();
+  const SpinningLidar lidar{16, 900, -20.0, 12.0, 0.1, 0.01, T_base_lidar};
+  const auto motion = makeDrive(0.8, 0.2);
+
+  graph.show(lidar.scan(world, motion, 0.0, 1));  // before the place of the LiDAR is known
+  const auto named = [&] {
+    for (const auto& array : graph.diagnostics)
+      for (const auto& status : array.status)
+        if (status.message.find("no transform from base_link to velodyne") != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(LaserGraph::until(named));
+
+  graph.place(T_base_lidar);
+  constexpr int kSweeps = 16;
+  for (int i = 1; i <= kSweeps; ++i) graph.show(lidar.scan(world, motion, 0.1 * i, 1));
+  ASSERT_TRUE(LaserGraph::until([&] { return graph.odometry.size() == kSweeps && graph.statuses.size() == kSweeps; }))
+      << graph.odometry.size();
+  EXPECT_EQ(graph.relative.size(), static_cast<std::size_t>(kSweeps) - 1);
+  EXPECT_EQ(graph.odometry.back().header.frame_id, "odom");
+  EXPECT_EQ(graph.odometry.back().child_frame_id, "base_link");
+  const auto last = urban_nav_ros::toPose(graph.odometry.back().pose.pose);
+  ASSERT_TRUE(last);
+  const Pose truth = motion(0.1).inverse() * motion(0.1 * kSweeps);
+  EXPECT_LT(distanceBetween(*last, truth), 0.02);
+  EXPECT_NEAR(graph.odometry.back().twist.twist.linear.x, 0.8, 0.1);
+  EXPECT_GT(graph.odometry.back().pose.covariance[0], 0.0);
+  EXPECT_EQ(graph.statuses.back().status, urban_nav_msgs::LaserOdometryStatus::OK) << graph.statuses.back().message;
+  EXPECT_TRUE(graph.statuses.back().deskewed);
+  EXPECT_TRUE(LaserGraph::until([&] { return !graph.maps.empty() && graph.maps.back().width > 100; }));
+  EXPECT_TRUE(LaserGraph::until([&] { return !graph.transforms.empty(); }));
+
+  EXPECT_TRUE(graph.call("reset"));
+  graph.show(lidar.scan(world, motion, 3.0, 1));
+  ASSERT_TRUE(LaserGraph::until([&] { return graph.odometry.size() == kSweeps + 1; }));
+  EXPECT_EQ(graph.odometry.back().pose.pose.position.x, 0.0);
+}
+
+}  // namespace
+}  // namespace laser_odometry::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "laser_odometry_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}

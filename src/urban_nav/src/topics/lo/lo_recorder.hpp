@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "map/session_pass.hpp"
+#include "topics/lo/lo_run.hpp"
+
+namespace urban_nav {
+
+/// Feeds LaserOdometry with the sweeps of the first LiDAR that it gets and records what files and report need of its
+/// output. Not thread-safe.
+class LoRecorder {
+ public:
+  /// `run`: filled while sweeps are processed; must outlive the recorder.
+  LoRecorder(const laser_odometry::Parameters& parameters, const urban_nav_input::SourceInfo& info, LoRun& run);
+  /// Continues bit-exactly where another recorder was when `state` was taken. Throws UserError if the parameters
+  /// differ, DataError if the state is damaged.
+  LoRecorder(const laser_odometry::Parameters& parameters, const urban_nav_input::SourceInfo& info, LoRun& run,
+             std::string_view state);
+
+  void process(const urban_nav_input::SweepInput& input);
+  void finish(const PassEnd& end);
+  /// Returns the state of run and odometry. Not after finish().
+  std::string state() const;
+
+ private:
+  void record(const laser_odometry::LaserPose& pose, double ms);
+  void sampleSurface();
+
+  const laser_odometry::Parameters parameters_;
+  LoRun& run_;
+  std::optional<laser_odometry::LaserOdometry> odometry_;  ///< empty before the first sweep, which has the mounting
+  urban_nav_core::Pose T_base_lidar_;
+  std::optional<urban_nav_core::Vector3d> sampled_at_;  ///< position of the last sample of the surface, m
+  std::int64_t others_ = 0;                             ///< sweeps of other LiDARs, which are not used
+  std::int64_t untimed_ = 0;                            ///< sweeps whose points have no times
+};
+
+}  // namespace urban_nav

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/odometry_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include "map/map_options.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+urban_nav_input::SourceInfo makeInfo(bool images, bool sweeps) {
+  urban_nav_input::SourceInfo info;
+  info.name = "drive";
+  info.has_images = images;
+  urban_nav_input::InputStream stream;
+  stream.role = "points0";
+  if (sweeps) stream.lidar.emplace();
+  info.inputs.push_back(stream);
+  return info;
+}
+
+TEST(OdometrySource, AutoTakesStereoAndTheLaserWithoutImages) {
+  const MapOptions options;
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Stereo);
+  EXPECT_EQ(chooseOdometry(options, makeInfo(false, true)), OdometrySource::Laser);
+}
+
+TEST(OdometrySource, StagesThatAreNamedDecide) {
+  MapOptions options;
+  options.stages = {"lo"};
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Laser);
+  options.stages = {"vo"};
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Stereo);
+}
+
+TEST(OdometrySource, ASourceWithoutItsInputIsNamed) {
+  MapOptions options;
+  options.odometry = OdometryOption::Laser;
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Laser);
+  EXPECT_THROW(chooseOdometry(options, makeInfo(true, false)), urban_nav_core::DataError);
+  options.odometry = OdometryOption::Stereo;
+  EXPECT_THROW(chooseOdometry(options, makeInfo(false, true)), urban_nav_core::DataError);
+}
+
+TEST(OdometrySource, OtherWordsAreRefusedWithThoseAllowed) {
+  EXPECT_EQ(parseOdometryOption(""), OdometryOption::Auto);
+  EXPECT_EQ(parseOdometryOption("laser"), OdometryOption::Laser);
+  try {
+    parseOdometryOption("lidar");
+    FAIL();
+  } catch (const urban_nav_core::UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("auto, stereo, laser"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace urban_nav
