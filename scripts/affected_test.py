@@ -247,7 +247,7 @@ class Repository(unittest.TestCase):
     def test_a_stage_selects_the_command_and_the_launch_files(self):
         packages = affected.packages_now(affected.ROOT)
         selection = affected._with_dependents(packages, packages, {"swf_vo": "swf_vo/src/a.cpp"}, {}, ())
-        self.assertEqual(set(selection.tested), {"swf_vo", "urban_nav", "urban_nav_launch"})
+        self.assertEqual(set(selection.tested), {"swf_vo", "urban_nav", "urban_nav_launch", "urban_nav_python"})
         self.assertIn("src/urban_nav_core", selection.built)
 
 
