@@ -190,6 +190,23 @@ TEST(Selection, InformationOfTheWrongScaleCostsNoClosure) {
   }
 }
 
+// Closures err by a twentieth of what they state, one in thirty by nearly as much; odometry by a twentieth too.
+TEST(Selection, ClosuresThatErrAsStatedStayAmongThoseThatErrByFarLess) {
+  for (const std::uint64_t seed : {3, 6, 8}) {
+    auto noise = urban_nav_core::testing::evenNoise(0.05, 0.01);
+    noise.drawn = 0.05;
+    const SimulatedGraph graph = urban_nav_core::testing::manhattanGraph(600, 12, 0.5, noise, seed);
+    Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
+    std::size_t closures = 0;
+    for (std::size_t e = 0; e < problem.edges.size(); ++e)
+      if (!isStep(graph.edges[e]) && closures++ % 30 == 0)
+        problem.edges[e].Z.t[0] += 0.8 / std::sqrt(problem.edges[e].information(0, 0));
+    const Selected<2> selected(problem);
+    EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), 0u) << seed;
+    expectNearTruth<2>(graph, selected.robust.solution.poses, 1.0);
+  }
+}
+
 TEST(Selection, FewClosuresStateNoScale) {
   SimulatedGraph graph = drawTown(6);
   graph.edges.resize(graph.truth.size() - 1 + 50);

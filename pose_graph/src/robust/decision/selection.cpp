@@ -458,8 +458,14 @@ bool Selection<D>::isSettled() const {
 }
 
 template <int D>
+bool Selection<D>::isTighter() const {
+  const VarianceFactors &now = best_.hypothesis.factors, &then = best_.found_with;
+  return now.odometry <= then.odometry && now.closures <= then.closures;
+}
+
+template <int D>
 void Selection<D>::repeatWithFactors() {
-  for (int i = 0; i < kRepeats && !isSettled(); ++i) {
+  for (int i = 0; i < kRepeats && !isSettled() && !(takesNearlyAll() && isTighter()); ++i) {
     const VarianceFactors now = best_.hypothesis.factors;
     repeated_with_ = now;
     if (!propose(now, slips_)) return;

@@ -158,6 +158,11 @@ class Selection {
   // Whether the best set was found with the variances that follow from it, or none better was.
   bool isSettled() const;
 
+  // Whether the variances that follow from the best set are no larger than those it was found with. Where it takes
+  // nearly all closures, another selection with these gains none, and loses those that err as much as they state where
+  // most err by far less.
+  bool isTighter() const;
+
   void repeatWithFactors();
 
   const Problem<D>& problem_;
