@@ -9,9 +9,10 @@ namespace {
 
 constexpr double kLeastPoints = 6.0;
 constexpr double kLeastRatio = 10.0;  // of variances in and across the plane
-// More points do not make a normal better known: what is not plane is common to them.
+// Variance of what the beams of one ring have in common, m^2: errors of its range and angle. A plane of few rings is
+// tilted by it, however many points they have.
+constexpr double kLineVariance = 0.005 * 0.005;
 constexpr double kReachedSigmas = 2.5;
-constexpr double kMostForNormal = 50.0;
 
 }  // namespace
 
@@ -59,7 +60,7 @@ Plane fitPlane(const Moments& moments, const Vector3d& origin) {
   plane.narrow = solver.eigenvectors().col(1);
   plane.usable = plane.width > kLeastRatio * plane.variance && plane.width > 0.0;
   if (!plane.usable) return plane;
-  plane.normal_variance = (plane.variance + kBeamVariance) / (plane.width * std::min(moments.count, kMostForNormal));
+  plane.normal_variance = ((plane.variance + kBeamVariance) / moments.count + kLineVariance) / plane.width;
   plane.normal = solver.eigenvectors().col(0);
   plane.mean = origin + moments.mean();
   return plane;

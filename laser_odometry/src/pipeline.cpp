@@ -50,7 +50,7 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   result.step.source = "laser_odometry";
   if (map_.empty()) {
     continueByPrediction(prediction, result);
-    beginMap(points, parameters_.deskew ? motion_.twist() : Vector6d::Zero());
+    beginMap(points, knownMotion());
     result.status = started_ ? statusOfRestart(points, parameters_) : statusOfStart(points, parameters_);
   } else {
     const Aligned aligned = first_.p.empty() ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
@@ -118,10 +118,14 @@ Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<M
   return prediction;
 }
 
-void Pipeline::beginMap(const SweepPoints& points, const Vector6d& twist) {
+SweepMotion Pipeline::knownMotion() const {
+  return parameters_.deskew ? SweepMotion{motion_.twist(), Vector6d::Zero()} : SweepMotion();
+}
+
+void Pipeline::beginMap(const SweepPoints& points, const SweepMotion& motion) {
   map_.clear();
   first_ = points;
-  std::vector<Vector3d> moved = deskew(points, twist);
+  std::vector<Vector3d> moved = deskew(points, motion);
   for (Vector3d& p : moved) p = T_odom_base_ * p;
   map_.insert(moved, T_odom_base_ * T_base_lidar_.t(), sweep_);
   pruned_at_ = T_odom_base_.t();
@@ -136,14 +140,25 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
   options.surface_sigma = parameters_.surface_sigma;
   options.coarse_level = prediction.is_measured ? 0 : 1;
   options.start_sigma = prediction.is_measured ? 0.0 : motion_.isKnown() ? kPredictedStart : kUnknownStart;
-  const int rounds = parameters_.deskew && points.last_s > points.first_s ? parameters_.rounds : 1;
+  const bool is_timed = parameters_.deskew && points.last_s > points.first_s && prediction.seconds > 0.0;
+  if (is_timed && first_.p.empty()) {  // the first two sweeps have the mean motion between them
+    options.velocity_sigma = parameters_.acceleration * prediction.seconds;
+    options.rate_sigma = parameters_.angular_acceleration * prediction.seconds;
+    options.acceleration_sigma = parameters_.acceleration;
+    options.angular_acceleration_sigma = parameters_.angular_acceleration;
+  }
+  const int rounds = is_timed ? parameters_.rounds : 1;
   for (int round = 0; round < rounds; ++round) {
-    const Pose T_last_now = T_odom_base_.inverse() * aligned.registration.T_odom_base;
-    const Vector6d twist = parameters_.deskew && prediction.seconds > 0.0
-                               ? motion_.sweepTwist(T_last_now, prediction.seconds)
-                               : Vector6d::Zero();
-    aligned.points = deskew(points, twist);
-    const std::vector<Patch> patches = makePatches(aligned.points, parameters_.cell);
+    if (is_timed) {
+      const Pose T_last_now = T_odom_base_.inverse() * aligned.registration.T_odom_base;
+      const Vector6d expected = motion_.sweepTwist(T_last_now, prediction.seconds);
+      const bool is_estimated = round > 0 && options.velocity_sigma > 0.0;
+      aligned.motion =
+          is_estimated ? aligned.motion + aligned.registration.motion_change : SweepMotion{expected, Vector6d::Zero()};
+      options.motion_offset = {aligned.motion.twist - expected, aligned.motion.acceleration};
+    }
+    aligned.points = deskew(points, aligned.motion);
+    const std::vector<Patch> patches = makePatches(aligned.points, points.time, parameters_.cell);
     aligned.registration = registerPatches(patches, map_, predicted, aligned.registration.T_odom_base, options);
     aligned.iterations += aligned.registration.iterations;
     options.coarse_level = 0;
@@ -153,7 +168,7 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
 }
 
 Pose Pipeline::searchStart(const SweepPoints& points, const Prediction& prediction) {
-  const std::vector<Patch> patches = makePatches(deskew(points, Vector6d::Zero()), parameters_.cell);
+  const std::vector<Patch> patches = makePatches(deskew(points, {}), points.time, parameters_.cell);
   RegistrationOptions options;
   options.iterations = 6;
   options.surface_sigma = parameters_.surface_sigma;
@@ -161,7 +176,7 @@ Pose Pipeline::searchStart(const SweepPoints& points, const Prediction& predicti
   options.start_sigma = kUnknownStart;
   const auto fit = [&](const Pose& pose) {
     double sum = 0.0;
-    for (const PatchMatch& match : matchPatches(patches, map_, pose, parameters_.surface_sigma, 0))
+    for (const PatchMatch& match : matchPatches(patches, map_, pose, {}, parameters_.surface_sigma, 0))
       sum += 1.0 / (1.0 + match.residual * match.residual * match.row.weight);
     return sum;
   };
@@ -188,11 +203,11 @@ Pipeline::Aligned Pipeline::alignSecond(const SweepPoints& points, const Predict
   Aligned aligned;
   const SweepPoints first = first_;
   for (int round = 0; round < kStartRounds; ++round) {
-    const Vector6d twist = parameters_.deskew && prediction.seconds > 0.0
-                               ? Vector6d(urban_nav_core::logSe3(T_odom_first.inverse() * guess) / prediction.seconds)
-                               : Vector6d::Zero();
+    SweepMotion motion;
+    if (parameters_.deskew && prediction.seconds > 0.0)
+      motion.twist = urban_nav_core::logSe3(T_odom_first.inverse() * guess) / prediction.seconds;
     --sweep_;  // the map is that of the sweep before
-    beginMap(first, twist);
+    beginMap(first, motion);
     ++sweep_;
     aligned = align(points, prediction, guess);
     guess = aligned.registration.T_odom_base;
@@ -254,7 +269,7 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
 
 void Pipeline::grow(const Aligned& aligned, const SweepPoints& points) {
   if (!motion_.isKnown()) {  // sweeps that are not placed in all directions would blur each other
-    beginMap(points, parameters_.deskew ? motion_.twist() : Vector6d::Zero());
+    beginMap(points, knownMotion());
     return;
   }
   first_ = SweepPoints();
@@ -279,7 +294,7 @@ void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& res
 void Pipeline::restartIfLost(const SweepPoints& points, LaserPose& result) {
   if (++lost_ < kLostLimit || points.p.empty()) return;
   motion_ = MotionModel(parameters_);
-  beginMap(points, parameters_.deskew ? motion_.twist() : Vector6d::Zero());
+  beginMap(points, knownMotion());
   result.status.sentence += "; a new local map begins";
 }
 

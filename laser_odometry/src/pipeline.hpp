@@ -41,11 +41,13 @@ class Pipeline {
   struct Aligned {
     Registration registration;
     std::vector<Vector3d> points;
+    SweepMotion motion;  ///< within the sweep
     int iterations = 0;
   };
 
   Prediction predict(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior) const;
-  void beginMap(const SweepPoints& points, const Vector6d& twist);
+  SweepMotion knownMotion() const;
+  void beginMap(const SweepPoints& points, const SweepMotion& motion);
   Pose searchStart(const SweepPoints& points, const Prediction& prediction);
   Aligned align(const SweepPoints& points, const Prediction& prediction, const Pose& guess);
   Aligned alignSecond(const SweepPoints& points, const Prediction& prediction);

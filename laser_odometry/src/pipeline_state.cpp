@@ -14,9 +14,11 @@ namespace {
 
 constexpr const char* kStateName = "laser_odometry";
 constexpr std::uint32_t kStateVersion = 1;
-constexpr double kPlausible = 15.0;  // standard deviations of the prediction by constant velocity
-constexpr double kGap = 1.7;         // usual times between sweeps
-constexpr double kOverlap = 0.7;     // of the duration of a sweep, from one to the next
+// Limits of a vehicle that drives over a kerb: a registration beyond them is a wrong one.
+constexpr double kLargestAcceleration = 50.0;  // m/s^2
+constexpr double kLargestTurn = 15.0;          // rad/s^2
+constexpr double kGap = 1.7;                   // usual times between sweeps
+constexpr double kOverlap = 0.7;               // of the duration of a sweep, from one to the next
 
 }  // namespace
 
@@ -58,8 +60,8 @@ bool Pipeline::isPlausible(const Registration& registration, const Prediction& p
   // Another sensor may know its motion better than its covariance states; at the start nothing is known.
   if (prediction.is_measured || !motion_.isKnown() || !first_.p.empty()) return true;
   const Vector6d d = urban_nav_core::boxMinus(T_odom_base_.inverse() * registration.T_odom_base, prediction.T_last_now);
-  const double sigma = std::sqrt(prediction.covariance(0, 0)), turn_sigma = std::sqrt(prediction.covariance(3, 3));
-  return d.head<3>().norm() <= kPlausible * sigma && d.tail<3>().norm() <= kPlausible * turn_sigma;
+  const double span = prediction.seconds * (prediction.seconds + usual_s_ * lost_);
+  return d.head<3>().norm() <= kLargestAcceleration * span && d.tail<3>().norm() <= kLargestTurn * span;
 }
 
 std::vector<MapPoint> Pipeline::localMap() const {

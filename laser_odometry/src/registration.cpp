@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/geometry/dense.hpp"
+
 namespace laser_odometry {
 namespace {
 
@@ -40,15 +42,96 @@ void setRobustFactors(std::vector<PatchMatch>& matches, double scale, double sta
   }
 }
 
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+using Matrix12d = Eigen::Matrix<double, 12, 12>;
+using Matrix12x6d = Eigen::Matrix<double, 12, 6>;
+
+/// Normal equations of the pose, after the motion within the sweep has been eliminated (Schur complement).
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+  Matrix12x6d coupling = Matrix12x6d::Zero();  // motion by pose, times the inverse of the motion's own
+  Vector12d motion = Vector12d::Zero();        // step of the motion where the pose stays
+
+  SweepMotion solveMotion(const Vector6d& step) const {
+    const Vector12d solved = motion - coupling * step;
+    return {solved.head<6>(), solved.tail<6>()};
+  }
+};
+
+Vector12d stacked(const SweepMotion& motion) {
+  Vector12d v;
+  v << motion.twist, motion.acceleration;
+  return v;
+}
+
+/// Derivative of the residual by the motion within the sweep: the point moves with base_link for its time.
+Vector12d motionJacobian(const PatchMatch& match, const Matrix3d& R_base_odom) {
+  const Vector3d normal = R_base_odom * match.row.normal;
+  Vector6d J;
+  J << normal, (R_base_odom * match.row.lever).cross(normal);
+  Vector12d all;
+  all << match.time * J, match.half_square * J;
+  return all;
+}
+
+/// Information of the prediction of the motion within the sweep.
+Vector12d predictedInformation(const RegistrationOptions& options) {
+  const auto information = [](double sigma) { return Vector3d(Vector3d::Constant(1.0 / (sigma * sigma))); };
+  Vector12d all;
+  all << information(options.velocity_sigma), information(options.rate_sigma), information(options.acceleration_sigma),
+      information(options.angular_acceleration_sigma);
+  return all;
+}
+
+/// Fills `rows` with the matches' robust weights, too.
+NormalEquations buildEquations(const Registration& state, const RegistrationOptions& options,
+                               std::vector<PlaneRow>& rows) {
+  NormalEquations equations;
+  Matrix12d motion_H = Matrix12d::Zero();
+  Matrix12x6d cross = Matrix12x6d::Zero();
+  Vector12d motion_g = Vector12d::Zero();
+  const Matrix3d R_base_odom = state.T_odom_base.R().transpose();
+  const bool is_timed = options.velocity_sigma > 0.0;
+  rows.clear();
+  for (const PatchMatch& match : state.matches) {
+    PlaneRow row = match.row;
+    row.weight *= match.robust;
+    const Vector6d J = row.jacobian();
+    equations.H.noalias() += row.weight * J * J.transpose();
+    equations.g -= row.weight * match.residual * J;
+    rows.push_back(row);
+    if (!is_timed) continue;
+    const Vector12d J_motion = motionJacobian(match, R_base_odom), weighted = row.weight * J_motion;
+    cross.noalias() += weighted * J.transpose();
+    motion_H.noalias() += weighted * J_motion.transpose();
+    motion_g -= match.residual * weighted;
+  }
+  if (!is_timed) return equations;
+  const Vector12d information = predictedInformation(options);
+  motion_H.diagonal() += information;
+  motion_g -= information.cwiseProduct(stacked(options.motion_offset + state.motion_change));
+  Eigen::MatrixXd solved(12, 7), A = motion_H;
+  solved << cross, motion_g;
+  if (!urban_nav_core::solvePositiveDefiniteInPlace(A, solved)) return equations;
+  equations.coupling = solved.leftCols<6>();
+  equations.motion = solved.col(6);
+  equations.H -= cross.transpose() * equations.coupling;
+  equations.g -= cross.transpose() * equations.motion;
+  return equations;
+}
+
 }  // namespace
 
 std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& T_odom_base,
-                                     double surface_sigma, int level) {
+                                     const SweepMotion& motion_change, double surface_sigma, int level) {
   std::vector<PatchMatch> matches;
   matches.reserve(patches.size());
   const Matrix3d R = T_odom_base.R();
   for (const Patch& patch : patches) {
-    const Vector3d turned = R * patch.mean;
+    const Vector6d shift = patch.time * motion_change.twist + patch.half_square * motion_change.acceleration;
+    const Vector3d moved = patch.mean + shift.head<3>() + shift.tail<3>().cross(patch.mean);
+    const Vector3d turned = R * moved;
     const Vector3d p = turned + T_odom_base.t();
     MapCell* cell = map.find(p, level);
     if (cell == nullptr) continue;
@@ -63,6 +146,8 @@ std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceM
     match.row = {plane.normal, turned, std::sqrt(plane.normal_variance),
                  1.0 / (plane.variance + thickness + tilt + kBeamVariance + surface_sigma * surface_sigma)};
     match.count = patch.count;
+    match.time = patch.time;
+    match.half_square = patch.half_square;
     match.p_odom = p;
     matches.push_back(match);
   }
@@ -77,28 +162,19 @@ Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map,
   double start_sigma = options.start_sigma;
   int level = std::min(options.coarse_level, map.levels() - 1);
   for (int i = 0; i < options.iterations; ++i) {
-    result.matches = matchPatches(patches, map, result.T_odom_base, options.surface_sigma, level);
+    result.matches = matchPatches(patches, map, result.T_odom_base, result.motion_change, options.surface_sigma, level);
     result.iterations = i + 1;
     if (result.matches.size() < kFewestMatches) break;
     result.scale = robustSpread(result.matches);
     setRobustFactors(result.matches, result.scale, start_sigma);
     const bool is_narrow = start_sigma < kSmallStart;
     start_sigma = is_narrow ? 0.0 : 0.3 * start_sigma;
-    Matrix6d H = Matrix6d::Zero();
-    Vector6d g = Vector6d::Zero();
-    rows.clear();
-    for (const PatchMatch& match : result.matches) {
-      PlaneRow row = match.row;
-      row.weight *= match.robust;
-      const Vector6d J = row.jacobian();
-      H.noalias() += row.weight * J * J.transpose();
-      g -= row.weight * match.residual * J;
-      rows.push_back(row);
-    }
+    NormalEquations equations = buildEquations(result, options, rows);
     result.free = findFreeSubspace(rows);
-    result.information = H;
+    result.information = equations.H;
     const Vector6d back = urban_nav_core::boxMinus(prior, result.T_odom_base);
-    const Vector6d step = solveObserved(H, g, result.free, back);
+    const Vector6d step = solveObserved(equations.H, equations.g, result.free, back);
+    result.motion_change = result.motion_change + equations.solveMotion(step);
     result.T_odom_base = urban_nav_core::boxPlus(result.T_odom_base, step);
     result.solved = true;
     const bool is_small = step.head<3>().norm() < kSmallStep && step.tail<3>().norm() * result.free.lever < kSmallStep;

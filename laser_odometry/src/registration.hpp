@@ -6,6 +6,7 @@
 #include "observability.hpp"
 #include "patches.hpp"
 #include "surface_map.hpp"
+#include "sweep_points.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace laser_odometry {
@@ -17,27 +18,37 @@ using urban_nav_core::Vector6d;
 /// A patch of a sweep and the plane of the map that it lies on.
 struct PatchMatch {
   MapCell* cell = nullptr;
-  double residual = 0.0;               ///< distance of the patch from the plane, m
-  double robust = 1.0;                 ///< factor of the robust kernel, 0...1
-  double count = 0.0;                  ///< points of the patch
-  PlaneRow row;                        ///< normal, lever and `weight` without the robust factor
-  Vector3d p_odom = Vector3d::Zero();  ///< m
+  double residual = 0.0;                 ///< distance of the patch from the plane, m
+  double robust = 1.0;                   ///< factor of the robust kernel, 0...1
+  double count = 0.0;                    ///< points of the patch
+  PlaneRow row;                          ///< normal, lever and `weight` without the robust factor
+  double time = 0.0, half_square = 0.0;  ///< of the patch
+  Vector3d p_odom = Vector3d::Zero();    ///< m
 };
 
 struct RegistrationOptions {
   int iterations = 12;
-  double surface_sigma = 0.02;  ///< m
+  double surface_sigma = 0.01;  ///< m
   int coarse_level = 0;         ///< finest level of the map that the first steps use
   /// Residuals that the first step expects from an error of the start, m (one sigma at the surfaces); it falls to a
   /// third with each step. Without it the many patches of the ground would make outliers of the walls that a wrong
   /// heading moves.
   double start_sigma = 0.1;
+  /// Standard deviations of the twist and of the acceleration by which the patches were deskewed, of translation and
+  /// rotation. Zero: both are exact.
+  double velocity_sigma = 0.0, rate_sigma = 0.0;                      // m/s, rad/s
+  double acceleration_sigma = 0.0, angular_acceleration_sigma = 0.0;  // m/s^2, rad/s^2
+  /// That motion minus the predicted one, which the standard deviations refer to.
+  SweepMotion motion_offset;
 };
 
 /// Result of a registration. Tangents as in PoseWithCovariance: parent frame odom.
 struct Registration {
   Pose T_odom_base;
-  Matrix6d information = Matrix6d::Zero();  ///< of independent patches, with robust weights
+  SweepMotion motion_change;  ///< to be added to the motion by which the patches were deskewed
+  /// Information of independent patches, with robust weights, and the motion within the sweep unknown but for its
+  /// prediction.
+  Matrix6d information = Matrix6d::Zero();
   FreeSubspace free;
   std::vector<PatchMatch> matches;
   double scale = 1.0;       ///< robust standard deviation of residual / sqrt(variance)
@@ -48,13 +59,13 @@ struct Registration {
 };
 
 /// Registers patches to the map: point to plane with each plane's own variance, Cauchy kernel at the observed spread.
-/// Begins at `start`. Directions that the matches do not constrain are those of `prior`. The map's planes are brought
-/// up to date.
+/// Begins at `start`; estimates the motion within the sweep with the pose. Directions that the matches do not constrain
+/// are those of `prior`. The map's planes are brought up to date.
 Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& prior, const Pose& start,
                              const RegistrationOptions& options);
 
-/// Matches of the patches at a pose, in their order, without robust factors.
+/// Matches of the patches at a pose, in their order, without robust factors. `motion_change`: as in Registration.
 std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& T_odom_base,
-                                     double surface_sigma, int level);
+                                     const SweepMotion& motion_change, double surface_sigma, int level);
 
 }  // namespace laser_odometry

@@ -44,7 +44,7 @@ SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base
   return points;
 }
 
-std::vector<Vector3d> deskew(const SweepPoints& points, const Vector6d& twist) {
+std::vector<Vector3d> deskew(const SweepPoints& points, const SweepMotion& motion) {
   std::vector<Vector3d> moved;
   moved.reserve(points.p.size());
   const double span = points.last_s - points.first_s;
@@ -59,7 +59,8 @@ std::vector<Vector3d> deskew(const SweepPoints& points, const Vector6d& twist) {
   std::vector<Knot> knots;
   knots.reserve(kKnots + 2);
   for (int i = 0; i <= kKnots + 1; ++i) {
-    const Pose T = urban_nav_core::expSe3(twist * (points.first_s + span * i / kKnots));
+    const double t = points.first_s + span * i / kKnots;
+    const Pose T = urban_nav_core::expSe3(t * motion.twist + 0.5 * t * t * motion.acceleration);
     knots.push_back({T.R(), T.t()});
   }
   const double per_s = kKnots / span;

@@ -30,8 +30,19 @@ struct SweepPoints {
 SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, double min_range,
                           double max_range, double longest_s);
 
-/// Returns the points as base_link sees them at the reference time if it moves with the constant twist (SE(3) tangent
-/// in base_link: m/s, rad/s). Error below 1 um for rotations of 0.3 rad in a sweep.
-std::vector<Vector3d> deskew(const SweepPoints& points, const Vector6d& twist);
+/// Motion of base_link within a sweep, SE(3) tangents in base_link at the reference time: T_reference_now =
+/// Exp(t twist + t^2 / 2 acceleration).
+struct SweepMotion {
+  Vector6d twist = Vector6d::Zero();         ///< m/s, rad/s
+  Vector6d acceleration = Vector6d::Zero();  ///< m/s^2, rad/s^2
+
+  SweepMotion operator+(const SweepMotion& other) const {
+    return {twist + other.twist, acceleration + other.acceleration};
+  }
+};
+
+/// Returns the points as base_link sees them at the reference time. Error below 1 um for rotations of 0.3 rad in a
+/// sweep.
+std::vector<Vector3d> deskew(const SweepPoints& points, const SweepMotion& motion);
 
 }  // namespace laser_odometry

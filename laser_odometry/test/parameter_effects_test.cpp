@@ -51,7 +51,7 @@ TEST(ParameterEffects, EachParameterChangesTheEstimate) {
     }
     return text.str();
   };
-  const Experiment lost("sweeps without returns", blink, {{"acceleration", 1.0}, {"angular_acceleration", 0.5}});
+  const Experiment lost("sweeps without returns", blink, {{"acceleration", 3.0}, {"angular_acceleration", 0.2}});
   EXPECT_EQ(urban_nav_core::testing::findParametersWithoutEffect(table(), {street, lost}), "");
 }
 

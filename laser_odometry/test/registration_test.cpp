@@ -26,15 +26,15 @@ Registered prepare(const BoxWorld& world, const Pose& T_world_base) {
   const SweepPoints second =
       collectPoints(lidar.scan(world, still(T_world_odom * T_world_base), 0, 1), {}, 1.0, 80.0, 1.0);
   Registered all;
-  all.map.insert(deskew(first, Vector6d::Zero()), Vector3d::Zero(), 0);
-  all.patches = makePatches(deskew(second, Vector6d::Zero()), 0.5);
+  all.map.insert(deskew(first, {}), Vector3d::Zero(), 0);
+  all.patches = makePatches(deskew(second, {}), second.time, 0.5);
   return all;
 }
 
 TEST(Registration, TheJacobianIsTheDerivativeOfTheResidualAlsoFarFromTheSolution) {
   const Pose T(urban_nav_core::expSo3({0.1, -0.2, 0.6}), {0.5, -0.3, 0.2});
   Registered all = prepare(makeRoom(), Pose());
-  const auto matches = matchPatches(all.patches, all.map, T, 0.02, 0);
+  const auto matches = matchPatches(all.patches, all.map, T, {}, 0.02, 0);
   ASSERT_GT(matches.size(), 20u);
   for (std::size_t i = 0; i < matches.size(); i += 5) {
     const PatchMatch& match = matches[i];

@@ -19,7 +19,7 @@ TEST(SweepPoints, DeskewedPointsLieWhereTheReferenceTimeSeesThem) {
   Vector6d twist;
   twist << 10.0, 0, 0, 0, 0, 1.0;
   const Pose T_world_base = motion(0.1);
-  const std::vector<Vector3d> moved = deskew(points, twist);
+  const std::vector<Vector3d> moved = deskew(points, {twist, Vector6d::Zero()});
   ASSERT_GT(moved.size(), 1000u);
   int on_floor = 0;
   for (const Vector3d& p : moved) {
@@ -60,7 +60,7 @@ TEST(SweepPoints, WithoutTimesNothingMoves) {
   Sweep sweep = lidar.scan(makeRoom(), makeDrive(0, 0), 0.0, 1);
   sweep.times = Sweep::Times::Unknown;
   const SweepPoints points = collectPoints(sweep, {}, 0.5, 80.0, 1.0);
-  const std::vector<Vector3d> moved = deskew(points, 10.0 * Vector6d::Ones());
+  const std::vector<Vector3d> moved = deskew(points, {10.0 * Vector6d::Ones(), Vector6d::Ones()});
   for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_EQ(moved[i], points.p[i].cast<double>());
 }
 

@@ -151,4 +151,13 @@ inline std::function<Pose(double)> makeDrive(double speed, double rate) {
   };
 }
 
+/// The same with a sway of `amplitude` (rad) in roll at `hz`, as of a vehicle on soft springs.
+inline std::function<Pose(double)> makeSwayingDrive(double speed, double amplitude, double hz) {
+  const std::function<Pose(double)> drive = makeDrive(speed, 0.0);
+  return [drive, amplitude, hz](double t) {
+    return drive(t) *
+           Pose(urban_nav_core::expSo3({amplitude * std::sin(2.0 * M_PI * hz * t), 0.0, 0.0}), Vector3d::Zero());
+  };
+}
+
 }  // namespace laser_odometry
