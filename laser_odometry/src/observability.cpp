@@ -103,7 +103,7 @@ FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
   const double fewest = std::max(kLeastPatches, kLeastShare * static_cast<double>(rows.size()));
   for (int i = 0; i < 6; ++i) {
     const Vector6d direction = eigen.vectors.col(i);
-    double patches = 0.0;
+    double patches = 0.0, squares = 0.0;
     if (eigen.values[i] > kSurelyObserved * total && rows.size() > kManyRows) {
       free.evidence.push_back(eigen.values[i] / usual);
       continue;
@@ -111,10 +111,13 @@ FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
     const Eigen::Vector3d shift = direction.head<3>(), turn = direction.tail<3>() / free.lever;
     for (const PlaneRow& row : rows) {
       const Eigen::Vector3d displacement = shift + turn.cross(row.lever);
+      squares += row.weight * displacement.squaredNorm();
       const double across = displacement.dot(row.normal);
       const double least = std::max(kLeastSine, kLeastSigmas * row.normal_sigma) * displacement.norm();
       if (std::abs(across) > least) patches += std::min(1.0, row.weight / usual) * across * across;
     }
+    // Relative to the mean displacement: a roll moves the near walls of a long corridor by little, and all of them.
+    if (squares > 0.0) patches *= total / squares;
     free.evidence.push_back(patches);
     if (patches < fewest) free.directions.push_back(direction);
   }

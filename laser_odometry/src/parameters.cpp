@@ -23,7 +23,7 @@ const Table<Parameters>& table() {
           {"levels", &P::levels, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{6}, {},
            "Resolutions of the local map, each twice as coarse as the one before.",
            "laser_odometry/bench, accuracy", {}, Audience::Experts},
-          {"min_range", &P::min_range, "m", 1.0, 0.0, 100.0, {},
+          {"min_range", &P::min_range, "m", 0.5, 0.0, 100.0, {},
            "Returns nearer than this are left out: the robot itself.", "docs/derivations/laser_odometry.md", {},
            Audience::Experts},
           {"max_range", &P::max_range, "m", 100.0, 1.0, 1000.0, {},

@@ -40,6 +40,18 @@ TEST(Observability, NoiseOfNormalsIsNoInformation) {
   }
 }
 
+TEST(Observability, TheWallsOfALongCorridorHoldItsRoll) {
+  Dice dice(8);
+  std::vector<PlaneRow> rows;
+  for (int i = 0; i < 1500; ++i) {
+    const double x = dice.uniform(-30.0, 30.0), across = dice.uniform(-1.0, 1.0), side = i % 4 < 2 ? 1.0 : -1.0;
+    rows.push_back(i % 2 == 0 ? makeRow({x, side, across}, Vector3d::UnitY(), 1.0)
+                              : makeRow({x, across, side}, Vector3d::UnitZ(), 1.0));
+  }
+  for (int i = 0; i < 30; ++i) rows.push_back(makeRow({20.0, dice.uniform(-1.0, 1.0), 0.0}, Vector3d::UnitX(), 1.0));
+  EXPECT_FALSE(findFreeSubspace(rows).isFree());
+}
+
 TEST(Observability, AFewSurfacesAcrossTheTunnelAreEnough) {
   EXPECT_FALSE(findFreeSubspace(makeTunnelRows(0.01, 1.0, 20)).isFree());
 }
