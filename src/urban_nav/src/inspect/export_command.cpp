@@ -230,8 +230,7 @@ std::vector<Option> exportOptions() {
           {"--results",
            "DIR",
            "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, with the "
-           "bytes "
-           "that map wrote",
+           "bytes that map wrote",
            false,
            false,
            {}},

@@ -32,8 +32,15 @@ namespace {
 
 constexpr std::size_t kMostGraph = std::size_t{1} << 32;  // bytes of graph.g2o
 
+/// Returns whether a store has no covariances of a session: those of all its poses are zero.
+bool isUnknown(const std::vector<Matrix6d>& covariances) {
+  return covariances.size() > 1 && std::all_of(covariances.begin(), covariances.end(),
+                                               [](const Matrix6d& covariance) { return covariance.isZero(0.0); });
+}
+
 /// Poses and covariances of stored sessions, as the stages of `map` hand them to the writer of their files.
-std::vector<SessionTrajectory> storedTrajectories(Store& store, const PreviousSessions& sessions) {
+std::vector<SessionTrajectory> storedTrajectories(Store& store, const PreviousSessions& sessions,
+                                                  std::vector<std::string>& left_out) {
   std::vector<SessionTrajectory> trajectories;
   for (std::size_t s = 0; s < sessions.ids.size(); ++s) {
     const urban_nav_store::Session session = *store.sessions().find(sessions.ids[s]);
@@ -53,6 +60,11 @@ std::vector<SessionTrajectory> storedTrajectories(Store& store, const PreviousSe
       const auto relaxed = covariances.find(pose.stamp);
       trajectory.covariances.push_back(
           relaxed != covariances.end() ? relaxed->second : sessions.runs[s].settled[i].T_odom_base.covariance);
+    }
+    if (isUnknown(trajectory.covariances)) {
+      trajectory.covariances.clear();
+      left_out.push_back("rows of session " + sessions.names[s] +
+                         " in covariance.csv: the store was written live, or by an earlier version, and holds none");
     }
     trajectories.push_back(std::move(trajectory));
   }
@@ -128,7 +140,7 @@ StoredResults readResults(Store& store) {
   StoredResults results;
   std::vector<const SessionOdometry*> runs;
   for (const SessionOdometry& run : sessions.runs) runs.push_back(&run);
-  const std::vector<SessionTrajectory> trajectories = storedTrajectories(store, sessions);
+  const std::vector<SessionTrajectory> trajectories = storedTrajectories(store, sessions, results.left_out);
   for (const OutputFile& file : trajectoryFiles(runs, trajectories))
     if (file.content) results.files.push_back({file.name, file.content()});
   results.files.push_back({"closures.csv", closuresCsv(store, sessions)});

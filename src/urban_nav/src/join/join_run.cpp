@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "inspect/store_info.hpp"
@@ -73,6 +74,43 @@ std::string reasonApart(const JoinRun& run, const urban_nav_store::SessionId& id
   return "none of its " + std::to_string(candidates) + " candidates for closures with other sessions was accepted";
 }
 
+/// The two poses of a closure, whichever of them is named first.
+using PosePair = std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>;
+
+/// Returns the accepted closures that the sources hold, by the ids of their sessions.
+std::set<PosePair> acceptedClosures(const std::vector<std::string>& stores) {
+  std::set<PosePair> pairs;
+  for (const std::string& path : stores) {
+    Store store(path, Access::Snapshot);
+    for (const urban_nav_store::Session& session : store.sessions().all())
+      store.graph().forEachEdge(session.id, [&](const urban_nav_store::Edge& edge) {
+        const bool is_measured =
+            edge.kind == urban_nav_store::EdgeKind::Stereo || edge.kind == urban_nav_store::EdgeKind::Icp;
+        if (is_measured && edge.verdict == ClosureVerdict::Accepted)
+          pairs.insert(std::minmax(urban_nav_core::PoseRef{edge.a.session, edge.a.stamp},
+                                   urban_nav_core::PoseRef{edge.b.session, edge.b.stamp}));
+      });
+  }
+  return pairs;
+}
+
+/// Warns of accepted closures of the sources between poses of which the joined graph has no edge.
+void warnOfLostClosures(Store& store, const std::set<PosePair>& before, JoinRun& run) {
+  std::set<PosePair> joined;
+  for (const urban_nav_store::Session& session : store.sessions().all())
+    store.graph().forEachEdge(session.id, [&](const urban_nav_store::Edge& edge) {
+      joined.insert(std::minmax(urban_nav_core::PoseRef{edge.a.session, edge.a.stamp},
+                                urban_nav_core::PoseRef{edge.b.session, edge.b.stamp}));
+    });
+  const auto lost =
+      std::count_if(before.begin(), before.end(), [&](const PosePair& closure) { return joined.count(closure) == 0; });
+  if (lost > 0)
+    run.warnings.push_back(std::to_string(lost) + " of " + std::to_string(before.size()) +
+                           " closures that the stores had accepted are not in the joined map: places does not propose "
+                           "them where all sessions are compared in the order of time (they were given by --closures, "
+                           "or found in another order)");
+}
+
 /// Counts closures by verdict and by the sessions that they connect.
 void countClosures(const MapContext& context, JoinRun& run) {
   std::map<std::string, std::size_t> place;
@@ -134,6 +172,7 @@ void runStages(MapContext& context, const AllStages& stages, JoinRun& run) {
 
 JoinRun joinStores(JoinOptions options, AllStages stages, Console& console) {
   for (const std::string& path : options.stores) requireFinished(path);
+  const std::set<PosePair> accepted_before = acceptedClosures(options.stores);
   Workplace workplace(options.out);
   urban_nav_store::merge(options.stores, workplace.store(), urban_nav_store::MergeContent::Sessions);
   JoinRun run;
@@ -153,6 +192,7 @@ JoinRun joinStores(JoinOptions options, AllStages stages, Console& console) {
     runStages(context, stages, run);
     countClosures(context, run);
     findApart(context, run);
+    warnOfLostClosures(store, accepted_before, run);
     dropStates(store);
     store.shrink();
     store.close();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/context.hpp"
 
-#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 
 namespace urban_nav {
@@ -19,14 +18,13 @@ std::vector<urban_nav_store::SessionId> MapContext::ids() const {
   return all;
 }
 
-urban_nav_registration::MountedCamera MapContext::lastCamera() const {
-  if (!sessions.empty()) return {sessions.back().info.camera, sessions.back().info.T_base_camera};
-  const SessionOdometry& last = previous.runs.back();
-  const auto camera = urban_nav_registration::parseCalibrationFingerprint(last.cameras);
-  if (!camera)
-    throw urban_nav_core::DataError(store->path(), "does not hold the camera of session " + previous.ids.back(),
-                                    "a store that map has written");
-  return *camera;
+std::optional<urban_nav_registration::MountedCamera> MapContext::lastCamera() const {
+  for (auto session = sessions.rbegin(); session != sessions.rend(); ++session)
+    if (session->info.has_images)
+      return urban_nav_registration::MountedCamera{session->info.camera, session->info.T_base_camera};
+  for (auto run = previous.runs.rbegin(); run != previous.runs.rend(); ++run)
+    if (auto camera = urban_nav_registration::parseCalibrationFingerprint(run->cameras)) return camera;
+  return std::nullopt;
 }
 
 }  // namespace urban_nav

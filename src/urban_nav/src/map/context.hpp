@@ -60,9 +60,9 @@ struct MapContext {
   /// Return odometry and store keys over all sessions.
   std::vector<const SessionOdometry*> runs() const;
   std::vector<urban_nav_store::SessionId> ids() const;
-  /// Returns the camera of the last session; that of a stored session is the one with which it was read. Throws
-  /// DataError if the store does not have it.
-  urban_nav_registration::MountedCamera lastCamera() const;
+  /// Returns the camera of the last session that has one, those of this run before previous ones; that of a stored
+  /// session is the one with which it was read. Returns nullopt if none has images.
+  std::optional<urban_nav_registration::MountedCamera> lastCamera() const;
 };
 
 }  // namespace urban_nav

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "commands/stages.hpp"
@@ -86,6 +87,48 @@ TEST_F(Join, JoinedAndMergedStoresAreSourcesLikeOthers) {
   ASSERT_EQ(runWords({"join", file("merged.db"), store("first"), "-o", file("again.db")}), 0);
   ASSERT_EQ(runWords({"export", file("again.db"), "--results", file("again")}), 0);
   EXPECT_EQ(differences("again", "both"), std::vector<std::string>());
+}
+
+TEST_F(Join, ClosuresThatAreNotProposedAnywhereAreNamed) {
+  std::filesystem::copy_file(store("first"), file("given.db"));
+  {
+    urban_nav_store::Store given(file("given.db"), urban_nav_store::Access::Write);
+    const urban_nav_store::SessionId id = given.sessions().all().front().id;
+    std::vector<urban_nav_core::StampNs> stamps;
+    given.graph().forEachNode(id, [&](const urban_nav_store::Node& node) { stamps.push_back(node.stamp); });
+    urban_nav_store::Edge edge;
+    edge.a = {id, stamps.front()};
+    edge.b = {id, stamps.back()};
+    edge.kind = urban_nav_store::EdgeKind::Stereo;
+    edge.source = "loop_metric";
+    given.graph().put(edge);
+    given.commit();
+  }
+  ASSERT_EQ(runWords({"join", file("given.db"), store("second"), "-o", file("named.db"), "--json", file("named.json")}),
+            0);
+  EXPECT_NE(readFile(file("named.json")).find("1 of 1 closures that the stores had accepted are not in the joined map"),
+            std::string::npos);
+}
+
+TEST_F(Join, StoresWithoutCovariancesGiveNoneAndAreNamed) {
+  std::filesystem::copy_file(store("first"), file("live.db"));
+  {
+    urban_nav_store::Store live(file("live.db"), urban_nav_store::Access::Write);
+    const urban_nav_store::SessionId id = live.sessions().all().front().id;
+    std::vector<urban_nav_store::RelaxedPose> poses;
+    live.graph().forEachRelaxed(id, [&](const urban_nav_store::RelaxedPose& pose) { poses.push_back(pose); });
+    for (urban_nav_store::RelaxedPose& pose : poses) {
+      pose.covariance.setZero();
+      live.graph().put(id, pose);
+    }
+    live.commit();
+  }
+  ::testing::internal::CaptureStderr();
+  ASSERT_EQ(runWords({"export", file("live.db"), "--results", file("live")}), 0);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("left out: rows of session first in covariance.csv"),
+            std::string::npos);
+  const std::string rows = readFile(file("live/covariance.csv"));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1) << "the header alone";
 }
 
 TEST_F(Join, WhatCannotBeJoinedIsRefusedAndNothingIsWritten) {

@@ -35,7 +35,7 @@ struct RelaxedPose {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_map_base;
   std::int64_t revision = 0;  ///< of the graph when the pose last changed
-  /// Covariance of the pose relative to the first pose of its map, in the axes of `map`; zero: unknown.
+  /// Covariance of the pose relative to the first pose of its map, in the axes of that pose; zero: unknown.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
 };
 

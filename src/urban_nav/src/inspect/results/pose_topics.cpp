@@ -3,6 +3,7 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include <map>
 #include <optional>
 
 #include "urban_nav_core/types/frames.hpp"
@@ -33,6 +34,13 @@ geometry_msgs::TransformStamped stampedTransform(urban_nav_core::StampNs stamp, 
   return message;
 }
 
+/// Returns the matrix that rotates both halves of a tangent.
+Matrix6d bothRotations(const urban_nav_core::Matrix3d& R) {
+  Matrix6d both = Matrix6d::Zero();
+  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = R;
+  return both;
+}
+
 /// Sets the mean velocity since the node before, in the axes of base_link at this node.
 void setMeanTwist(const Node& before, const Node& node, nav_msgs::Odometry& message) {
   const double seconds = urban_nav_core::secondsBetween(before.stamp, node.stamp);
@@ -40,22 +48,42 @@ void setMeanTwist(const Node& before, const Node& node, nav_msgs::Odometry& mess
   const Pose step = before.T_odom_base.inverse() * node.T_odom_base;
   urban_nav_core::Vector6d moved;
   moved << step.t(), urban_nav_core::logSo3(step.q());
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = step.R().transpose();
+  const Matrix6d turn = bothRotations(step.R().transpose());
   urban_nav_ros::setTwist(turn * moved / seconds, turn * node.covariance * turn.transpose() / (seconds * seconds),
                           message);
+}
+
+/// Returns the stage that made the steps of a session: "swf_vo"; empty without steps.
+std::string odometrySource(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
+  std::string source;
+  store.graph().forEachEdge(session, [&](const urban_nav_store::Edge& edge) {
+    if (source.empty() && edge.kind == urban_nav_store::EdgeKind::Odometry) source = edge.source;
+  });
+  return source;
 }
 
 /// Writes what a recording has of each pose of a session.
 class SessionPoses {
  public:
-  SessionPoses(const RecordedMap& map, const StoredTrajectory& session, std::string source, BagWriter& recording)
-      : map_(map), session_(session), source_(std::move(source)), recording_(recording) {}
+  SessionPoses(urban_nav_store::Store& store, const RecordedMap& map, const StoredTrajectory& session,
+               BagWriter& recording)
+      : map_(map),
+        session_(session),
+        source_(odometrySource(store, session.session.id)),
+        recording_(recording),
+        R_map_first_(bothRotations(map.sessions().front().T_map_base.front().pose.R())) {
+    store.graph().forEachRelaxed(session.session.id, [this](const urban_nav_store::RelaxedPose& pose) {
+      relaxed_.emplace_hint(relaxed_.end(), pose.stamp, pose.covariance);
+    });
+  }
 
   void add(const Node& node) {
     const Pose& T_map_base = session_.T_map_base.at(next_++).pose;
+    const auto relaxed = relaxed_.find(node.stamp);
+    const Matrix6d& covariance = relaxed != relaxed_.end() ? relaxed->second : node.covariance_from_first;
     nav_msgs::Odometry odometry =
-        urban_nav_ros::toOdometryMessage(node.stamp, {T_map_base, Matrix6d::Zero()}, map_.frame(), frames::kBaseLink);
+        urban_nav_ros::toOdometryMessage(node.stamp, {T_map_base, R_map_first_ * covariance * R_map_first_.transpose()},
+                                         map_.frame(), frames::kBaseLink);
     if (before_) setMeanTwist(*before_, node, odometry);
     recording_.write(topics::results::kOdometry, node.stamp, odometry);
     writeTransforms(node, T_map_base);
@@ -81,16 +109,9 @@ class SessionPoses {
   BagWriter& recording_;
   std::size_t next_ = 0;
   std::optional<Node> before_;
+  const Matrix6d R_map_first_;  // turns covariances, which are in the axes of the first pose of the map
+  std::map<urban_nav_core::StampNs, Matrix6d> relaxed_;
 };
-
-/// Returns the stage that made the steps of a session: "swf_vo"; empty without steps.
-std::string odometrySource(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
-  std::string source;
-  store.graph().forEachEdge(session, [&](const urban_nav_store::Edge& edge) {
-    if (source.empty() && edge.kind == urban_nav_store::EdgeKind::Odometry) source = edge.source;
-  });
-  return source;
-}
 
 nav_msgs::Path wholePath(const RecordedMap& map) {
   urban_nav_core::TrajectorySegment all;
@@ -110,7 +131,7 @@ void writePoseTopics(urban_nav_store::Store& store, const RecordedMap& map, BagW
     for (const urban_nav_store::Extrinsic& sensor : store.sessions().extrinsics(session.session.id))
       mounted.push_back(urban_nav_ros::toStaticTransform(frames::kBaseLink, sensor.frame, sensor.T_base_frame));
     recording.writeStaticTransforms(session.T_map_base.front().stamp, mounted);
-    SessionPoses poses(map, session, odometrySource(store, session.session.id), recording);
+    SessionPoses poses(store, map, session, recording);
     store.graph().forEachNode(session.session.id, [&](const Node& node) { poses.add(node); });
   }
 }

@@ -29,7 +29,7 @@ class LoopsStage final : public Stage {
     const std::vector<urban_nav_store::SessionId> ids = context.ids();
     std::vector<CandidateSession> sessions;
     for (std::size_t i = 0; i < runs.size(); ++i) sessions.push_back({context.names[i], ids[i], runs[i]});
-    const urban_nav_registration::MountedCamera last = context.lastCamera();
+    const auto last = context.lastCamera().value_or(urban_nav_registration::MountedCamera());  // of none: no views
     loop_metric::Parameters parameters = context.options.parameters.get(loop_metric::table());
     parameters.registration = context.options.parameters.get(urban_nav_registration::table());
     run_ = runLoops(parameters, last.camera, last.T_base_left, sessions, *context.store, context.closures,

@@ -164,8 +164,12 @@ urban_nav_core::Trajectory runOdometry(urban_nav_input::Source& source, const Pa
     recorder.process(*item);
     progress.update(static_cast<std::int64_t>(run.frames.size()));
   }
-  recorder.finish({source.closingFaults(), source.forces()});
   progress.finish(static_cast<std::int64_t>(run.frames.size()));
+  std::vector<std::string> faults = source.closingFaults();
+  for (const urban_nav_input::Finding& finding : source.sensorFindings())
+    faults.push_back(source.info().name + ": " + finding.text + " (" + finding.remedy + ")");
+  for (const std::string& fault : faults) console.warn(fault);
+  recorder.finish({faults, source.forces()});
   return smoothedTrajectory(run);
 }
 

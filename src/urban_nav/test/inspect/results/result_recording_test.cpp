@@ -21,6 +21,7 @@
 #include "map/map_command.hpp"
 #include "topics/lasers/map_export.hpp"
 #include "urban_nav_core/io/cloud/cloud_file.hpp"
+#include "urban_nav_core/io/covariance_csv.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -118,6 +119,14 @@ TEST(MapMcap, HoldsTheTrajectoryAndExportWritesTheSame) {
   ASSERT_EQ(
       callMapOrExport({"map", folder.file("in"), "--out", folder.file("out"), "--stages", "vo", "--mcap", mapped}), 0);
   expectPoses(mapped, urban_nav_core::readTum(folder.file("out/trajectory.tum")), "odom");
+  const auto poses = readTopic<nav_msgs::Odometry>(mapped, topics::kOdometry);
+  const std::vector<urban_nav_core::CovarianceRow> rows =
+      urban_nav_core::readCovariances(folder.file("out/covariance.csv"));
+  ASSERT_EQ(poses.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)  // without a graph, odom has the axes of the first pose
+    for (std::size_t k = 0; k < 36; ++k)
+      EXPECT_NEAR(poses[i].second->pose.covariance[k], rows[i].covariance(k / 6, k % 6), 1e-12);
+  EXPECT_GT(poses.back().second->pose.covariance[0], 0.0);
   EXPECT_TRUE(Recording(mapped).warnings().empty());
   for (const urban_nav_input::Connection& connection : Recording(mapped).connections()) {
     EXPECT_EQ(connection.encoding, "cdr") << connection.topic;
