@@ -46,9 +46,10 @@ const Table<Parameters>& table() {
           {"acceleration", &P::acceleration, "m/s^2", 1.0, 0.01, 1000.0, {},
            "Acceleration of the robot, one sigma: within a sweep, from sweep to sweep, and where nothing else is "
            "known.",
-           "docs/derivations/laser_odometry.md"},
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
           {"angular_acceleration", &P::angular_acceleration, "rad/s^2", 0.5, 0.01, 1000.0, {},
-           "The same of the rotation: sway, bumps, steering.", "docs/derivations/laser_odometry.md"},
+           "Angular acceleration of the robot, one sigma: sway, bumps, steering.", "docs/derivations/laser_odometry.md", {},
+           Audience::Experts},
           {"lost_patches", &P::lost_patches, "", std::int64_t{30}, std::int64_t{6}, std::int64_t{100000}, {},
            "With fewer matched surface patches a sweep is LOST: the pose is that of the prior.",
            "docs/derivations/laser_odometry.md", {}, Audience::Experts},

@@ -116,7 +116,7 @@ class GraphLaunch(LaunchCase):
         self.assertTrue(optimized.success, optimized.message)
         self.expect(lambda: states[-1].revision > revision, "the batch")
         live = poses()
-        self.assertEqual(verdicts, ["accepted" if (a, b) in TRUE else "rejected" for a, b, _ in self.closures])
+        self.assertEqual(verdicts, ["accepted" if (a, b) in TRUE else "rejected" for a, b, _ in sorted(self.closures, key=lambda row: row[1])], "in the order of time")
         self.expect(lambda: states[-1].closures_rejected + states[-1].closures_waiting == len(FALSE), lambda: f"{states[-1]}")
         np.testing.assert_allclose(live, expected, rtol=0, atol=1e-9, err_msg="the batch over the same edges, live and offline")
         self.assertTrue(any(correction.reason_name == "Levelled" for correction in corrections), str(corrections))

@@ -173,7 +173,8 @@ Page mapPage(const MapState& state, const std::vector<StageResult>& results) {
   for (PlacedSection& placed : sections) page.sections.push_back(std::move(placed.section));
   page.footer = "urban_nav map, " + urban_nav_core::formatNumber(state.usage.wallSeconds(), 3) + " s of time, " +
                 urban_nav_core::formatNumber(state.usage.cpuSeconds(), 3) +
-                " s of processor. Poses and figures: trajectory.tum, covariance.csv, stats.csv beside this file.";
+                " s of processor. Poses and figures: trajectory.tum, covariance.csv and the tables of the stages in "
+                "the folder of this file.";
   return page;
 }
 
