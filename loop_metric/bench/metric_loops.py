@@ -11,7 +11,6 @@ all days after relaxation, in one frame with the first pose of the first day upo
 first pose, which flatters it.
 """
 import argparse
-import csv
 import json
 import sqlite3
 import sys
@@ -37,11 +36,11 @@ DIRECTIONS = ("same direction", "across", "opposite direction", "another place")
 
 
 def candidates(bags, percent, seed, path):
-    """Writes pairs of moments and nothing else; which of them are true."""
+    """Writes pairs of moments and nothing else; their rows and which of them are true."""
     sessions = [closures.Session(bag) for bag in bags]
     rows, true = closures.rows_of(sessions, percent, 0.0, 0.0, seed)
     path.write_text("".join(",".join(map(str, row[:5])) + "\n" for row in (closures.COLUMNS, *rows)))
-    return true
+    return rows, true
 
 
 def direction_of(pose, true):
@@ -74,14 +73,13 @@ def error_of(pose, truth):
     return np.r_[pose[:3, 3] - truth[:3, 3], closures.cv2.Rodrigues(pose[:3, :3] @ truth[:3, :3].T)[0].ravel()]
 
 
-def candidates_of(bags, true, out):
+def candidates_of(bags, rows, true, out):
     """Of each candidate: direction, kind, accepted."""
     truths = {bag.stem: closures.Session(bag).truth for bag in bags}
     result = []
-    with (out / "closures.csv").open() as file:
-        for row, right in zip(csv.DictReader(file), true):
-            ends = [truths[row[f"session_{end}"]].at([int(row[f"stamp_{end}_ns"]) * 1e-9])[0] for end in "ab"]
-            result.append((direction_of(inverse(ends[0]) @ ends[1], right), row["kind"], row["verdict"] == "accepted"))
+    for row, right in closures.outcomes(out / "closures.csv", rows, true):
+        ends = [truths[row[f"session_{end}"]].at([int(row[f"stamp_{end}_ns"]) * 1e-9])[0] for end in "ab"]
+        result.append((direction_of(inverse(ends[0]) @ ends[1], right), row["kind"], row["verdict"] == "accepted"))
     return result
 
 
@@ -181,10 +179,10 @@ def main():
         bags, label = driven(arguments.folder, case), " ".join(case.split(":")[:2])
         for way in arguments.way or WAYS:
             out = arguments.folder / f"{bags[0].stem.rsplit('_', 1)[0]}_{way}"
-            true = candidates(bags, arguments.false, arguments.seed, arguments.folder / f"{out.name}.csv")
+            rows, true = candidates(bags, arguments.false, arguments.seed, arguments.folder / f"{out.name}.csv")
             if not (out / "summary.json").exists():
                 urban_nav("map", *bags, "--closures", arguments.folder / f"{out.name}.csv", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--out", out, *WAYS[way])
-            judged = candidates_of(bags, true, out)
+            judged = candidates_of(bags, rows, true, out)
             kinds += kinds_of(label, way, judged, accepted_of(bags, out))
             maps.append(map_of(label, way, bags, judged, out, arguments.folder))
     notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg along what the closure holds; errors likewise. NEES: 6 is right, 5.3 its median."]

@@ -12,6 +12,7 @@
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/laser/sweep.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace laser_odometry {
 
@@ -42,6 +43,12 @@ struct VelodyneFolder {
       T_base_lidar = T_camera_base.inverse() * urban_nav_core::Pose(urban_nav_core::Matrix3d(Tr.leftCols<3>()),
                                                                     urban_nav_core::Vector3d(Tr.col(3)));
     }
+    if (files.size() < 2)
+      throw urban_nav_core::DataError(sweeps, std::to_string(files.size()) + " files *.bin", "at least 2");
+    if (times.size() < files.size() || truth.size() < files.size())
+      throw urban_nav_core::DataError(
+          folder, std::to_string(times.size()) + " times and " + std::to_string(truth.size()) + " poses",
+          "one of each for every sweep, " + std::to_string(files.size()));
   }
 
   /// The laser turns clockwise seen from above, in 0.1 s from backwards to backwards.

@@ -129,6 +129,19 @@ def rows_of(sessions, percent, sigma_m, sigma_rad, seed, every=1):
     return [row for _, _, row in rows], [true for _, true, _ in rows]
 
 
+def ends(row):
+    """Session and stamp of both ends of a row, of the file offered or of the closures.csv of a map."""
+    a, stamp_a, b, stamp_b = (row[key] for key in COLUMNS[:4]) if isinstance(row, dict) else row[:4]
+    return a, int(stamp_a), b, int(stamp_b)
+
+
+def outcomes(path, rows, true):
+    """Each row of a map's closures.csv and whether it is true, known from the `rows` offered: a map writes them in the order of time, not of its input."""
+    truth = {ends(row): right for row, right in zip(rows, true)}
+    with open(path) as file:
+        return [(row, truth[ends(row)]) for row in csv.DictReader(file)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("session", type=Path, nargs="+", help="a simulated bag, or its BAG_STEM.truth; in the order in which map gets them")

@@ -36,26 +36,20 @@ def driven(folder, case):
 
 
 def offered(bags, way, arguments, path):
-    """Writes the closures; which of them are true."""
+    """Writes the closures; their rows and which of them are true."""
     sessions = [closures.Session(bag) for bag in bags]
     rows, true = closures.rows_of(sessions, arguments.false, arguments.sigma_m, float(np.radians(arguments.sigma_deg)), arguments.seed)
     if way == "apart":
         kept = [i for i, (row, right) in enumerate(zip(rows, true)) if not right or row[0] == row[2]]
         rows, true = [rows[i] for i in kept], [true[i] for i in kept]
     path.write_text("\n".join(",".join(map(str, row)) for row in (closures.COLUMNS, *rows)) + "\n")
-    return true
+    return rows, true
 
 
 def both_truths(bags, path):
     path.write_text("".join(line + "\n" for bag in bags for line in bag.with_suffix(".truth").joinpath("trajectory.tum").read_text().splitlines()
                             if not line.startswith("#")))
     return path
-
-
-def verdicts(path):
-    rows = path.read_text().splitlines()
-    column = rows[0].split(",").index("verdict")
-    return [line.split(",")[column] == "accepted" for line in rows[1:]]
 
 
 def root_mean_square(values, weights):
@@ -77,13 +71,13 @@ def level_off_deg(bag, trajectory):
 def row_of(case, way, bags, arguments):
     name = f"{bags[0].stem.rsplit('_', 1)[0]}_{way}"
     out = arguments.folder / name
-    true = offered(bags, way, arguments, arguments.folder / f"{name}.csv")
+    rows, true = offered(bags, way, arguments, arguments.folder / f"{name}.csv")
     urban_nav("map", *bags, "--stages", "vo,graph", "--closures", arguments.folder / f"{name}.csv", "--out", out, *WAYS[way])
     summary = json.loads((out / "summary.json").read_text())
     urban_nav("evaluate", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
     errors, graph = json.loads((out / "errors.json").read_text()), summary["pose_graph"]
-    accepted = verdicts(out / "closures.csv")
-    right, wrong = ([a for a, t in zip(accepted, true) if t == which] for which in (True, False))
+    found = closures.outcomes(out / "closures.csv", rows, true)
+    right, wrong = ([row["verdict"] == "accepted" for row, right in found if right == which] for which in (True, False))
     days = graph["per_session"]
     frames = [day["frames"] for day in days]
     before = root_mean_square([day["ate_m_odometry"] for day in days], frames)

@@ -114,6 +114,13 @@ class Closures(FolderCase):
         self.assertNotEqual(one, other)
         self.assertEqual(len(self.made(folder, "--every", 10)[0]), (len(pairs) + 9) // 10)
 
+    def test_verdicts_are_those_of_their_ends_whatever_the_order(self):
+        rows = [["day1", 10, "day1", 90, 0.99], ["day1", 20, "day2", 200, 0.99], ["day1", 30, "day1", 100, 0.99]]
+        path = self.folder / "map.csv"
+        path.write_text("session_a,stamp_a_ns,session_b,stamp_b_ns,verdict\nday1,30,day1,100,rejected\nday1,10,day1,90,accepted\nday1,20,day2,200,waiting\n")
+        found = [(row["verdict"], right) for row, right in closures.outcomes(path, rows, [True, True, False])]
+        self.assertEqual(found, [("rejected", False), ("accepted", True), ("waiting", True)])
+
     def test_what_is_not_there_is_named(self):
         done = subprocess.run([sys.executable, PROGRAM, self.folder / "gone.bag", "-o", self.folder / "x"], capture_output=True, text=True)
         self.assertNotEqual(done.returncode, 0)

@@ -20,11 +20,6 @@ class EndToEnd(FolderCase):
         lean = np.degrees(np.arccos(ride.axes(ride.begin)[2, 2]))
         self.assertAlmostEqual(end_to_end.level_off_deg(bag, estimate), lean, places=6)
 
-    def test_verdicts_are_found_by_their_column(self):
-        path = self.folder / "closures.csv"
-        path.write_text("a,verdict,b\n1,accepted,rejected\n2,rejected,accepted\n3,waiting,0\n")
-        self.assertEqual(end_to_end.verdicts(path), [True, False, False])
-
     def test_frames_weigh_the_mean_square(self):
         self.assertAlmostEqual(end_to_end.root_mean_square([1.0, 7.0], [1, 1]), 5.0)
         self.assertAlmostEqual(end_to_end.root_mean_square([1.0, 7.0], [2, 1]), 17.0 ** 0.5)
