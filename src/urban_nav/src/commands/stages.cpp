@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands/stages.hpp"
 
+#include "topics/fusion/fusion.hpp"
 #include "topics/graph/graph.hpp"
 #include "topics/labels/labels.hpp"
 #include "topics/lasers/lasers.hpp"
@@ -18,6 +19,7 @@ AllStages makeStages() {
   AllStages stages;
   stages.push_back(makeVoStage());
   stages.push_back(makeLoStage());
+  stages.push_back(makeFusionStage());
   stages.push_back(makeKeyframesStage());
   stages.push_back(makePlacesStage());
   stages.push_back(makeStereoStage());

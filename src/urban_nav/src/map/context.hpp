@@ -25,6 +25,7 @@ struct MapSession {
   urban_nav_store::SessionId id;
   bool continued = false;  ///< its bags continue a session of the store given by --store
   std::shared_ptr<SessionOdometry> odometry = std::make_shared<SessionOdometry>();  ///< so far, while it is read
+  std::shared_ptr<const SessionOdometry> by_laser;  ///< if both sources are used; else null
 };
 
 /// Comparison of a session with ground truth; nullopt where there is none.

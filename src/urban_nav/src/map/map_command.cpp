@@ -87,8 +87,8 @@ Option mcapOption() {
 Option odometryOption() {
   return {"--odometry",
           "SOURCE",
-          "auto, stereo or laser: the sensor that the path comes from (default auto: stereo; laser where there are "
-          "sweeps of a 3D LiDAR but no images)",
+          "auto, stereo, laser or both: what the path comes from (default auto: both where there are images and sweeps "
+          "of a 3D LiDAR, else what there is)",
           false,
           false,
           {}};

@@ -7,6 +7,7 @@
 #include "base/plot.hpp"
 #include "evaluation/evaluation_report.hpp"
 #include "map/input_streams.hpp"
+#include "map/odometry_summary.hpp"
 #include "map/run_totals.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/parameters/print.hpp"
@@ -38,24 +39,6 @@ std::string countedThings(const MapContext& context) {
     (session.odometry->source == OdometrySource::Laser ? is_laser : is_stereo) = true;
   if (is_stereo && is_laser) return "stereo frames and sweeps";
   return is_laser ? "sweeps" : "stereo frames";
-}
-
-/// Returns the object "odometry" of summary.json: the source, and how many steps each one has measured.
-Json odometryJson(const MapContext& context) {
-  std::int64_t by_stereo = 0, by_laser = 0, by_none = 0;
-  for (const MapSession& session : context.sessions)
-    for (std::size_t i = 1; i < session.odometry->settled.size(); ++i) {
-      const bool is_lost = session.odometry->settled[i].status.health == urban_nav_core::Health::Lost;
-      ++(is_lost ? by_none : session.odometry->source == OdometrySource::Laser ? by_laser : by_stereo);
-    }
-  Json json = Json::object();
-  json["source"] = by_laser > by_stereo ? "laser" : "stereo";
-  Json& steps = json["steps"] = Json::object();
-  steps["stereo"] = by_stereo;
-  steps["laser"] = by_laser;
-  steps["both"] = 0;
-  steps["none"] = by_none;
-  return json;
 }
 
 std::vector<Tile> runTiles(const MapState& state) {

@@ -23,31 +23,45 @@ bool isNamed(const MapOptions& options, const char* stage) {
 
 }  // namespace
 
-const char* toString(OdometrySource source) { return source == OdometrySource::Laser ? "laser" : "stereo"; }
+const char* toString(OdometrySource source) {
+  switch (source) {
+    case OdometrySource::Stereo: return "stereo";
+    case OdometrySource::Laser: return "laser";
+    case OdometrySource::Both: break;
+  }
+  return "both";
+}
 
 OdometryOption parseOdometryOption(const std::string& word) {
   if (word.empty()) return OdometryOption::Auto;
   for (const auto& [name, option] :
        {std::pair{"auto", OdometryOption::Auto}, std::pair{"stereo", OdometryOption::Stereo},
-        std::pair{"laser", OdometryOption::Laser}})
+        std::pair{"laser", OdometryOption::Laser}, std::pair{"both", OdometryOption::Both}})
     if (word == name) return option;
-  throw urban_nav_core::UserError("--odometry", word, "auto, stereo, laser");
+  throw urban_nav_core::UserError("--odometry", word, "auto, stereo, laser, both");
 }
 
 OdometrySource chooseOdometry(const MapOptions& options, const urban_nav_input::SourceInfo& info) {
+  const bool has_sweeps = hasSweeps(info);
+  const auto required = [&](OdometrySource source) {
+    const bool is_without_images = usesStereo(source) && !info.has_images;
+    if (is_without_images || (usesLaser(source) && !has_sweeps))
+      throw urban_nav_core::DataError(info.name,
+                                      std::string("--odometry ") + toString(source) + " cannot be run: no " +
+                                          (is_without_images ? "stereo images" : "sweeps of a 3D LiDAR"),
+                                      "");
+    return source;
+  };
   switch (options.odometry) {
-    case OdometryOption::Stereo:
-      if (!info.has_images)
-        throw urban_nav_core::DataError(info.name, "--odometry stereo cannot be run: no stereo images", "");
-      return OdometrySource::Stereo;
-    case OdometryOption::Laser:
-      if (!hasSweeps(info))
-        throw urban_nav_core::DataError(info.name, "--odometry laser cannot be run: no sweeps of a 3D LiDAR", "");
-      return OdometrySource::Laser;
+    case OdometryOption::Stereo: return required(OdometrySource::Stereo);
+    case OdometryOption::Laser: return required(OdometrySource::Laser);
+    case OdometryOption::Both: return required(OdometrySource::Both);
     case OdometryOption::Auto: break;
   }
-  if (isNamed(options, "lo") && !isNamed(options, "vo") && hasSweeps(info)) return OdometrySource::Laser;
-  return info.has_images ? OdometrySource::Stereo : OdometrySource::Laser;
+  if (!info.has_images || !has_sweeps) return info.has_images ? OdometrySource::Stereo : OdometrySource::Laser;
+  if (options.stages.empty()) return OdometrySource::Both;
+  if (!isNamed(options, "lo")) return OdometrySource::Stereo;
+  return isNamed(options, "vo") ? OdometrySource::Both : OdometrySource::Laser;
 }
 
 }  // namespace urban_nav

@@ -10,18 +10,21 @@ namespace urban_nav {
 
 struct MapOptions;
 
-/// Sensor that the odometry of a session comes from.
-enum class OdometrySource { Stereo, Laser };
-/// Returns "stereo" or "laser".
+/// Sensors that the odometry of a session comes from.
+enum class OdometrySource { Stereo, Laser, Both };
+/// Returns "stereo", "laser" or "both".
 const char* toString(OdometrySource source);
+inline bool usesStereo(OdometrySource source) { return source != OdometrySource::Laser; }
+inline bool usesLaser(OdometrySource source) { return source != OdometrySource::Stereo; }
 
 /// Value of --odometry.
 enum class OdometryOption {
-  Auto,  ///< stereo, or laser where a session has sweeps of a 3D LiDAR but no images
+  Auto,  ///< both where a session has images and sweeps of a 3D LiDAR, else the one that it has
   Stereo,
-  Laser
+  Laser,
+  Both
 };
-/// Parses "auto", "stereo" or "laser". Throws UserError with the allowed words.
+/// Parses "auto", "stereo", "laser" or "both". Throws UserError with the allowed words.
 OdometryOption parseOdometryOption(const std::string& word);
 
 /// Returns the source of a session's odometry. Throws DataError that names the missing input if --odometry asks for one

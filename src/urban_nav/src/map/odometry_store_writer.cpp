@@ -14,6 +14,19 @@ using urban_nav_store::EdgeKind;
 void OdometryStoreWriter::write(const SessionOdometry& run) {
   for (; rows_ < run.frames.size(); ++rows_)
     store_.inputs().append(id_, {stream_, run.frames[rows_].stamp, run.frames[rows_].accepted});
+  writeNodes(run);
+}
+
+void OdometryStoreWriter::replaceNodes(const SessionOdometry& run, const std::string& replaced) {
+  std::vector<Edge> edges;
+  store_.graph().forEachEdge(id_, [&](const Edge& edge) {
+    if (edge.kind == EdgeKind::Odometry && edge.source == replaced) edges.push_back(edge);
+  });
+  for (const Edge& edge : edges) store_.graph().remove(edge);
+  writeNodes(run);
+}
+
+void OdometryStoreWriter::writeNodes(const SessionOdometry& run) {
   for (; nodes_ < run.settled.size(); ++nodes_) {
     const SmoothedFrame& settled = run.settled[nodes_];
     const urban_nav_core::RelativePose& step = settled.from_previous;

@@ -20,10 +20,15 @@ class OdometryStoreWriter {
 
   /// Writes what the run has gained since the last call. Does not commit.
   void write(const SessionOdometry& run);
+  /// Writes nodes and edges alone, in place of those of another odometry with the same times, whose edges have the
+  /// source `replaced`.
+  void replaceNodes(const SessionOdometry& run, const std::string& replaced);
   /// Writes the specific forces of a finished run.
   void writeForces(const SessionOdometry& run);
 
  private:
+  void writeNodes(const SessionOdometry& run);
+
   urban_nav_store::Store& store_;
   urban_nav_store::SessionId id_;
   std::string source_, stream_;

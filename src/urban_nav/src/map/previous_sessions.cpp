@@ -19,12 +19,12 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// The steps of a chain by their ends: those of visual or laser odometry where there are several.
+/// The steps of a chain by their ends: those of visual or laser odometry, or of both, where there are several.
 std::map<StampNs, Edge> collectSteps(Store& store, const SessionId& id) {
   std::map<StampNs, Edge> steps;
   store.graph().forEachEdge(id, [&](const Edge& edge) {
     if (edge.kind != EdgeKind::Odometry || edge.b.session != id) return;
-    if (edge.source == kVoStage || edge.source == kLoStage) {
+    if (edge.source == kVoStage || edge.source == kLoStage || edge.source == kFusionStage) {
       steps[edge.b.stamp] = edge;
     } else {
       steps.emplace(edge.b.stamp, edge);

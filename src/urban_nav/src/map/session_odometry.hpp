@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "map/odometry_source.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/fusion/fuse_odometry.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
@@ -33,15 +35,25 @@ struct SmoothedFrame {
   urban_nav_core::Status status;                   ///< as it was when the frame came
 };
 
+/// Result of comparing visual with laser odometry (FusedOdometry).
+struct OdometryFusion {
+  std::vector<urban_nav_core::StepSource> sources;  ///< of the step to each settled frame but the first
+  std::vector<urban_nav_core::SharedConstant> shared;
+  std::vector<urban_nav_core::OdometryConflict> conflicts;
+  double spread = 1.0;
+};
+
 /// Odometry of one session, whichever sensor it comes from.
 struct SessionOdometry {
   std::string input;
   OdometrySource source = OdometrySource::Stereo;
   urban_nav_core::StereoCamera camera;
   urban_nav_core::Pose T_base_camera;
-  std::vector<OdometryFrame> frames;   ///< one per stereo frame, or per sweep by laser
+  std::optional<urban_nav_core::Pose> T_base_lidar;  ///< mounting of the LiDAR, if it is used
+  std::optional<OdometryFusion> fusion;              ///< result of the comparison, if both sources are used
+  std::vector<OdometryFrame> frames;                 ///< one per stereo frame, or per sweep by laser
   std::vector<SmoothedFrame> settled;  ///< smoothed poses, one per accepted frame that has left the window
-  std::string cameras;  ///< describeCameras() of a session that the store holds; empty: of `camera`
+  std::string cameras;                 ///< describeCameras() of a session that the store holds; empty: of `camera`
   std::vector<urban_nav_core::SpecificForce>
       forces;                       ///< specific forces around smoothed frames; empty without an accelerometer
   std::vector<std::string> faults;  ///< of the data, each with its file or topic; at most kMaxFaults

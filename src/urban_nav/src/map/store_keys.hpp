@@ -11,6 +11,8 @@ constexpr const char* kVoStream = "stereo";
 /// Keys of laser odometry.
 constexpr const char* kLoStage = "laser_odometry";
 constexpr const char* kLoStream = "points";
+/// Source of edges of visual and laser odometry fused.
+constexpr const char* kFusionStage = "odometry_fusion";
 /// Key of the state at the end of a bag (bag_checkpoint.hpp).
 constexpr const char* kBagStage = "bag";
 using urban_nav_store::kForcesStage;

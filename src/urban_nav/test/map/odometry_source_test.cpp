@@ -20,9 +20,10 @@ urban_nav_input::SourceInfo makeInfo(bool images, bool sweeps) {
   return info;
 }
 
-TEST(OdometrySource, AutoTakesStereoAndTheLaserWithoutImages) {
+TEST(OdometrySource, AutoTakesWhatThereIs) {
   const MapOptions options;
-  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Stereo);
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Both);
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, false)), OdometrySource::Stereo);
   EXPECT_EQ(chooseOdometry(options, makeInfo(false, true)), OdometrySource::Laser);
 }
 
@@ -32,6 +33,8 @@ TEST(OdometrySource, StagesThatAreNamedDecide) {
   EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Laser);
   options.stages = {"vo"};
   EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Stereo);
+  options.stages = {"vo", "lo"};
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Both);
 }
 
 TEST(OdometrySource, ASourceWithoutItsInputIsNamed) {
@@ -41,6 +44,10 @@ TEST(OdometrySource, ASourceWithoutItsInputIsNamed) {
   EXPECT_THROW(chooseOdometry(options, makeInfo(true, false)), urban_nav_core::DataError);
   options.odometry = OdometryOption::Stereo;
   EXPECT_THROW(chooseOdometry(options, makeInfo(false, true)), urban_nav_core::DataError);
+  options.odometry = OdometryOption::Both;
+  EXPECT_EQ(chooseOdometry(options, makeInfo(true, true)), OdometrySource::Both);
+  EXPECT_THROW(chooseOdometry(options, makeInfo(false, true)), urban_nav_core::DataError);
+  EXPECT_THROW(chooseOdometry(options, makeInfo(true, false)), urban_nav_core::DataError);
 }
 
 TEST(OdometrySource, OtherWordsAreRefusedWithThoseAllowed) {
@@ -50,7 +57,7 @@ TEST(OdometrySource, OtherWordsAreRefusedWithThoseAllowed) {
     parseOdometryOption("lidar");
     FAIL();
   } catch (const urban_nav_core::UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("auto, stereo, laser"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("auto, stereo, laser, both"), std::string::npos) << error.what();
   }
 }
 

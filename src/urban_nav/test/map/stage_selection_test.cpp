@@ -45,7 +45,8 @@ TEST_F(StageSelectionTest, NamesAndKeysAreUniqueAndOdometryComesFirst) {
 }
 
 TEST_F(StageSelectionTest, SelectsAllWithoutAWord) {
-  EXPECT_EQ(select(), (Names{"vo", "lo", "keyframes", "places", "stereo", "loops", "graph", "lasers", "labels"}));
+  EXPECT_EQ(select(),
+            (Names{"vo", "lo", "fusion", "keyframes", "places", "stereo", "loops", "graph", "lasers", "labels"}));
   EXPECT_EQ(printed.find("left out: "), std::string::npos) << printed;
   EXPECT_NE(printed.find("closures: those that places proposes"), std::string::npos) << printed;
   options.stages = {"vo", "loops", "graph"};
@@ -67,8 +68,8 @@ TEST_F(StageSelectionTest, SelectsWhatIsRequestedAndWhatThatNeeds) {
 
 TEST_F(StageSelectionTest, CalibratesBeforeClosuresAreMeasured) {
   options.calibrate = true;
-  EXPECT_EQ(select(),
-            (Names{"vo", "lo", "keyframes", "places", "stereo", "calibration", "loops", "graph", "lasers", "labels"}));
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "places", "stereo", "calibration", "loops", "graph",
+                             "lasers", "labels"}));
   options.stages = {"vo", "loops", "graph"};
   EXPECT_THROW(select(), UserError) << "there is nothing to calibrate without lasers";
   ::testing::internal::GetCapturedStderr();
@@ -80,7 +81,7 @@ TEST_F(StageSelectionTest, LocalizationTakesThePlaceOfMapping) {
   EXPECT_THROW(select(), urban_nav_core::Error) << "there is no such store";
   ::testing::internal::GetCapturedStderr();
   urban_nav_store::Store(options.localise, urban_nav_store::Access::Write).commit();
-  EXPECT_EQ(select(), (Names{"vo", "lo", "keyframes", "localization"}));
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "localization"}));
   options.store = options.localise;
   EXPECT_THROW(select(), UserError);
   ::testing::internal::GetCapturedStderr();

@@ -54,6 +54,7 @@ void LoRecorder::process(const urban_nav_input::SweepInput& input) {
   }
   if (!odometry_) {
     T_base_lidar_ = input.T_base_lidar;
+    run_.T_base_lidar = T_base_lidar_;
     odometry_.emplace(parameters_, T_base_lidar_);
   }
   if (input.sweep.times == urban_nav_core::Sweep::Times::Unknown) ++untimed_;

@@ -34,21 +34,25 @@ void checkUsable(const LoRun& run) {
 
 class LoPass final : public SessionPass {
  public:
-  LoPass(MapContext& context, const Stage::SessionStart& start, LoRun& run)
-      : console_(context.console),
-        run_(run),
-        recorder_(makeRecorder(context, start)),
-        writer_(*context.store, context.sessions[start.session].id, kLoStage, kLoStream) {}
+  /// `is_alone`: the laser is the only odometry, so that the store takes it.
+  LoPass(MapContext& context, const Stage::SessionStart& start, LoRun& run, bool is_alone)
+      : console_(context.console), run_(run), recorder_(makeRecorder(context, start)) {
+    if (is_alone) writer_.emplace(*context.store, context.sessions[start.session].id, kLoStage, kLoStream);
+  }
 
   void process(PassItem&) override {}
   void process(const urban_nav_input::SweepInput& sweep) override { recorder_.process(sweep); }
-  void flush() override { writer_.write(run_); }
+  void flush() override {
+    if (writer_) writer_->write(run_);
+  }
   std::string checkpoint() override { return recorder_.state(); }
   void finish(const PassEnd& end) override {
     recorder_.finish(end);
-    checkUsable(run_);
-    writer_.write(run_);
-    writer_.writeForces(run_);
+    if (writer_) {
+      checkUsable(run_);
+      writer_->write(run_);
+      writer_->writeForces(run_);
+    }
     for (std::size_t i = 0; i < std::min(run_.faults.size(), kLoFaultsOnConsole); ++i) console_.warn(run_.faults[i]);
   }
   std::string finished() override { return packLoRun(run_); }
@@ -64,7 +68,7 @@ class LoPass final : public SessionPass {
   Console& console_;
   LoRun& run_;
   LoRecorder recorder_;
-  OdometryStoreWriter writer_;
+  std::optional<OdometryStoreWriter> writer_;
 };
 
 class LoStage final : public Stage {
@@ -80,13 +84,15 @@ class LoStage final : public Stage {
   }
   Selection select(const MapOptions& options) const override {
     if (options.odometry == OdometryOption::Stereo) return {false, "--odometry stereo", {}};
-    const bool is_asked = options.odometry == OdometryOption::Laser;
+    const bool is_asked = options.odometry == OdometryOption::Laser || options.odometry == OdometryOption::Both;
     return {is_asked || isRequested(options, "lo"), "not in --stages", {}};
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
-    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Laser) return nullptr;
-    return std::make_unique<LoPass>(context, start, restart(context, start.session, LoRun()));
+    const OdometrySource source = chooseOdometry(context.options, context.sessions[start.session].info);
+    if (!usesLaser(source)) return nullptr;
+    return std::make_unique<LoPass>(context, start, restart(context, start.session, LoRun()),
+                                    source == OdometrySource::Laser);
   }
   bool restoreSession(MapContext& context, std::size_t session, std::string_view finished) override {
     std::optional<LoRun> run = unpackLoRun(finished);
@@ -135,7 +141,8 @@ class LoStage final : public Stage {
       }
       const std::string suffix = fileSuffix(previous + i);
       const LoRun& run = *runs_[i];
-      if (!context.relaxed) result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
+      if (!context.relaxed && !context.sessions[i].by_laser)
+        result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
       result.files.push_back({"sweeps" + suffix + ".csv", [&run] { return sweepsCsv(run); }});
     }
     result.data_faults = summary.warnings;
@@ -148,7 +155,9 @@ class LoStage final : public Stage {
   LoRun& restart(MapContext& context, std::size_t session, LoRun run) {
     runs_.resize(context.sessions.size());
     runs_[session] = std::make_shared<LoRun>(std::move(run));
-    context.sessions[session].odometry = runs_[session];
+    MapSession& of = context.sessions[session];
+    if (chooseOdometry(context.options, of.info) == OdometrySource::Both) of.by_laser = runs_[session];
+    else of.odometry = runs_[session];
     return *runs_[session];
   }
   /// Returns those of the sessions of this run that have laser odometry.

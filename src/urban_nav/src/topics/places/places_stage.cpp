@@ -36,7 +36,7 @@ class PlacesStage final : public Stage {
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
-    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
+    if (!usesStereo(chooseOdometry(context.options, context.sessions[start.session].info))) return nullptr;
     return std::make_unique<PlacesPass>(context, start, model(context), ms_features_);
   }
 

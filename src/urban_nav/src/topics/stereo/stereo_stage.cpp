@@ -26,7 +26,7 @@ class StereoStage final : public Stage {
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
-    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
+    if (!usesStereo(chooseOdometry(context.options, context.sessions[start.session].info))) return nullptr;
     return std::make_unique<StereoPass>(context, start, runs_[start.session]);
   }
   bool restoreSession(MapContext&, std::size_t session, std::string_view finished) override {

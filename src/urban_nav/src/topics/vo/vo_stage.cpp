@@ -105,7 +105,7 @@ class VoStage final : public Stage {
   Selection select(const MapOptions&) const override { return {true, "", {}}; }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
-    if (chooseOdometry(context.options, context.sessions[start.session].info) != OdometrySource::Stereo) return nullptr;
+    if (!usesStereo(chooseOdometry(context.options, context.sessions[start.session].info))) return nullptr;
     return std::make_unique<VoPass>(context, start, restart(context, start.session, VoRun()));
   }
   bool restoreSession(MapContext& context, std::size_t session, std::string_view finished) override {
@@ -147,7 +147,9 @@ class VoStage final : public Stage {
       if (!runs_[i]) continue;
       const std::string suffix = fileSuffix(previous + i);
       const VoRun& run = *of_sessions[i];
-      if (!context.relaxed) stage_result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
+      const bool is_fused = context.sessions[i].odometry->source == OdometrySource::Both;
+      if (!context.relaxed && !is_fused)
+        stage_result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
       stage_result.files.push_back({"landmarks" + suffix + ".ply", [&run] { return landmarksPly(run); }});
     }
     stage_result.data_faults = summary.warnings;

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/fusion/fusion_report.hpp"
+
+#include <cmath>
+
+#include "map/odometry_summary.hpp"
+#include "urban_nav_core/io/format_number.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::formatNumber;
+using urban_nav_core::SharedConstant;
+
+namespace {
+
+constexpr double kDegPerRad = 180.0 / M_PI;
+
+/// A constant in words and in the unit that a user knows it by.
+std::vector<std::string> constantRow(const SharedConstant& constant) {
+  const auto row = [&](const std::string& name, double unit, double offset, const std::string& unit_name) {
+    return std::vector<std::string>{name, formatNumber(offset + unit * constant.value, 5),
+                                    formatNumber(unit * constant.sigma, 2), unit_name};
+  };
+  if (constant.name == "scale") return row("true length over that by stereo", 1.0, 1.0, "");
+  if (constant.name == "disparity") return row("disparity offset", 1.0, 0.0, "px");
+  if (constant.name == "laser_scale") return row("true length over that by laser", 1.0, 1.0, "");
+  if (constant.name.rfind("mounting_", 0) == 0)
+    return row(std::string("rotation of the LiDAR about ") + constant.name.back() +
+                   (constant.is_applied ? "" : " (not contradicted: kept)"),
+               kDegPerRad, 0.0, "deg");
+  return row(constant.name, 1.0, 0.0, "");
+}
+
+}  // namespace
+
+std::string fusionSentence(const SessionOdometry& fused) {
+  StepCounts counts;
+  addSteps(fused, counts);
+  std::string text = "odometry: " + std::to_string(counts.both) + " steps by stereo and laser, " +
+                     std::to_string(counts.stereo) + " by stereo alone, " + std::to_string(counts.laser) +
+                     " by laser alone, " + std::to_string(counts.none) + " by none";
+  if (const SharedConstant* scale = findConstant(*fused.fusion, "scale"))
+    text +=
+        "; true length over stereo's " + formatNumber(1.0 + scale->value, 5) + " +- " + formatNumber(scale->sigma, 2);
+  return text;
+}
+
+Section fusionSection(const SessionOdometry& fused) {
+  StepCounts counts;
+  addSteps(fused, counts);
+  Section section{"fusion",
+                  "Stereo and laser together",
+                  "The path is estimated from both odometries, each weighted by its covariance. What they share is "
+                  "estimated from their differences.",
+                  {},
+                  {},
+                  {}};
+  PageTable constants{"Shared constants",
+                      {"constant", "value", "one standard deviation", "unit"},
+                      {},
+                      "The LiDAR's mounting is relative to the transform that the recording gives."};
+  for (const SharedConstant& constant : fused.fusion->shared) constants.rows.push_back(constantRow(constant));
+  section.tables.push_back(constants);
+  section.tables.push_back({"Steps",
+                            {"measured by", "steps"},
+                            {{"stereo and laser", std::to_string(counts.both)},
+                             {"stereo alone", std::to_string(counts.stereo)},
+                             {"laser alone", std::to_string(counts.laser)},
+                             {"none, predicted", std::to_string(counts.none)}},
+                            ""});
+  return section;
+}
+
+std::vector<Verdict> fusionVerdicts(const SessionOdometry& fused) {
+  const std::string spread = "Their differences are " + formatNumber(std::sqrt(fused.fusion->spread), 3) +
+                             " times as large as their covariances allow on average" +
+                             (fused.fusion->spread > 1.0 ? ", by which all covariances were enlarged." : ".");
+  if (fused.fusion->conflicts.empty()) return {{Grade::Good, "Stereo and laser agree on the path.", spread}};
+  return {{Grade::Bad, "Stereo and laser contradict each other in places.",
+           std::to_string(fused.fusion->conflicts.size()) + " stretches of 1 s. " + spread}};
+}
+
+}  // namespace urban_nav
