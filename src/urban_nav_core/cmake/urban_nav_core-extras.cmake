@@ -78,9 +78,13 @@ function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
     CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
-    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib"
+    # Beside the program in the build space too: the list that CMake would exchange at the installation ends with a colon, and libraries
+    # would be taken from the current folder.
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib" BUILD_WITH_INSTALL_RPATH ON
     UNITY_BUILD ${URBAN_NAV_UNITY} UNITY_BUILD_BATCH_SIZE ${URBAN_NAV_UNITY_BATCH})
   target_compile_options(${target} PRIVATE ${urban_nav_compile_options})
+  # Functions of other libraries are found at the start, and the table of their addresses is read-only from then on.
+  target_link_options(${target} PRIVATE -Wl,-z,relro -Wl,-z,now)
   if(EXISTS ${PROJECT_SOURCE_DIR}/include)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
   endif()
