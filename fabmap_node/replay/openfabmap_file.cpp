@@ -9,6 +9,7 @@
 
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/unpacked_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace fabmap_node {
@@ -29,7 +30,8 @@ struct NamedMatrix {
 NamedMatrix readMatrix(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw UserError(path, "no such file", kMatrixFile);
   try {
-    const cv::FileStorage storage(path, cv::FileStorage::READ);
+    // Unpacked here: OpenCV would unpack whatever a file of some kilobytes holds.
+    const cv::FileStorage storage(urban_nav_core::readUnpacked(path), cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (storage.isOpened())
       for (const auto& entry : storage.root()) {
         cv::Mat matrix;

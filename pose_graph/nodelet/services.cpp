@@ -14,6 +14,7 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/graph.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace pose_graph {
 
@@ -85,7 +86,7 @@ void save(GraphNode& node, GraphWorker& worker, const std::string& path, std::st
 
 void load(GraphNode& node, GraphWorker& worker, const std::string& path, std::string& message) {
   requireAbsolute(path);
-  urban_nav_store::Store store(path, urban_nav_store::Access::Snapshot);
+  urban_nav_store::Store store = urban_nav_store::openForReading(path);
   const auto stored = std::make_shared<const StoredGraph>(readGraph(store));
   message = path + ": " + node.ask([&worker, stored] { return worker.graph().load(*stored); });
 }

@@ -10,6 +10,7 @@
 
 #include "device_parameters.hpp"
 #include "urban_nav_core/io/agreed_number.hpp"
+#include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -103,7 +104,7 @@ void CameraNodelet::stream(FrameSource& source) {
     }
     if (const TimeNs change = clock_.follow(); change != 0)
       NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(change / 1'000'000));
-    for (const DriverEvent& event : takeEvents()) NODELET_WARN("%s", event.text.c_str());
+    for (const DriverEvent& event : takeEvents()) NODELET_WARN("%s", urban_nav_core::printable(event.text).c_str());
     setState(streams ? DriverState::Streaming : DriverState::Configuring, "");
   }
   if (!stop_ && !source.isFinished()) setState(source.isGone() ? DriverState::Lost : DriverState::Stalled, "no image");
@@ -134,7 +135,8 @@ void CameraNodelet::setState(DriverState state, const std::string& reason) {
   }
   snapshot.counters.reconnections = std::max(openings_ - 1, 0);
   if (state != diagnostics_.get().state)
-    NODELET_INFO("%s: %s", toString(state), (reason.empty() ? snapshot.identity : reason).c_str());
+    NODELET_INFO("%s: %s", toString(state),
+                 urban_nav_core::printable(reason.empty() ? snapshot.identity : reason).c_str());
   diagnostics_.set(std::move(snapshot));
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "device_parameters.hpp"
+#include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -59,10 +60,10 @@ void DriverNodelet::run() {
       NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(step / 1'000'000));
     for (const DriverEvent& event : driver_->takeEvents()) {
       if (!event.warning) {
-        NODELET_INFO("%s", event.text.c_str());
+        NODELET_INFO("%s", urban_nav_core::printable(event.text).c_str());
         continue;
       }
-      NODELET_WARN("%s", event.text.c_str());
+      NODELET_WARN("%s", urban_nav_core::printable(event.text).c_str());
       const std::lock_guard<std::mutex> guard(mutex_);
       last_warning_ = event.text;
     }

@@ -21,9 +21,10 @@ sensor_msgs::NavSatFix toNavSatFix(const GpsFix& fix) {
   sensor_msgs::NavSatFix message;
   using Status = sensor_msgs::NavSatStatus;
   message.status.service = Status::SERVICE_GPS;
-  message.status.status = fix.mode == GpsFix::Mode::None ? Status::STATUS_NO_FIX
-                          : fix.differential             ? Status::STATUS_SBAS_FIX
-                                                         : Status::STATUS_FIX;
+  message.status.status = fix.mode == GpsFix::Mode::None         ? Status::STATUS_NO_FIX
+                          : fix.carrier != GpsFix::Carrier::None ? Status::STATUS_GBAS_FIX
+                          : fix.differential                     ? Status::STATUS_SBAS_FIX
+                                                                 : Status::STATUS_FIX;
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   message.latitude = fix.latitude.value_or(unknown);
   message.longitude = fix.longitude.value_or(unknown);

@@ -33,9 +33,11 @@ std::string withoutSlash(const std::string& topic) { return topic.rfind('/', 0) 
 
 cv::Mat decodeColour(const RecordedMessage& message) {
   if (const auto compressed = message.as<sensor_msgs::CompressedImage>())
-    return cv::imdecode(compressed->data, cv::IMREAD_COLOR);
+    return urban_nav_ros::toColour(*compressed).pixels;
   const auto image = message.as<sensor_msgs::Image>();
-  if (!image || image->encoding != "bgr8" || image->data.size() < 3UL * image->width * image->height) return {};
+  if (!image || image->encoding != "bgr8" || image->step < 3UL * image->width ||
+      image->data.size() < std::size_t{image->step} * image->height)
+    return {};
   const cv::Mat view(static_cast<int>(image->height), static_cast<int>(image->width), CV_8UC3,
                      const_cast<std::uint8_t*>(image->data.data()), image->step);
   return view.clone();

@@ -25,6 +25,12 @@ GpsDate dateOfDays(std::int64_t days) {
 
 }  // namespace
 
+double rangeError(GpsFix::Carrier carrier, double uere) {
+  constexpr double kFixed = 0.02, kFloat = 0.4;  // m
+  if (carrier == GpsFix::Carrier::None) return uere;
+  return carrier == GpsFix::Carrier::Fixed ? kFixed : kFloat;
+}
+
 std::optional<std::int64_t> daysOfDate(int year, int month, int day) {
   if (year < 1 || year > 9999 || month < 1 || month > 12 || day < 1 || day > 31) return std::nullopt;
   const std::int64_t y = year - (month <= 2 ? 1 : 0), era = y / 400, year_of_era = y - era * 400;

@@ -10,7 +10,8 @@ namespace segway_drivers {
 namespace {
 
 constexpr std::string_view kGpsdBegin = "{\"class\":";
-constexpr double kGpsdLevel = 1.96;  // gpsd states errors at the 95 % level
+constexpr double kGpsdLevel = 1.96;     // gpsd states errors at the 95 % level
+constexpr double kGpsdCircle = 2.4477;  // 95 % radius of a circular normal distribution, in sigmas
 
 std::optional<double> gpsdNumber(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
@@ -24,9 +25,27 @@ std::string gpsdText(const nlohmann::json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::optional<double> gpsdSigma(const nlohmann::json& object, const char* key) {
+std::optional<double> gpsdSigma(const nlohmann::json& object, const char* key, double level = kGpsdLevel) {
   const auto value = gpsdNumber(object, key);
-  return value && *value >= 0.0 ? std::optional<double>(*value / kGpsdLevel) : std::nullopt;
+  return value && *value > 0.0 ? std::optional<double>(*value / level) : std::nullopt;
+}
+
+/// Status of a TPV: 2 differential, 3 and 4 fixed and floating ambiguities.
+void setGpsdStatus(std::optional<double> status, GpsFix& fix) {
+  if (!status) return;
+  fix.differential = *status >= 2.0 && *status <= 4.0;
+  if (*status == 3.0) fix.carrier = GpsFix::Carrier::Fixed;
+  if (*status == 4.0) fix.carrier = GpsFix::Carrier::Float;
+}
+
+/// epx and epy by axis; where they are missing, eph, the radius of a circle; epv.
+void setGpsdErrors(const nlohmann::json& object, GpsFix& fix) {
+  const auto circle = gpsdSigma(object, "eph", kGpsdCircle);
+  fix.sigma_e = gpsdSigma(object, "epx");
+  fix.sigma_n = gpsdSigma(object, "epy");
+  if (!fix.sigma_e) fix.sigma_e = circle ? circle : fix.sigma_n;
+  if (!fix.sigma_n) fix.sigma_n = circle ? circle : fix.sigma_e;
+  fix.sigma_u = gpsdSigma(object, "epv");
 }
 
 /// Text that can stand in a cell of a table.
@@ -45,7 +64,7 @@ GpsFix gpsdFix(const nlohmann::json& object) {
   fix.utc = gpsdTime(object);
   const auto mode = gpsdNumber(object, "mode"), status = gpsdNumber(object, "status");
   if (mode && *mode >= 2.0) fix.mode = *mode >= 3.0 ? GpsFix::Mode::Fix3D : GpsFix::Mode::Fix2D;
-  fix.differential = status && *status >= 2.0 && *status <= 4.0;
+  setGpsdStatus(status, fix);
   const auto latitude = gpsdNumber(object, "lat"), longitude = gpsdNumber(object, "lon");
   const bool placed = latitude && longitude && std::abs(*latitude) <= 90.0 && std::abs(*longitude) <= 180.0;
   if (!placed) fix.mode = GpsFix::Mode::None;
@@ -53,9 +72,7 @@ GpsFix gpsdFix(const nlohmann::json& object) {
   fix.latitude = latitude;
   fix.longitude = longitude;
   if (fix.mode == GpsFix::Mode::Fix3D) fix.height = gpsdNumber(object, "altHAE");
-  fix.sigma_e = gpsdSigma(object, "epx");
-  fix.sigma_n = gpsdSigma(object, "epy");
-  fix.sigma_u = gpsdSigma(object, "epv");
+  setGpsdErrors(object, fix);
   fix.track = gpsdNumber(object, "track");
   fix.speed = gpsdNumber(object, "speed");
   fix.climb = gpsdNumber(object, "climb");

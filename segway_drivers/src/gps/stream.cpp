@@ -5,6 +5,7 @@
 
 #include "segway_drivers/gps/garmin.hpp"
 #include "segway_drivers/gps/gpsd.hpp"
+#include "segway_drivers/gps/ubx.hpp"
 
 namespace segway_drivers {
 
@@ -16,6 +17,8 @@ FrameProbe probeGps(ByteView bytes) {
   switch (bytes[0]) {
     case '$': return probeNmeaSentence(bytes);
     case '{': return probeGpsdLine(bytes);
+    case 0xB5: return probeUbxFrame(bytes);
+    case 0xD3: return probeRtcmFrame(bytes);
     default: return probeGarminPacket(bytes);
   }
 }
@@ -51,15 +54,23 @@ void GpsStream::take(const StreamFrame& frame) {
     const NmeaSentence sentence = splitNmeaSentence(frame.bytes);
     if (on_message) on_message(std::string(sentence.kind));
     nmea_.add(sentence, frame.offset, frame.arrival, nmea_sink_);
+  } else if (frame.bytes[0] == 0xD3) {
+    if (on_message) on_message(rtcmName(frame.bytes));
+  } else if (frame.bytes[0] == 0xB5) {
+    if (on_message) on_message(ubxName(frame.bytes));
+    takeBinary(frame, decodeUbxFix(frame.bytes));
   } else {
     const GarminPacket packet = splitGarminPacket(frame.bytes);
     if (on_message) on_message("garmin " + std::to_string(packet.id));
-    std::optional<GpsFix> fix = decodeGarminFix(packet);
-    if (!fix) return;
-    fix->offset = frame.offset;
-    fix->arrival = frame.arrival;
-    giveOut(*fix);
+    takeBinary(frame, decodeGarminFix(packet));
   }
+}
+
+void GpsStream::takeBinary(const StreamFrame& frame, std::optional<GpsFix> fix) {
+  if (!fix) return;
+  fix->offset = frame.offset;
+  fix->arrival = frame.arrival;
+  giveOut(*fix);
 }
 
 void GpsStream::takeGpsd(const StreamFrame& frame) {

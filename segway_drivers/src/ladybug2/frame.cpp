@@ -6,6 +6,7 @@
 #include <string>
 
 #include "segway_drivers/camera/bus_time.hpp"
+#include "urban_nav_core/io/image_header.hpp"
 
 namespace segway_drivers {
 
@@ -61,7 +62,7 @@ cv::Mat decodeLadybugCamera(const LadybugFrame& frame, std::size_t camera, Mosai
   cv::Mat planes[kLadybugPlanes];
   for (std::size_t slot = 0; slot < kLadybugPlanes; ++slot) {
     const ByteView jpeg = frame.planes[camera][slot];
-    if (jpeg.size == 0) return {};
+    if (!urban_nav_core::imageFault(jpeg.data, jpeg.size).empty()) return {};
     const cv::Mat bytes(1, static_cast<int>(jpeg.size), CV_8U, const_cast<std::uint8_t*>(jpeg.data));
     planes[slot] = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
     if (planes[slot].cols != kPlaneWidth || planes[slot].rows != kPlaneHeight) return {};

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "segway_drivers/gps/unknown_stream.hpp"
 #include "segway_drivers/table/row_decoder.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
@@ -74,6 +75,10 @@ DeviceCounters decodeFile(const DecodeJob& job, const Parameters& parameters) {
     feedRead(*decoder, bytes.sub(reads[i].begin, end - reads[i].begin), reads[i].time, job.chunk, random);
   }
   decoder->finish();
+  if (job.kind == "gps" && decoder->counters().frames == 0)
+    throw urban_nav_core::DataError(
+        job.input, "holds no whole frame of a receiver, and is probably " + describeUnknownStream(bytes),
+        "NMEA, u-blox' or Garmin's binary, JSON lines of gpsd");
   file.commit();
   return decoder->counters();
 }

@@ -37,6 +37,10 @@ set(urban_nav_unity_options -Wno-shadow -Wshadow=local -Wno-subobject-linkage -W
 if(URBAN_NAV_UNITY)
   list(APPEND urban_nav_compile_options ${urban_nav_unity_options})
 endif()
+# Debian's hardening, where the optimisation that it needs is on. Position-independent code and what is asked of the linker:
+# urban_nav_target.
+list(APPEND urban_nav_compile_options -fstack-protector-strong -Wformat -Werror=format-security -U_FORTIFY_SOURCE
+  $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
 # Contraction into fused multiply-add would make the bits depend on the machine.
 list(APPEND urban_nav_compile_options -ffp-contract=off)
 if(URBAN_NAV_WERROR)
@@ -45,7 +49,7 @@ endif()
 set(urban_nav_link_options "")
 # The reduced set: the checks left out take two thirds of the compile time of an Eigen file.
 set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
-    -fno-sanitize-recover=all -O1 -g1 -UNDEBUG -fno-omit-frame-pointer
+    -fno-sanitize-recover=all -O1 -g1 -UNDEBUG -U_FORTIFY_SOURCE -fno-omit-frame-pointer
     -Wno-maybe-uninitialized)  # which GCC sees in Eigen where the sanitizers are
 if(URBAN_NAV_SANITIZE)
   list(APPEND urban_nav_compile_options ${urban_nav_sanitizers})
@@ -78,9 +82,13 @@ function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
     CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
-    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib"
+    # Beside the program in the build space too: the list that CMake would exchange at the installation ends with a colon, and libraries
+    # would be taken from the current folder.
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib" BUILD_WITH_INSTALL_RPATH ON
     UNITY_BUILD ${URBAN_NAV_UNITY} UNITY_BUILD_BATCH_SIZE ${URBAN_NAV_UNITY_BATCH})
   target_compile_options(${target} PRIVATE ${urban_nav_compile_options})
+  # Functions of other libraries are found at the start, and the table of their addresses is read-only from then on.
+  target_link_options(${target} PRIVATE -Wl,-z,relro -Wl,-z,now)
   if(EXISTS ${PROJECT_SOURCE_DIR}/include)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
   endif()

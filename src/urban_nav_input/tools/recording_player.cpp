@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/player/recording_player.hpp"
 
@@ -24,7 +25,7 @@ int main(int argc, char** argv) {
   try {
     urban_nav_input::playRecording(options);
   } catch (const urban_nav_core::Error& error) {
-    std::fprintf(stderr, "recording_player: %s\n", error.what());
+    std::fprintf(stderr, "recording_player: %s\n", urban_nav_core::printable(error.what()).c_str());
     return 1;
   }
   return 0;

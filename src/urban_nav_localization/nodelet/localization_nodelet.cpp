@@ -17,6 +17,7 @@
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
 #include "urban_nav_ros/topics.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav_localization {
 
@@ -25,7 +26,6 @@ using urban_nav_core::UserError;
 using urban_nav_registration::KeyframeRetrieval;
 using urban_nav_ros::ImageInput;
 using urban_nav_ros::InfoInput;
-using urban_nav_store::Access;
 using urban_nav_store::Store;
 
 namespace {
@@ -91,7 +91,7 @@ void LocalizationStage::openMap() {
   if (nodelet_.store.empty() || nodelet_.store.front() != '/')
     throw UserError(parameter, "`" + nodelet_.store + "`", "the absolute path of a session store");
   try {
-    Store store(nodelet_.store, Access::Snapshot);
+    Store store = urban_nav_store::openForReading(nodelet_.store);
     FrozenMap map(store);
     map_ = map.sessions();
     publisher_ = std::make_unique<LocalizationPublisher>(node_.nh(), nodelet_);

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "urban_nav_core/io/image_header.hpp"
+
 namespace urban_nav_ros {
 
 namespace enc = sensor_msgs::image_encodings;
@@ -116,6 +118,8 @@ const Layout* mosaicLayout(const std::string& format, const cv::Mat& decoded) {
 
 GreyImage decode(const sensor_msgs::CompressedImage& message) {
   if (message.data.empty()) return {{}, "no bytes"};
+  const std::string fault = urban_nav_core::imageFault(message.data.data(), message.data.size());
+  if (!fault.empty()) return {{}, "format \"" + message.format + "\": " + fault};
   try {
     cv::Mat decoded = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (decoded.empty())

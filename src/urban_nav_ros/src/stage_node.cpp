@@ -3,9 +3,12 @@
 
 #include <ros/console.h>
 
+#include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_ros/status.hpp"
 
 namespace urban_nav_ros {
+
+using urban_nav_core::printable;
 
 namespace {
 
@@ -55,9 +58,13 @@ void StageNode::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const 
   status.add("messages damaged", counts.invalid);
 }
 
-void StageNode::logInfo(const std::string& text) const { ROS_INFO("%s: %s", handles_.name.c_str(), text.c_str()); }
+void StageNode::logInfo(const std::string& text) const {
+  ROS_INFO("%s: %s", handles_.name.c_str(), printable(text).c_str());
+}
 
-void StageNode::logError(const std::string& text) const { ROS_ERROR("%s: %s", handles_.name.c_str(), text.c_str()); }
+void StageNode::logError(const std::string& text) const {
+  ROS_ERROR("%s: %s", handles_.name.c_str(), printable(text).c_str());
+}
 
 bool StageNode::followStore(const urban_nav_live::StoreState& state) {
   if (state.fault == store_fault_) return false;
@@ -74,7 +81,7 @@ void StageNode::logWarning(const std::string& key, const std::string& text) {
     if (!is_new && Clock::now() - entry->second < kWarningPeriod) return;
     entry->second = Clock::now();
   }
-  ROS_WARN("%s: %s", handles_.name.c_str(), text.c_str());
+  ROS_WARN("%s: %s", handles_.name.c_str(), printable(text).c_str());
 }
 
 void StageNode::shutDown() {

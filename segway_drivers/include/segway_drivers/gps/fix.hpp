@@ -20,12 +20,19 @@ struct GpsFix {
   std::optional<double> climb;                      ///< m/s
   std::optional<int> satellites;                    ///< used
   bool differential = false;
+  /// Ambiguities of the phase of the carrier: real-time kinematics, which is good to centimetres where they are fixed.
+  enum class Carrier { None, Float, Fixed } carrier = Carrier::None;
   bool week_corrected = false;  ///< the receiver's date was 1024 weeks early
-  std::string source;           ///< nmea, garmin, gpsd
+  std::string source;           ///< nmea, garmin, gpsd, ubx
 
   std::uint64_t offset = 0;  ///< of the first byte in the stream
   TimeNs arrival = 0;        ///< of the first byte, ns; 0: unknown
 };
+
+/// Returns the standard deviation (m) of a fix with a dilution of precision of one, where the receiver states no
+/// errors: 0.02 with fixed ambiguities (data sheets state a CEP of 0.01 m and 1 ppm of the baseline), 0.4 with floating
+/// ones, otherwise `uere`.
+double rangeError(GpsFix::Carrier carrier, double uere);
 
 /// "2010-07-18T16:50:07.000Z" from days since 1970-01-01 and ms of the day.
 std::string printUtc(std::int64_t days, std::int64_t milliseconds);

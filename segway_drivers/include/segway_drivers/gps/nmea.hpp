@@ -26,7 +26,8 @@ struct NmeaSentence {
 };
 NmeaSentence splitNmeaSentence(ByteView sentence);
 
-/// Groups sentences into fixes by their time. GSA, VTG and PGRME carry no time and belong to the group they arrive in.
+/// Groups sentences into fixes by their time: GGA, GNS, GLL and RMC (position), GST and GBS (errors), ZDA (date). GSA,
+/// VTG and PGRME carry no time and belong to the group they arrive in.
 /// A fix is given out once the sentence arrives that ended the groups before, or the first one of another time, or
 /// finish() is called. Not thread-safe.
 class NmeaFixBuilder {
@@ -47,12 +48,20 @@ class NmeaFixBuilder {
     std::optional<std::int64_t> days, milliseconds;
     std::optional<double> hdop, vdop;
     bool valid = false;
+    bool has_deviations = false;  // of a GST
     std::string last_kind, kinds;
   };
 
   void beginGroup(std::string_view time, std::uint64_t offset, TimeNs arrival, const Sink& sink);
+  bool isOfGroup(std::string_view time) const;
   void addGga(const NmeaSentence& sentence);
+  void addGns(const NmeaSentence& sentence);
+  void addGll(const NmeaSentence& sentence);
   void addRmc(const NmeaSentence& sentence);
+  void addZda(const NmeaSentence& sentence);
+  void addErrors(const NmeaSentence& sentence);
+  void addHeight(const NmeaSentence& sentence, std::size_t geoid_field);
+  void setPosition(const NmeaSentence& sentence, std::size_t first);
   void addOther(const NmeaSentence& sentence);
   void complete(GpsFix& fix) const;
 
@@ -60,7 +69,7 @@ class NmeaFixBuilder {
   Group group_;
   bool open_ = false;
   std::string given_time_, ends_with_, ended_with_;
-  std::optional<std::int64_t> days_;  // of the latest RMC
+  std::optional<std::int64_t> days_;  // of the latest RMC or ZDA
 };
 
 }  // namespace segway_drivers

@@ -11,8 +11,8 @@
 
 namespace segway_drivers {
 
-/// Stream of a receiver or of gpsd: NMEA sentences, Garmin's binary packets and gpsd's lines, distinguished by content.
-/// Each time is given out once. Reads no clock. Not thread-safe.
+/// Stream of a receiver or of gpsd: NMEA sentences, binary packets of Garmin and u-blox and gpsd's lines, distinguished
+/// by content; corrections in RTCM are recognised. Each time is given out once. Reads no clock. Not thread-safe.
 class GpsStream {
  public:
   struct Options {
@@ -23,7 +23,7 @@ class GpsStream {
 
   /// A fix and its stamp, ns: the arrival of its first byte less the latency.
   std::function<void(const GpsFix& fix, std::optional<TimeNs> stamp)> on_fix;
-  /// Sentences and reports received, by kind: "GGA", "garmin 33", "gpsd TPV".
+  /// Sentences and reports received, by kind: "GGA", "garmin 33", "ubx 01-07", "rtcm 1005", "gpsd TPV".
   std::function<void(const std::string& kind)> on_message;
 
   void feed(ByteView chunk, const ChunkArrival& arrival);
@@ -38,6 +38,7 @@ class GpsStream {
  private:
   void take(const StreamFrame& frame);
   void takeGpsd(const StreamFrame& frame);
+  void takeBinary(const StreamFrame& frame, std::optional<GpsFix> fix);
   void giveOut(GpsFix fix);
 
   Options options_;

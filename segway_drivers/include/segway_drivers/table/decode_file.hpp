@@ -18,7 +18,8 @@ struct DecodeJob {
   std::uint64_t seed = 1;
 };
 
-/// Decodes a file of bytes into `frame,offset,stamp_ns` and the columns of the kind. Throws UserError naming the file.
+/// Decodes a file of bytes into `frame,offset,stamp_ns` and the columns of the kind. Throws UserError naming the file,
+/// and DataError with the likely protocol for bytes of a receiver (kind gps) without a whole frame.
 DeviceCounters decodeFile(const DecodeJob& job, const Parameters& parameters);
 
 }  // namespace segway_drivers

@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <mutex>
 
+#include "urban_nav_core/io/printable.hpp"
+
 namespace urban_nav {
 
 namespace {
@@ -51,32 +53,34 @@ Console::~Console() { implementation_->clearTransient(); }
 void Console::print(const std::string& text) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
-  std::fwrite(text.data(), 1, text.size(), stdout);  // what fails is seen at the end
+  const std::string shown = urban_nav_core::printable(text, "\n\t");
+  std::fwrite(shown.data(), 1, shown.size(), stdout);  // what fails is seen at the end
   std::fflush(stdout);
 }
 
 void Console::info(const std::string& line) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
-  implementation_->logger.info(line);
+  implementation_->logger.info("{}", urban_nav_core::printable(line));
 }
 
 void Console::warn(const std::string& line) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
-  implementation_->logger.warn("warning: {}", line);
+  implementation_->logger.warn("warning: {}", urban_nav_core::printable(line));
 }
 
 void Console::error(const std::string& line) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
-  implementation_->logger.error("error: {}", line);
+  implementation_->logger.error("error: {}", urban_nav_core::printable(line));
 }
 
 void Console::transient(const std::string& text) {
   if (!implementation_->terminal) return;
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  std::fprintf(stderr, "\r%-*s", static_cast<int>(implementation_->transient_width), text.c_str());
+  std::fprintf(stderr, "\r%-*s", static_cast<int>(implementation_->transient_width),
+               urban_nav_core::printable(text).c_str());
   std::fflush(stderr);
   implementation_->transient_width = std::max(implementation_->transient_width, text.size());
 }

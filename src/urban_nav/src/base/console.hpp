@@ -9,7 +9,8 @@
 namespace urban_nav {
 
 /// Where the command speaks to its user: results on the standard output, everything else on the standard error, so that
-/// one can be piped without the other. Lines of several threads do not mix.
+/// one can be piped without the other. Lines of several threads do not mix. Control characters, which names in a file
+/// may hold, are shown as printable() spells them.
 class Console {
  public:
   Console();
@@ -17,7 +18,7 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// A result, as it is.
+  /// A result, of any number of lines.
   void print(const std::string& text);
   void info(const std::string& line);
   void warn(const std::string& line);

@@ -5,6 +5,7 @@
 
 #include "base/command_parameters.hpp"
 #include "urban_nav_core/camera/camera_noise.hpp"
+#include "urban_nav_core/io/memory_limit.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
 
 namespace urban_nav {
@@ -42,6 +43,7 @@ ParameterSet loadParameters(const Arguments& arguments) {
   parameters.add(urban_nav_input::inputTable());
   arguments.addTables(parameters);
   parameters.load(readAssignments(arguments));
+  urban_nav_core::setMemoryLimit(static_cast<std::size_t>(parameters.get(commandTable()).memory_mb) << 20U);
   return parameters;
 }
 

@@ -9,8 +9,8 @@
 
 namespace urban_nav {
 
-/// Returns the parameters of the command and of all stages, from --config and --set. Throws UserError for unknown or
-/// bad ones.
+/// Returns the parameters of the command and of all stages, from --config and --set, and sets the memory limit of the
+/// process to `memory_mb`. Throws UserError for unknown or bad ones.
 ParameterSet loadParameters(const Arguments& arguments);
 
 /// Returns sentences for the user: old names that were used, and properties of the camera that two stages have

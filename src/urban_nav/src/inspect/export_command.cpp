@@ -20,11 +20,11 @@
 #include "topics/places/place_export.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::UserError;
-using urban_nav_store::Access;
 using urban_nav_store::Store;
 using urban_nav_store::StoredTrajectory;
 
@@ -148,7 +148,7 @@ void writeResults(Store& store, const Maps& maps, const Arguments& arguments, Wr
 int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
-  Store store(arguments.get("STORE"), Access::Snapshot);
+  Store store = urban_nav_store::openForReading(arguments.get("STORE"));
   const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
   if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
   Written written(console);

@@ -9,6 +9,7 @@
 #include "base/plot.hpp"
 #include "map/store_keys.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 #include "urban_nav_store/stored_map.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_keyframe_place.hpp"
@@ -124,7 +125,7 @@ std::string toText(const StoredSession& each) {
 }  // namespace
 
 StoreInfo readStoreInfo(const std::string& path) {
-  Store store(path, urban_nav_store::Access::Snapshot);
+  Store store = urban_nav_store::openForReading(path);
   StoreInfo info;
   info.path = path;
   for (const char* suffix : {"", "-wal"}) {

@@ -10,6 +10,7 @@
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -55,7 +56,7 @@ int runWhy(const Arguments& arguments, Console& console) {
   if (arguments.has("T1") != arguments.has("T2"))
     throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
   if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");
-  urban_nav_store::Store store(arguments.get("STORE"), urban_nav_store::Access::Snapshot);
+  urban_nav_store::Store store = urban_nav_store::openForReading(arguments.get("STORE"));
   const std::vector<StoredClosure> closures = listClosures(store);
   if (!moments && !arguments.has("closure")) {
     console.print(makeList(closures));

@@ -12,6 +12,7 @@
 #include "map/store_keys.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/merge.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -81,7 +82,7 @@ using PosePair = std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>;
 std::set<PosePair> acceptedClosures(const std::vector<std::string>& stores) {
   std::set<PosePair> pairs;
   for (const std::string& path : stores) {
-    Store store(path, Access::Snapshot);
+    Store store = urban_nav_store::openForReading(path);
     for (const urban_nav_store::Session& session : store.sessions().all())
       store.graph().forEachEdge(session.id, [&](const urban_nav_store::Edge& edge) {
         const bool is_measured =

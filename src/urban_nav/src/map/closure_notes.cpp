@@ -2,6 +2,7 @@
 #include "map/closure_notes.hpp"
 
 #include "map/previous_sessions.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -14,7 +15,7 @@ std::vector<std::string> closureNotes(const MapOptions& options, bool measured) 
             (has_places ? "; and those that places proposes" : "")};
   if (has_places) return {"closures: those that places proposes"};
   if (options.store.empty()) return {"closures: none (--closures FILE); the map is that of odometry"};
-  urban_nav_store::Store store(options.store, urban_nav_store::Access::Read);
+  urban_nav_store::Store store = urban_nav_store::openForReading(options.store);
   if (holdsClosures(store)) return {"closures: those of " + options.store};
   return {};
 }

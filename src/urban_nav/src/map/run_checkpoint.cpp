@@ -10,6 +10,7 @@
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 #include "urban_nav_store/merge.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -79,7 +80,7 @@ void RunCheckpoint::startNewSession(std::size_t session) {
 }
 
 void RunCheckpoint::findContinuedSessions(Console& console) {
-  Store store(options_.store, Access::Read);
+  Store store = urban_nav_store::openForReading(options_.store, Access::Read);
   const auto isTaken = [&](const SessionId& id) {
     return std::any_of(sessions_.begin(), sessions_.end(), [&](const MapSession& each) { return each.id == id; });
   };
@@ -165,7 +166,8 @@ void RunCheckpoint::startNewStore() {
 void RunCheckpoint::open(Console& console) {
   std::error_code ignored;
   const bool in_place = !options_.store.empty() && std::filesystem::equivalent(options_.store, path_, ignored);
-  if (!options_.store.empty()) Store(options_.store, Access::Read);  // reports an unusable file before any change
+  // Reports an unusable file before any change.
+  if (!options_.store.empty()) urban_nav_store::openForReading(options_.store, Access::Read);
   store_.emplace(path_, Access::Write);
   const PruneResult found = pruneSessions(in_place);
   const bool resumes = found.finished > 0 || found.begun > 0;

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
 
 #include "commands/stages.hpp"
 #include "convert/convert.hpp"
@@ -261,25 +264,26 @@ TEST_F(StoreCommands, RelaxedSessionsOfOneMapAreExportedTogether) {
 }
 
 TEST_F(StoreCommands, PlacesAreExportedWithPosesThumbnailsAndModel) {
+  const std::string one = "00112233445566778899", model = "0123456789abcdef";
   Store store(file("places.db"), Access::Write);
-  store.sessions().put({"one", "monday", "", "", 0, true});
+  store.sessions().put({one, "monday", "", "", 0, true});
   for (int i = 0; i < 2; ++i) {
     urban_nav_store::Node node;
     node.stamp = 100 * i;
     node.T_odom_base = Pose(urban_nav_core::Quaterniond::Identity(), {2.0 * i, 0.0, 0.0});
-    store.graph().put("one", node);
+    store.graph().put(one, node);
   }
   urban_nav_store::TableStore<urban_nav_store::StoredPlace> rows(store);
   for (const std::int64_t stamp : {50, 900}) {
     urban_nav_store::StoredPlace row;
-    row.session = "one";
+    row.session = one;
     row.stamp = stamp;
     row.status = "used";
-    row.model = "abc";
+    row.model = model;
     row.thumbnail = stamp == 50 ? "jpeg" : "";
     rows.put(row);
   }
-  urban_nav_store::TableStore<urban_nav_store::StoredModel>(store).put({"one", "abc", "fabmap_node", "bytes"});
+  urban_nav_store::TableStore<urban_nav_store::StoredModel>(store).put({one, model, "fabmap_node", "bytes"});
   store.commit();
   const ExportedPlaces made = exportPlaces(store, readMaps(store, selectSessions(store, {})), file("exported"));
   EXPECT_EQ(made.places, 2);
@@ -289,8 +293,41 @@ TEST_F(StoreCommands, PlacesAreExportedWithPosesThumbnailsAndModel) {
   EXPECT_DOUBLE_EQ(table.number(0, table.column("x")), 1.0) << "between its neighbours in time";
   EXPECT_EQ(table.text(1, table.column("x")), "") << "after the trajectory";
   EXPECT_EQ(readFile(file("exported/" + table.text(0, table.column("thumbnail")))), "jpeg");
-  EXPECT_EQ(readFile(file("exported/abc.places")), "bytes");
+  EXPECT_EQ(readFile(file("exported/" + model + ".places")), "bytes");
   EXPECT_EQ(call({"export", file("a/session.db"), "--places", file("none")}), 1) << "a map without places";
+}
+
+/// Ids of sessions and hashes of models become names of files.
+TEST_F(StoreCommands, IdsThatAreNoHexadecimalDigitsAreRefusedBeforeAnythingIsWritten) {
+  const std::string id = "00112233445566778899", hash = "0123456789abcdef";
+  for (const auto& [session, model] :
+       {std::pair{std::string("../../escaped_session"), hash}, std::pair{std::string("/tmp/escaped_session"), hash},
+        std::pair{id, std::string("../../escaped_model")}, std::pair{id, std::string("0123456789abcde")},
+        std::pair{id, std::string("0123456789ABCDEF")}}) {
+    std::filesystem::remove_all(file("inner"));
+    const std::string path = file("inner/doctored.db"), out = file("inner/deeper/out");
+    std::filesystem::create_directories(file("inner/deeper"));
+    Store store(path, Access::Write);
+    store.sessions().put({session, "monday", "", "", 0, true});
+    urban_nav_store::Node node;
+    store.graph().put(session, node);
+    urban_nav_store::StoredPlace row;
+    row.session = session;
+    row.status = "used";
+    row.model = model;
+    row.thumbnail = "jpeg";
+    urban_nav_store::TableStore<urban_nav_store::StoredPlace>(store).put(row);
+    urban_nav_store::TableStore<urban_nav_store::StoredModel>(store).put({session, model, "fabmap_node", "bytes"});
+    store.commit();
+    store.close();
+    EXPECT_EQ(call({"export", path, "--places", out}), 1) << session << " " << model;
+    EXPECT_EQ(call({"info", path}), 1) << session << " " << model;
+    std::set<std::string> files;
+    for (const auto& each : std::filesystem::recursive_directory_iterator(file("inner")))
+      files.insert(each.path().filename().string());
+    EXPECT_EQ(files, (std::set<std::string>{"doctored.db", "deeper"}));
+    EXPECT_FALSE(std::filesystem::exists("/tmp/escaped_session_0.jpg"));
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/io/text_file.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+#include "urban_nav_core/io/memory_limit.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
@@ -92,12 +95,18 @@ std::string readBytes(const std::string& path) {
   if (!file) fail(errno);
   constexpr std::size_t kPiece = 1U << 16U;
   std::string text;
+  struct stat status = {};  // room for all of a file at once: a text that grows takes three times as much
+  if (::fstat(::fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode))
+    text.reserve(std::min(static_cast<std::size_t>(status.st_size), memoryLimit() / 2) + 2 * kPiece);
   std::size_t got = kPiece;
   while (got == kPiece) {
     const std::size_t before = text.size();
     text.resize(before + kPiece);
     got = std::fread(&text[before], 1, kPiece, file.get());
     text.resize(before + got);
+    if (text.size() > memoryLimit() / 2)
+      throw UserError(path, "more than " + std::to_string(memoryLimit() >> 21U) + " MB",
+                      "half of memory_mb = " + std::to_string(memoryLimit() >> 20U));
   }
   if (std::ferror(file.get()) != 0) fail(errno != 0 ? errno : EIO);
   return text;

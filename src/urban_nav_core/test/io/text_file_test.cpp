@@ -7,6 +7,8 @@
 
 #include "io/reader_check.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/testing/limited_memory.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
 namespace {
@@ -67,6 +69,17 @@ TEST(TextFile, NamesTheFileThatCannotBeRead) {
   EXPECT_EQ(catchError([] { readTextFile("/nowhere/poses.txt"); }),
             "/nowhere/poses.txt: cannot be read: No such file or directory");
   EXPECT_EQ(catchError([] { readTextFile("/tmp"); }), "/tmp: is a folder: allowed a text file");
+}
+
+TEST(TextFile, FilesThatDoNotFitIntoMemoryAreRefused) {
+  const testing::LimitedMemory limit(std::size_t{4} << 20U);
+  const std::string path = (std::filesystem::temp_directory_path() / "large_text_file").string();
+  writeAtomically(path, std::string(std::size_t{2} << 20U, 'x'));
+  EXPECT_EQ(readBytes(path).size(), std::size_t{2} << 20U);
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 40U);  // takes no room on the disk
+  EXPECT_THROW(readBytes(path), UserError);
+  EXPECT_THROW(readBytes("/dev/zero"), UserError) << "has no size";
+  std::filesystem::remove(path);
 }
 
 }  // namespace

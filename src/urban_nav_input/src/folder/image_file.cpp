@@ -11,6 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "urban_nav_core/io/image_header.hpp"
+#include "urban_nav_core/io/memory_limit.hpp"
+
 namespace urban_nav_input {
 
 using urban_nav_ros::GreyImage;
@@ -38,9 +41,14 @@ bool isComplete(const std::vector<char>& bytes) {
 GreyImage readPixels(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path)) return {{}, path + ": does not open"};
+  std::error_code no_size;
+  if (std::filesystem::file_size(path, no_size) > urban_nav_core::largestPiece() && !no_size)
+    return {{}, path + ": a file of more than " + std::to_string(urban_nav_core::largestPiece() >> 20U) + " MB"};
   const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (bytes.empty()) return {{}, path + ": empty file"};
   if (!isComplete(bytes)) return {{}, path + ": ends early (" + std::to_string(bytes.size()) + " bytes)"};
+  if (const std::string fault = urban_nav_core::imageFault(asText(bytes)); !fault.empty())
+    return {{}, path + ": no image that can be decoded: " + fault};
   try {
     cv::Mat pixels = cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (pixels.empty()) return {{}, path + ": no image that can be decoded"};

@@ -17,6 +17,7 @@
 
 #include "recording/message/ros1_form.hpp"
 #include "recording/message/serialized_message.hpp"
+#include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_input/player/playback_clock.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -25,6 +26,7 @@
 namespace urban_nav_input {
 
 using std::chrono::steady_clock;
+using urban_nav_core::printable;
 using urban_nav_core::StampNs;
 
 namespace {
@@ -51,7 +53,8 @@ class RecordingPlayer {
       any = playOnce();
     } while (any && options_.loop && ros::ok());
     if (!any) ROS_WARN("%s: no message later than %g s", options_.path.c_str(), options_.start);
-    for (const std::string& warning : recording_.warnings()) ROS_WARN("%s: %s", options_.path.c_str(), warning.c_str());
+    for (const std::string& warning : recording_.warnings())
+      ROS_WARN("%s: %s", options_.path.c_str(), printable(warning).c_str());
     if (ros::ok()) ros::WallDuration(kLastMessages).sleep();
   }
 
@@ -77,7 +80,7 @@ class RecordingPlayer {
       topics_.emplace(key, std::move(topic));
     } catch (const std::invalid_argument& error) {
       refused_.insert(key);
-      ROS_WARN("%s is left out: %s", connection.topic.c_str(), error.what());
+      ROS_WARN("%s is left out: %s", printable(connection.topic).c_str(), printable(error.what()).c_str());
     }
   }
 
@@ -89,7 +92,7 @@ class RecordingPlayer {
       Ros1Form& form = topic->second.form;
       topic->second.publisher.publish(SerializedMessage{&form.connection(), form.convert(bytes)});
     } catch (const std::runtime_error& error) {
-      ROS_WARN_THROTTLE(10.0, "%s: %s", message.topic().c_str(), error.what());
+      ROS_WARN_THROTTLE(10.0, "%s: %s", printable(message.topic()).c_str(), printable(error.what()).c_str());
     }
   }
 

@@ -3,6 +3,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "urban_nav_core/io/image_header.hpp"
+
 namespace urban_nav_registration {
 
 std::optional<ImageSize> sizeOfJpeg(const std::vector<std::uint8_t>& bytes) {
@@ -32,6 +34,7 @@ std::optional<ImageSize> sizeOfJpeg(const std::vector<std::uint8_t>& bytes) {
 cv::Mat decodeJpeg(const std::vector<std::uint8_t>& bytes, ImageSize size) {
   const auto its = sizeOfJpeg(bytes);
   if (!its || its->width != size.width || its->height != size.height) return {};
+  if (!urban_nav_core::imageFault(bytes.data(), bytes.size()).empty()) return {};
   try {
     cv::Mat pixels = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     if (pixels.cols != size.width || pixels.rows != size.height) return {};

@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "urban_nav_core/io/image_header.hpp"
 #include "urban_nav_registration/io/jpeg.hpp"
 
 namespace urban_nav_registration {
@@ -47,10 +48,8 @@ std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {
 }
 
 Picture decodePicture(std::string_view jpeg) {
-  constexpr std::int64_t kLargest = 100'000'000;  // pixels
   const std::vector<std::uint8_t> bytes(jpeg.begin(), jpeg.end());
-  const auto size = sizeOfJpeg(bytes);
-  if (!size || std::int64_t{size->width} * size->height > kLargest) return {};
+  if (!sizeOfJpeg(bytes) || !urban_nav_core::imageFault(jpeg).empty()) return {};
   try {
     const cv::Mat pixels = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
     return pixels.empty() ? Picture() : toPicture(pixels);

@@ -3,8 +3,10 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <new>
 
+#include "urban_nav_core/io/memory_limit.hpp"
 #include "urban_nav_store/bytes.hpp"
 
 namespace urban_nav_store {
@@ -30,7 +32,9 @@ std::string deflated(std::string_view bytes) {
 std::optional<std::string> inflated(std::string_view bytes, std::size_t limit) {
   ByteReader reader(bytes);
   const std::uint64_t length = reader.integer();
-  if (!reader.ok() || length > limit || length > kMostGain * reader.left() + kMostGain) return std::nullopt;
+  if (!reader.ok() || length > std::min(limit, urban_nav_core::memoryLimit() / 2) ||
+      length > kMostGain * reader.left() + kMostGain)
+    return std::nullopt;
   std::string result(static_cast<std::size_t>(length), '\0');
   uLongf size = static_cast<uLongf>(length);
   char nothing = 0;

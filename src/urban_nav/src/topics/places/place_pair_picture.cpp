@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "urban_nav_core/io/image_header.hpp"
+
 namespace urban_nav {
 
 namespace {
@@ -13,7 +15,7 @@ constexpr int kPictureScale = 2;
 constexpr int kGapPx = 4;
 
 cv::Mat decodeJpeg(const std::string& bytes) {
-  if (bytes.empty()) return {};
+  if (!urban_nav_core::imageFault(bytes).empty()) return {};
   return cv::imdecode(std::vector<unsigned char>(bytes.begin(), bytes.end()), cv::IMREAD_GRAYSCALE);
 }
 

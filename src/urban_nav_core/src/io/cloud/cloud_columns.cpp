@@ -12,8 +12,6 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr std::size_t kLargestTable = std::size_t{4} << 30U;  // bytes, unpacked
-
 /// Axes are found in all spellings of x, y, z; other columns by their names.
 std::optional<std::size_t> findWanted(const std::vector<std::string>& header, const std::string& wanted) {
   const auto exact = std::find(header.begin(), header.end(), wanted);
@@ -38,7 +36,7 @@ NumberColumns parseTextColumns(std::string_view content, const std::string& name
     if (!found) continue;
     places[i] = *found;
     units[i] = readUnit(table.header()[*found]).value_or(1.0);
-    columns[i].emplace();
+    columns[i].emplace().reserve(cloud_formats::countLines(content));
   }
   table.forEachRow([&](const TableRow& row) {
     if (row.cells.size() != table.header().size())
@@ -65,7 +63,7 @@ NumberColumns parseCloudColumns(std::string_view content, const std::string& nam
                                 const std::vector<std::string>& wanted) {
   std::string plain;
   if (cloud_formats::isGzip(content)) {
-    plain = cloud_formats::gunzip(content, name, kLargestTable);
+    plain = cloud_formats::gunzip(content, name);
     content = plain;
   }
   const std::string text = cloud_formats::decodeContent(content);

@@ -12,9 +12,8 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{4} << 30U;  // bytes of an unpacked file: 200 million points
-constexpr double kFarthest = 1e9;                        // m: no coordinate of this world
-constexpr double kFarAway = 1000.0;                      // m: there a float is 0.06 mm coarse
+constexpr double kFarthest = 1e9;    // m: no coordinate of this world
+constexpr double kFarAway = 1000.0;  // m: there a float is 0.06 mm coarse
 
 bool beginsWith(std::string_view content, std::string_view word) { return content.substr(0, word.size()) == word; }
 
@@ -74,7 +73,7 @@ CloudFile readCloud(const std::string& path) { return parseCloud(readBytes(path)
 
 CloudFile parseCloud(std::string_view content, const std::string& name) {
   if (cloud_formats::isGzip(content)) {
-    const std::string plain = cloud_formats::gunzip(content, name, kLargest);
+    const std::string plain = cloud_formats::gunzip(content, name);
     if (cloud_formats::isGzip(plain)) throw UserError(name, "a gzip file within a gzip file", "PLY, PCD, LAS or CSV");
     return parseCloud(plain, name);
   }

@@ -28,8 +28,13 @@ Vertices parseLas(std::string_view content, const std::string& name);
 Vertices parsePoints(std::string_view content, const std::string& name);  // CSV and its like
 
 bool isGzip(std::string_view content);
-/// What was compressed; UserError where the stream is damaged, ends early, or holds more than `limit` bytes.
-std::string gunzip(std::string_view content, const std::string& name, std::size_t limit);
+/// Returns the unpacked content. Throws UserError where the stream is damaged, ends early, or holds more than
+/// largestPiece().
+std::string gunzip(std::string_view content, const std::string& name);
+
+/// Returns the number of ends of lines: at least as many as a file of text has points. Room for all of them at once is
+/// a third of what a vector takes that grows.
+std::size_t countLines(std::string_view content);
 
 /// LZF (Lehmann 2000, the compression of PCD files): a control byte below 32 is followed by so many literal bytes and
 /// one more; else its top three bits (7: and another byte) are the length less two of a copy, the other thirteen bits

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <vector>
@@ -127,6 +128,7 @@ Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::str
     row_words += header.fields[i].count;
   }
   Vertices cloud;
+  cloud.points.reserve(std::min(header.points, countLines(lines.rest()) + 1));
   while (cloud.points.size() < header.points) {
     const auto line = lines.next();
     if (!line) throw tooShort(name, header);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <map>
 #include <vector>
@@ -232,7 +233,13 @@ Vertices parsePly(std::string_view content, const std::string& name) {
   Vertices found;
   Vertex vertex;
   forEachPlyVertex(
-      content, name, [&](const Element& element) { vertex = parseVertex(element, name); },
+      content, name,
+      [&](const Element& element) {
+        vertex = parseVertex(element, name);
+        const std::size_t least = element.properties.size();  // bytes of a vertex
+        found.points.reserve(std::min(element.count, content.size() / least));
+        if (vertex.origin) found.origins.reserve(found.points.capacity());
+      },
       [&](const std::vector<double>& row) {
         found.points.push_back(pick(vertex.point, row));
         if (vertex.origin) found.origins.push_back(pick(*vertex.origin, row));

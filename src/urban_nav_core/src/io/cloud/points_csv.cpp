@@ -47,6 +47,7 @@ Vertices parsePoints(std::string_view content, const std::string& name) {
   const TextTable table(content, name);
   const Axes axes = findAxes(table);
   Vertices cloud;
+  cloud.points.reserve(countLines(content) + 1);
   std::size_t promised = 0;  // by the counts that some programs write above their points
   table.forEachRow([&](const TableRow& row) {
     if (const auto count = row.cells.size() == 1 ? parseInteger(row.cells.front()) : std::nullopt;

@@ -5,14 +5,22 @@
 #include <memory>
 
 #include "formats.hpp"
+#include "urban_nav_core/io/memory_limit.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/unpacked_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core::cloud_formats {
 
 bool isGzip(std::string_view content) { return content.substr(0, 2) == "\x1f\x8b"; }
 
-std::string gunzip(std::string_view content, const std::string& name, std::size_t limit) {
+std::size_t countLines(std::string_view content) {
+  return static_cast<std::size_t>(std::count(content.begin(), content.end(), '\n'));
+}
+
+std::string gunzip(std::string_view content, const std::string& name) {
   constexpr std::size_t kPiece = 1U << 20U;
+  const std::size_t limit = largestPiece();
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) throw UserError(name, "cannot be unpacked", "");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, &inflateEnd);
@@ -36,7 +44,8 @@ std::string gunzip(std::string_view content, const std::string& name, std::size_
       if (status == Z_BUF_ERROR) throw UserError(name, "the gzip stream ends too early", "a whole file");
       if (status != Z_OK && status != Z_STREAM_END) throw UserError(name, "the gzip stream is damaged", "a whole file");
       if (plain.size() > limit)
-        throw UserError(name, "more than " + std::to_string(limit >> 30U) + " GB when unpacked", "less");
+        throw UserError(name, "more than " + std::to_string(limit >> 20U) + " MB when unpacked",
+                        "an eighth of memory_mb = " + std::to_string(memoryLimit() >> 20U) + "; or the unpacked file");
     }
     taken -= stream.avail_in;
     stream.avail_in = 0;
@@ -76,3 +85,12 @@ std::optional<std::string> decompressLzf(std::string_view packed, std::size_t si
 }
 
 }  // namespace urban_nav_core::cloud_formats
+
+namespace urban_nav_core {
+
+std::string readUnpacked(const std::string& path) {
+  std::string bytes = readBytes(path);
+  return cloud_formats::isGzip(bytes) ? cloud_formats::gunzip(bytes, path) : bytes;
+}
+
+}  // namespace urban_nav_core

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../reader_check.hpp"
+#include "urban_nav_core/testing/limited_memory.hpp"
 
 namespace urban_nav_core {
 namespace {
@@ -262,6 +263,11 @@ TEST(CloudFile, MistakesAreNamedWithTheirLine) {
   EXPECT_EQ(refusal(plyBinary(false).substr(0, 300)), "c: ends before its 4 of element vertex: allowed a whole file");
   EXPECT_EQ(refusal(pcdBinary().substr(0, pcdBinary().size() - 1)),
             "c: ends before its 4 points: allowed a whole file");
+  {
+    const testing::LimitedMemory limit(std::size_t{8} << 20U);
+    EXPECT_EQ(refusal(gzipped("x,y,z\n" + std::string(std::size_t{1} << 20U, '\n'))),
+              "c: more than 1 MB when unpacked: allowed an eighth of memory_mb = 8; or the unpacked file");
+  }
   EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream ends too early: allowed a whole file");
   EXPECT_EQ(refusal("VERSION 0.7\nFIELDS x y\nSIZE 4 4 4\n"),
             "c:3: 3 words for 2 fields: allowed one for each, after the line FIELDS");

@@ -8,6 +8,7 @@
 
 #include "recording/storage/bag_records.hpp"
 #include "recording/storage/inflate.hpp"
+#include "urban_nav_core/io/memory_limit.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_input {
@@ -20,7 +21,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::uint32_t kLargestOpenChunk = 1U << 28U;  // bytes of a chunk whose size was not written yet
+constexpr std::size_t kLargestOpenChunk = 1U << 28U;  // bytes of a chunk whose size was not written yet
 
 std::string counted(std::uint64_t number, const char* one, const char* many) {
   return std::to_string(number) + " " + (number == 1 ? one : many);
@@ -74,21 +75,17 @@ class BagWalk {
 
   /// `is_cut`: the chunk goes on beyond the end of the file.
   void visitChunk(const rosbag1::Record& record, bool is_cut) {
-    const std::string compression = findText(record.header, "compression");
-    if (compression != "none" && compression != "bz2" && compression != "lz4")
-      throw UserError(path_, "is compressed by " + compression + ", which is not understood", "none, bz2 or lz4");
-    McapChunk chunk;
-    chunk.begin = record.begin;
-    chunk.chunk.compression = compression == "none" ? "" : compression;
-    chunk.chunk.size = findNumber<std::uint32_t>(record.header, "size").value_or(0);
-    chunk.chunk.packed = record.data;
-    chunk.chunk.packed_size =
-        is_cut ? std::max<std::uint64_t>(record.data_size, record.data.size + 1) : record.data_size;
-    if (is_cut && chunk.chunk.size == 0) chunk.chunk.size = kLargestOpenChunk;
+    std::optional<McapChunk> read = readChunk(record);
+    if (!read)
+      throw UserError(path_, "is compressed by " + findText(record.header, "compression") + ", which is not understood",
+                      "none, bz2 or lz4");
+    McapChunk& chunk = *read;
+    if (is_cut) chunk.chunk.packed_size = std::max<std::uint64_t>(record.data_size, record.data.size + 1);
+    if (is_cut && chunk.chunk.size == 0) chunk.chunk.size = std::min(kLargestOpenChunk, urban_nav_core::largestPiece());
     Inflated inflated;
     ByteView bytes = record.data;
     if (!chunk.chunk.compression.empty()) {
-      inflated = inflate(compression, record.data, static_cast<std::size_t>(chunk.chunk.size));
+      inflated = inflate(chunk.chunk.compression, record.data, static_cast<std::size_t>(chunk.chunk.size));
       bytes = inflated.bytes();
       if (!is_cut && !inflated.is_whole) {
         scan_.warnings.push_back("chunk at byte " + std::to_string(record.begin) +
@@ -102,7 +99,7 @@ class BagWalk {
     if (!is_cut && walk.at() != bytes.size)
       scan_.warnings.push_back("chunk at byte " + std::to_string(record.begin) + " is damaged at its byte " +
                                std::to_string(walk.at()) + ": the messages after it are left out");
-    scan_.chunks.push_back(std::move(chunk));
+    scan_.chunks.push_back(std::move(*read));
   }
 
   void visit(const rosbag1::Record& record, std::uint64_t chunk) {
@@ -118,24 +115,13 @@ class BagWalk {
       ++orphans_;
       return;
     }
-    const auto seconds = static_cast<StampNs>(*time & std::numeric_limits<std::uint32_t>::max());
-    const auto nanoseconds = static_cast<StampNs>(*time >> 32U);
-    scan_.entries[known->second].push_back({seconds * 1'000'000'000 + nanoseconds, makePlace(chunk, record.begin)});
+    scan_.entries[known->second].push_back({readBagTime(*time), makePlace(chunk, record.begin)});
     ++scan_.messages;
   }
 
   void addConnection(std::uint32_t id, const rosbag1::Record& record) {
     if (!places_.try_emplace(id, scan_.connections.size()).second) return;
-    Connection connection;
-    connection.topic = findText(record.header, "topic");
-    connection.type = findText(record.data, "type");
-    connection.md5 = findText(record.data, "md5sum");
-    connection.definition = findText(record.data, "message_definition");
-    connection.definition_encoding = "ros1msg";
-    connection.encoding = "ros1";
-    connection.caller_id = findText(record.data, "callerid");
-    connection.is_latched = findText(record.data, "latching") == "1";
-    scan_.connections.push_back(std::move(connection));
+    scan_.connections.push_back(readConnection(record));
     scan_.ids.push_back(id);
     scan_.entries.emplace_back();
   }
@@ -160,6 +146,36 @@ class BagWalk {
 };
 
 }  // namespace
+
+Connection readConnection(const rosbag1::Record& record) {
+  Connection connection;
+  connection.topic = findText(record.header, "topic");
+  connection.type = findText(record.data, "type");
+  connection.md5 = findText(record.data, "md5sum");
+  connection.definition = findText(record.data, "message_definition");
+  connection.definition_encoding = "ros1msg";
+  connection.encoding = "ros1";
+  connection.caller_id = findText(record.data, "callerid");
+  connection.is_latched = findText(record.data, "latching") == "1";
+  return connection;
+}
+
+std::optional<McapChunk> readChunk(const rosbag1::Record& record) {
+  const std::string compression = findText(record.header, "compression");
+  if (compression != "none" && compression != "bz2" && compression != "lz4") return std::nullopt;
+  McapChunk chunk;
+  chunk.begin = record.begin;
+  chunk.chunk.compression = compression == "none" ? "" : compression;
+  chunk.chunk.size = findNumber<std::uint32_t>(record.header, "size").value_or(0);
+  chunk.chunk.packed = record.data;
+  chunk.chunk.packed_size = record.data_size;
+  return chunk;
+}
+
+StampNs readBagTime(std::uint64_t time) {
+  const auto seconds = static_cast<StampNs>(time & std::numeric_limits<std::uint32_t>::max());
+  return seconds * 1'000'000'000 + static_cast<StampNs>(time >> 32U);
+}
 
 BagScan scanBag(const std::string& path, ByteView file) { return BagWalk(path, file).run(); }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "recording/storage/bag_records.hpp"
 #include "recording/storage/mcap_contents.hpp"
 #include "urban_nav_input/recording/connection.hpp"
 #include "urban_nav_input/recording/message_entry.hpp"
@@ -20,6 +22,12 @@ struct BagScan {
   std::vector<std::string> warnings;               ///< damage with its place
   std::uint64_t messages = 0;
 };
+
+/// Return the content of a record of a bag: of a Connection; of a Chunk, nullopt for a compression that is not
+/// understood; and a time, whose seconds are its lower half.
+Connection readConnection(const rosbag1::Record& record);
+std::optional<McapChunk> readChunk(const rosbag1::Record& record);
+urban_nav_core::StampNs readBagTime(std::uint64_t time);
 
 /// Reads all records of a bag without its index, up to where it is cut off or damaged, which decompresses all chunks.
 /// Throws UserError naming `path` for an encryption or a compression that is not understood. Requires that the file

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "recording/storage/bag_records.hpp"
+#include "recording/storage/byte_reader.hpp"
+#include "recording/storage/mapped_file.hpp"
 #include "recording/storage/storage.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/recording/recording.hpp"
@@ -38,7 +40,7 @@ class MessageBuffer {
   std::uint32_t size_ = 0, capacity_ = 0;
 };
 
-/// ROS 1 bag, read by librosbag.
+/// ROS 1 bag of version 1.2, read by librosbag.
 class BagStorage : public Storage {
  public:
   /// Throws what librosbag throws.
@@ -121,22 +123,40 @@ class BagStorage : public Storage {
   std::string fault_;          // that the first of them met
 };
 
-/// Returns whether the version of a bag is the one whose records are read without an index.
+/// Returns whether the version of a bag is 2.0, whose records are read without librosbag.
 bool hasBagRecords(const std::string& path) {
   std::string begin(rosbag1::kMagic.size(), '\0');
   std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return begin == rosbag1::kMagic;
 }
 
+/// Throws DataError if the records of a bag do not fill it: librosbag ends the process at a length that it cannot
+/// allocate.
+void checkLengths(const std::string& path) {
+  const MappedFile file(path);
+  const ByteView bytes = file.bytes();
+  std::size_t line = 0;
+  while (line < bytes.size && bytes.data[line] != '\n') ++line;
+  ByteReader reader({bytes.data + line, bytes.size - line});
+  reader.bytes(1);
+  while (reader.isGood() && reader.left() > 0) {
+    reader.bytes(reader.number<std::uint32_t>());  // fields
+    reader.bytes(reader.number<std::uint32_t>());  // data
+  }
+  if (!reader.isGood())
+    throw urban_nav_core::DataError(path, "is a bag of version 1 that is cut off or damaged", "a whole bag");
+}
+
 }  // namespace
 
 std::unique_ptr<Storage> openBagStorage(const std::string& path) {
+  if (hasBagRecords(path)) return openBagRecords(path);
+  checkLengths(path);
   try {
     return std::make_unique<BagStorage>(path);
   } catch (const std::exception& error) {
-    if (!hasBagRecords(path)) throwDamaged(path, error);
+    throwDamaged(path, error);
   }
-  return openScannedBag(path);
 }
 
 }  // namespace urban_nav_input

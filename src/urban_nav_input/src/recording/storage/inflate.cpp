@@ -10,12 +10,11 @@
 #include <limits>
 #include <new>
 
+#include "urban_nav_core/io/memory_limit.hpp"
+
 namespace urban_nav_input {
 
 namespace {
-
-constexpr std::size_t kLargestInflated = std::size_t{1}
-                                         << 32U;  // bytes of a chunk or message; more is a damaged number
 
 void inflateZstd(ByteView packed, std::size_t capacity, Inflated& out) {
   static thread_local const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(),
@@ -83,7 +82,7 @@ bool isKnownCompression(const std::string& compression) {
 
 Inflated inflate(const std::string& compression, ByteView packed, std::size_t size) {
   Inflated out;
-  if (size > kLargestInflated) return out;
+  if (size > urban_nav_core::largestPiece()) return out;
   // Not set to zero: the system provides the pages as they are written, so that a damaged size costs nothing.
   out.memory = boost::make_unique_noinit<std::uint8_t[]>(size);
   if (size == 0) out.is_whole = true;

@@ -23,7 +23,8 @@ struct Inflated {
 bool isKnownCompression(const std::string& compression);
 
 /// Decompresses frames of zstd or lz4, or a stream of bz2, to `size` bytes. What is cut off or damaged is inflated as
-/// far as it goes, to whole blocks. Requires "zstd", "lz4" or "bz2".
+/// far as it goes, to whole blocks; nothing is, if `size` exceeds urban_nav_core::largestPiece(). Requires "zstd",
+/// "lz4" or "bz2".
 Inflated inflate(const std::string& compression, ByteView packed, std::size_t size);
 
 }  // namespace urban_nav_input

@@ -17,9 +17,13 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
 
   ByteView bytes() const { return bytes_; }
+  /// Counts bytes that are read, and returns the pages to the system once they are many: a long recording would count
+  /// as memory of the process as a whole. Views stay valid: what is used again is read again. Not thread-safe.
+  void countRead(std::size_t size);
 
  private:
   ByteView bytes_;
+  std::size_t read_ = 0;  // bytes since pages were returned
 };
 
 }  // namespace urban_nav_input

@@ -3,12 +3,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "urban_nav_input/recording/message_definition.hpp"
 #include "recording/storage/byte_reader.hpp"
 #include "recording/storage/mapped_file.hpp"
 #include "recording/storage/mcap_chunk_cache.hpp"
 #include "recording/storage/mcap_contents.hpp"
 #include "recording/storage/storage.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 
 namespace urban_nav_input {
 
@@ -48,7 +48,10 @@ class McapStorage : public Storage {
     const std::optional<mcap::Record> record = mcap::RecordWalk(records, placedOffset(entry.place)).next();
     const std::optional<mcap::Message> message =
         record && record->op == mcap::Op::Message ? mcap::parseMessage(record->content) : std::nullopt;
-    if (message && message->channel == channels_[connection]) return message->data;
+    if (message && message->channel == channels_[connection]) {
+      file_.countRead(message->data.size);
+      return message->data;
+    }
     ++misplaced_;
     return {};
   }

@@ -2,6 +2,7 @@
 #include "recording/storage/mcap_summary.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "recording/storage/byte_reader.hpp"
 #include "recording/storage/crc32.hpp"
@@ -49,6 +50,17 @@ std::optional<McapChunk> findChunk(ByteView file, const mcap::ChunkIndex& index)
   return McapChunk{index.offset, std::move(*chunk), index.indexes};
 }
 
+/// Returns whether the indexes of each chunk lie between it and the next one. Where chunks share them, a small file
+/// could name the same messages millions of times.
+bool isApart(const std::vector<McapChunk>& chunks, std::uint64_t file_size) {
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    const std::uint64_t end = i + 1 < chunks.size() ? chunks[i + 1].begin : file_size;
+    for (const auto& [channel, offset] : chunks[i].indexes)
+      if (offset <= chunks[i].begin || offset >= end) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<McapContents> readMcapSummary(ByteView file) {
@@ -83,7 +95,7 @@ std::optional<McapContents> readMcapSummary(ByteView file) {
       if (contents.channels.count(channel) == 0) return std::nullopt;
   std::sort(contents.chunks.begin(), contents.chunks.end(),
             [](const McapChunk& a, const McapChunk& b) { return a.begin < b.begin; });
-  return contents;
+  return isApart(contents.chunks, file.size) ? std::optional<McapContents>(std::move(contents)) : std::nullopt;
 }
 
 }  // namespace urban_nav_input

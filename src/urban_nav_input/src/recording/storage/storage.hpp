@@ -43,6 +43,9 @@ class Storage {
 std::unique_ptr<Storage> openStorage(const std::string& path);
 
 std::unique_ptr<Storage> openBagStorage(const std::string& path);
+/// Opens a bag by its index, or without it where it is not consistent. Throws like openScannedBag(). Requires that the
+/// file begins as bags of version 2.0 do.
+std::unique_ptr<Storage> openBagRecords(const std::string& path);
 /// Opens a bag without its index: one that was cut off, is damaged, or that its recorder did not finish. Throws
 /// DataError if no message is whole.
 std::unique_ptr<Storage> openScannedBag(const std::string& path);

@@ -5,6 +5,7 @@
 #include <zstd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,9 @@
 namespace urban_nav_input {
 
 namespace {
+
+constexpr std::uint64_t kLeastRoom = std::uint64_t{64} << 20U,
+                        kMostGain = 1000;  // bytes, and times the compressed file
 
 /// Decompresses frame after frame; `write` takes bytes and returns whether more are wanted. Returns whether the input
 /// ends with the end of a frame.
@@ -65,7 +69,14 @@ UnpackedFile::UnpackedFile(const std::string& path) {
                                     "room in TMPDIR");
   };
   if (descriptor < 0) fail();
+  // Recordings shrink to a fifth as a rule, and to a hundredth where nothing moves.
+  std::uint64_t room = kLeastRoom + kMostGain * std::uint64_t{file.bytes().size};
   is_whole_ = inflateAll(file.bytes(), [&](const char* bytes, std::size_t count) {
+    if (count > room) {
+      errno = EFBIG;
+      fail();
+    }
+    room -= count;
     while (count > 0) {
       const ssize_t written = ::write(descriptor, bytes, count);
       if (written < 0 && errno == EINTR) continue;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,9 +13,12 @@
 #include "recording/message/transcoder.hpp"
 #include "recording/storage/bag_records.hpp"
 #include "recording/storage/byte_writer.hpp"
+#include "recording/storage/inflate.hpp"
 #include "recording/storage/mcap_records.hpp"
+#include "recording/storage/packed_message.hpp"
 #include "recording/storage/storage.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/testing/limited_memory.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/recording/mcap_writer.hpp"
 
@@ -109,17 +113,71 @@ std::string makeBagRecord(std::uint8_t op, const std::vector<std::pair<std::stri
 
 std::string toBytes(std::uint32_t number) { return ByteWriter().number(number).str(); }
 
-/// A bag that its recorder did not close: a chunk without compression, and messages after it.
-std::string makeBag() {
+std::string makeBagConnection() {
   ByteWriter about;
   about.text("topic=/a")
       .text("type=test_msgs/A")
       .text("md5sum=0")
       .text("message_definition=" + std::string(kDefinition));
-  std::string records = makeBagRecord(7, {{"conn", toBytes(0)}, {"topic", "/a"}}, about.str());
-  for (std::uint32_t i = 0; i < 20; ++i)
+  return makeBagRecord(7, {{"conn", toBytes(0)}, {"topic", "/a"}}, about.str());
+}
+
+/// A connection and its messages; `index`: time and offset of each.
+std::string makeBagRecords(std::string& index) {
+  std::string records = makeBagConnection();
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    index += toBytes(i) + toBytes(0) + toBytes(static_cast<std::uint32_t>(records.size()));
     records +=
         makeBagRecord(2, {{"conn", toBytes(0)}, {"time", toBytes(i) + toBytes(0)}}, makeMessage(static_cast<int>(i)));
+  }
+  return records;
+}
+
+/// Numbers that are wrong in the index of a bag; 0: right.
+struct IndexLie {
+  std::uint32_t chunk_size = 0, packed_size = 0, messages = 0, offset = 0, index_size = 0, fields_size = 0;
+  std::uint32_t chunks = 1;  ///< how often the index names the chunk
+  std::string compression = "none";
+};
+
+/// A bag that its recorder closed: one chunk with its index.
+std::string makeIndexedBag(const IndexLie& lie = {}) {
+  std::string index;
+  const std::string records = makeBagRecords(index);
+  const auto orElse = [](std::uint32_t lied, std::size_t truth) {
+    return toBytes(lied != 0 ? lied : static_cast<std::uint32_t>(truth));
+  };
+  if (lie.offset != 0) index.replace(8, 4, toBytes(lie.offset));
+  std::string chunk =
+      makeBagRecord(5, {{"compression", lie.compression}, {"size", orElse(lie.chunk_size, records.size())}}, records);
+  if (lie.packed_size != 0) chunk.replace(chunk.size() - records.size() - 4, 4, toBytes(lie.packed_size));
+  std::string places =
+      makeBagRecord(4, {{"ver", toBytes(1)}, {"conn", toBytes(0)}, {"count", orElse(lie.messages, 20)}}, index);
+  if (lie.index_size != 0) places.replace(places.size() - index.size() - 4, 4, toBytes(lie.index_size));
+  if (lie.fields_size != 0) places.replace(0, 4, toBytes(lie.fields_size));
+  const auto header = [&](std::size_t index_pos) {
+    return makeBagRecord(3,
+                         {{"index_pos", toBytes(static_cast<std::uint32_t>(index_pos)) + toBytes(0)},
+                          {"conn_count", toBytes(1)},
+                          {"chunk_count", toBytes(lie.chunks)}},
+                         "    ");
+  };
+  const std::size_t begin = rosbag1::kMagic.size() + header(0).size();
+  std::string bag = std::string(rosbag1::kMagic) + header(begin + chunk.size() + places.size()) + chunk + places;
+  bag += makeBagConnection();
+  for (std::uint32_t i = 0; i < lie.chunks; ++i)
+    bag += makeBagRecord(6,
+                         {{"ver", toBytes(1)},
+                          {"chunk_pos", toBytes(static_cast<std::uint32_t>(begin)) + toBytes(0)},
+                          {"count", toBytes(1)}},
+                         toBytes(0) + orElse(lie.messages, 20));
+  return bag;
+}
+
+/// A bag that its recorder did not close: a chunk without compression, and messages after it.
+std::string makeBag() {
+  std::string index;
+  const std::string records = makeBagRecords(index);
   const std::string chunk = makeBagRecord(
       5, {{"compression", "none"}, {"size", toBytes(static_cast<std::uint32_t>(records.size()))}}, records);
   const std::string open = makeBagRecord(5, {{"compression", "none"}, {"size", toBytes(0)}}, "");
@@ -169,6 +227,61 @@ void expectToSurvive(const std::vector<std::string>& seeds, const Open& open) {
 TEST(StorageFuzz, DamagedMcap) { expectToSurvive({makeChunked(), makeUnchunked()}, openMcapStorage); }
 
 TEST(StorageFuzz, DamagedBag) { expectToSurvive({makeBag()}, openScannedBag); }
+
+TEST(StorageFuzz, DamagedIndexOfABag) { expectToSurvive({makeIndexedBag()}, openBagRecords); }
+
+/// Numbers that librosbag did not check: it allocated as much, ended the process, or read beyond the chunk.
+TEST(StorageFuzz, NumbersOfABagThatLieCostNoMessageAndNoMemory) {
+  constexpr std::uint32_t kFar = 0xfffffff0;
+  const std::string path = (fs::temp_directory_path() / ("storage_lies_" + std::to_string(getpid()))).string();
+  const auto open = [&](const IndexLie& lie) {
+    std::ofstream(path, std::ios::binary) << makeIndexedBag(lie);
+    return openBagRecords(path);
+  };
+  const std::unique_ptr<Storage> whole = open({});
+  EXPECT_EQ(whole->index(0).size(), 20U);
+  EXPECT_TRUE(whole->warnings().empty());
+  IndexLie messages, offset, index_size, fields_size, chunks;
+  messages.messages = kFar;
+  offset.offset = kFar;
+  index_size.index_size = kFar;
+  fields_size.fields_size = kFar;
+  chunks.chunks = 1000;  // each of them the same
+  for (const IndexLie& lie : {messages, offset, index_size, fields_size, chunks}) {
+    const std::unique_ptr<Storage> storage = open(lie);
+    ASSERT_EQ(storage->connections().size(), 1U);
+    ASSERT_EQ(storage->index(0).size(), 20U) << "by its records";
+    for (const MessageEntry& entry : storage->index(0)) EXPECT_GT(storage->read(0, entry).size, 0U);
+    EXPECT_EQ(storage->warnings().size(), 1U);
+  }
+  for (const char* compression : {"bz2", "lz4"}) {
+    IndexLie size;
+    size.chunk_size = kFar;
+    size.compression = compression;
+    const std::unique_ptr<Storage> storage = open(size);
+    for (const MessageEntry& entry : storage->index(0)) EXPECT_EQ(storage->read(0, entry).data, nullptr);
+    EXPECT_EQ(storage->warnings().size(), 1U);
+  }
+  IndexLie packed;
+  packed.packed_size = kFar;
+  EXPECT_EQ(open(packed)->index(0).size(), 20U) << "of a chunk that is cut off";
+  fs::remove(path);
+}
+
+TEST(StorageFuzz, WhatExceedsTheMemoryLimitIsNotDecompressed) {
+  const urban_nav_core::testing::LimitedMemory limit(std::size_t{8} << 20U);
+  const std::vector<char> zeros(std::size_t{1} << 20U);
+  std::vector<std::uint8_t> packed(ZSTD_compressBound(zeros.size() + 1));
+  for (const std::size_t more : {0U, 1U}) {
+    const std::vector<char> plain(zeros.size() + more);
+    const std::size_t size = ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 3);
+    ASSERT_LT(size, 1000U);
+    EXPECT_EQ(inflate("zstd", {packed.data(), size}, plain.size()).is_whole, more == 0);
+    EXPECT_EQ(MessageUnpacker()({packed.data(), size}).size, more == 0 ? plain.size() : 0U);
+  }
+  EXPECT_EQ(inflate("lz4", {packed.data(), 10}, zeros.size() + 1).memory, nullptr);
+  EXPECT_EQ(inflate("bz2", {packed.data(), 10}, zeros.size() + 1).memory, nullptr);
+}
 
 TEST(StorageFuzz, DamagedDb3) { expectToSurvive({makeDb3()}, openDb3Storage); }
 
