@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/console.hpp"
+#include "base/manual.hpp"
 #include "base/python_path.hpp"
 #include "base/version.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -81,6 +82,20 @@ std::string generalHelp(const std::vector<Command>& commands) {
          "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
 }
 
+bool isHelpWord(const std::string& word) {
+  return word == "--help" || word == "--help-all" || word == "-h" || word == "help";
+}
+
+/// Returns the text of an option of the program itself; nullopt for another word.
+std::optional<std::string> generalText(const std::vector<Command>& commands, const std::string& word) {
+  if (isHelpWord(word)) return generalHelp(commands);
+  if (word == "--version") return "urban_nav " + suiteVersion() + "\n";
+  if (word == "--python-path") return pythonPath() + "\n";
+  if (word == "--manual") return printManual(commands);
+  if (word == "--completion") return printCompletion(commands);
+  return std::nullopt;
+}
+
 void checkRequired(const Command& command, const Arguments& arguments) {
   for (const Option& option : command.options) {
     if (option.required && !arguments.has(toKey(option))) {
@@ -98,6 +113,24 @@ void checkRequired(const Command& command, const Arguments& arguments) {
       }
     }
   }
+}
+
+/// Checks an argument that is given by name: CLI11 does that for words.
+void checkNamed(const Command& command, const std::string& key, const std::vector<std::string>& given) {
+  const std::string where = "urban_nav " + command.name;
+  const auto option =
+      std::find_if(command.options.begin(), command.options.end(), [&](const Option& o) { return toKey(o) == key; });
+  if (option == command.options.end()) {
+    std::vector<std::string> names;
+    for (const Option& each : command.options) names.push_back(toKey(each));
+    throw UserError(where, "no option " + key, urban_nav_core::joined(names));
+  }
+  const bool is_flag = option->value.empty() && !isPositional(*option);
+  const bool has_value = !given.empty() && !(given.size() == 1 && given.front() == "true");
+  if (is_flag && has_value) throw UserError(where, key + " = " + given.front(), "on or off: it takes no value");
+  if (given.empty()) throw UserError(where, key + " has no value", option->value.empty() ? "a value" : option->value);
+  if (given.size() > 1 && !option->repeatable)
+    throw UserError(where, key + " has " + std::to_string(given.size()) + " values", "one");
 }
 
 /// CLI11 splits the words; what they mean is checked here, so that --help works beside anything else.
@@ -148,10 +181,6 @@ int runCommand(const Command& command, const ParameterTables& tables, int argc, 
   }
   checkRequired(command, arguments);
   return command.run(arguments, console);
-}
-
-bool isHelpWord(const std::string& word) {
-  return word == "--help" || word == "--help-all" || word == "-h" || word == "help";
 }
 
 const Command& findCommand(const std::vector<Command>& commands, const std::string& name, const std::string& where,
@@ -234,16 +263,12 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
   Console console;
   const std::string name = argc > 1 ? argv[1] : "";
   try {
-    if (name.empty() || isHelpWord(name)) {
+    if (name.empty()) {
       console.print(generalHelp(commands));
-      return name.empty() ? 2 : 0;
+      return 2;
     }
-    if (name == "--version") {
-      console.print("urban_nav " + suiteVersion() + "\n");
-      return 0;
-    }
-    if (name == "--python-path") {
-      console.print(pythonPath() + "\n");
+    if (const std::optional<std::string> text = generalText(commands, name)) {
+      console.print(*text);
       return 0;
     }
     const Command& command = findCommand(commands, name, "urban_nav", "command");
@@ -261,6 +286,21 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
     console.error(std::string("could not go on: ") + error.what());
     return 1;
   }
+}
+
+int runCommandByName(const std::vector<Command>& commands, const ParameterTables& tables, const std::string& name,
+                     const std::map<std::string, std::vector<std::string>>& values, Console& console) {
+  const std::size_t blank = name.find(' ');
+  const Command& group = findCommand(commands, name.substr(0, blank), "urban_nav", "command");
+  Command command = group;
+  if (!group.actions.empty())
+    command = findCommand(group.actions, blank == std::string::npos ? "" : name.substr(blank + 1),
+                          "urban_nav " + group.name, "action");
+  command.name = name;
+  for (const auto& [key, given] : values) checkNamed(command, key, given);
+  const Arguments arguments(values, tables);
+  checkRequired(command, arguments);
+  return command.run(arguments, console);
 }
 
 Option jsonOption() { return {"--json", "FILE", "a machine-readable summary", false, false, {}}; }

@@ -72,6 +72,12 @@ struct Command {
 int runCommandLine(const std::vector<Command>& commands, const ParameterTables& tables, int argc,
                    const char* const* argv);
 
+/// Runs a command, or an action ("places query"), whose arguments are given by name: options by their long name without
+/// dashes, a flag with the value "true". Returns the exit status 0 or 1. Throws UserError for a command or option that
+/// does not exist, for a flag with another value and for an option without one, and the errors of the command.
+int runCommandByName(const std::vector<Command>& commands, const ParameterTables& tables, const std::string& name,
+                     const std::map<std::string, std::vector<std::string>>& values, Console& console);
+
 /// The options that every command has (--json, --set, --config, --threads): appended where a command wants them.
 Option jsonOption();
 Option setOption();

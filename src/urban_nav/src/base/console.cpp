@@ -28,8 +28,10 @@ std::string rounded(double value) {
 
 class Console::Implementation {
  public:
-  Implementation()
-      : logger("urban_nav", std::make_shared<spdlog::sinks::stderr_sink_mt>()), terminal(isatty(STDERR_FILENO) == 1) {
+  explicit Implementation(RunListener* takes)
+      : listener(takes),
+        logger("urban_nav", std::make_shared<spdlog::sinks::stderr_sink_mt>()),
+        terminal(takes == nullptr && isatty(STDERR_FILENO) == 1) {
     logger.set_pattern("%v");
     logger.flush_on(spdlog::level::trace);
   }
@@ -41,16 +43,25 @@ class Console::Implementation {
     transient_width = 0;
   }
 
+  /// Returns whether a listener has taken the line.
+  bool give(RunListener::Kind kind, const std::string& line) const {
+    if (listener != nullptr) listener->takeLine(kind, line);
+    return listener != nullptr;
+  }
+
+  RunListener* const listener;
   spdlog::logger logger;
   std::mutex mutex;  // guards transient_width and the order of what is written
   std::size_t transient_width = 0;
   const bool terminal;
 };
 
-Console::Console() : implementation_(std::make_unique<Implementation>()) {}
+Console::Console() : implementation_(std::make_unique<Implementation>(nullptr)) {}
+Console::Console(RunListener& listener) : implementation_(std::make_unique<Implementation>(&listener)) {}
 Console::~Console() { implementation_->clearTransient(); }
 
 void Console::print(const std::string& text) {
+  if (implementation_->give(RunListener::Kind::Result, text)) return;
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
   const std::string shown = urban_nav_core::printable(text, "\n\t");
@@ -59,21 +70,28 @@ void Console::print(const std::string& text) {
 }
 
 void Console::info(const std::string& line) {
+  if (implementation_->give(RunListener::Kind::Info, line)) return;
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
   implementation_->logger.info("{}", urban_nav_core::printable(line));
 }
 
 void Console::warn(const std::string& line) {
+  if (implementation_->give(RunListener::Kind::Warning, line)) return;
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
   implementation_->logger.warn("warning: {}", urban_nav_core::printable(line));
 }
 
 void Console::error(const std::string& line) {
+  if (implementation_->give(RunListener::Kind::Error, line)) return;
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
   implementation_->logger.error("error: {}", urban_nav_core::printable(line));
+}
+
+void Console::progress(const std::string& label, std::int64_t done, std::int64_t total) {
+  if (implementation_->listener != nullptr) implementation_->listener->takeProgress(label, done, total);
 }
 
 void Console::transient(const std::string& text) {
@@ -96,6 +114,7 @@ Progress::Progress(Console& console, std::string label, std::string unit, std::i
       last_(begin_) {}
 
 void Progress::update(std::int64_t done) {
+  console_.progress(label_, done, total_);
   const Clock::time_point now = Clock::now();
   const double since_last = std::chrono::duration<double>(now - last_).count();
   if (since_last < (console_.isTerminal() ? kSecondsBetweenBars : kSecondsBetweenLines)) return;
@@ -109,6 +128,7 @@ void Progress::update(std::int64_t done) {
 }
 
 void Progress::finish(std::int64_t done) {
+  console_.progress(label_, done, total_);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
   console_.info(label_ + ": " + std::to_string(done) + " " + unit_ + " in " + printDuration(seconds) + ", " +

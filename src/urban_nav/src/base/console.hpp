@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "urban_nav/run_listener.hpp"
+
 namespace urban_nav {
 
 /// Where the command speaks to its user: results on the standard output, everything else on the standard error, so that
@@ -14,6 +16,8 @@ namespace urban_nav {
 class Console {
  public:
   Console();
+  /// Gives everything to a listener, which outlives this object, and prints nothing.
+  explicit Console(RunListener& listener);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -24,6 +28,8 @@ class Console {
   void warn(const std::string& line);
   void error(const std::string& line);
 
+  /// Reports progress to a listener, if there is one.
+  void progress(const std::string& label, std::int64_t done, std::int64_t total);
   /// Text that the next line, or the next such text, replaces; nothing where the output is no terminal.
   void transient(const std::string& text);
   bool isTerminal() const;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "base/console.hpp"
 #include "base/json.hpp"
@@ -54,6 +56,81 @@ TEST(CommandLine, GivesWhatWasGiven) {
                              "--stages", "loops"}),
             0);
   EXPECT_TRUE(ran);
+}
+
+int callByName(const Command& command, const std::map<std::string, std::vector<std::string>>& values) {
+  Console console;
+  return runCommandByName({command}, addStageTables, "probe", values, console);
+}
+
+TEST(CommandByName, GivesWhatWasGiven) {
+  bool ran = false;
+  const Command command = probe([&](const Arguments& arguments) {
+    ran = true;
+    EXPECT_EQ(arguments.all("INPUT"), (std::vector<std::string>{"-x", "y"}));
+    EXPECT_EQ(arguments.list("stages"), (std::vector<std::string>{"vo", "places"}));
+    EXPECT_TRUE(arguments.has("fast"));
+    EXPECT_EQ(arguments.integer("threads", 7, 1, 64), 2);
+    return 1;
+  });
+  EXPECT_EQ(callByName(command, {{"INPUT", {"-x", "y"}},
+                                 {"out", {"there"}},
+                                 {"stages", {"vo", "places"}},
+                                 {"fast", {"true"}},
+                                 {"threads", {"2"}}}),
+            1);
+  EXPECT_TRUE(ran);
+}
+
+TEST(CommandByName, RefusesWhatTheLineRefuses) {
+  const Command command = probe([](const Arguments&) { return 0; });
+  using Values = std::map<std::string, std::vector<std::string>>;
+  const Values good = {{"INPUT", {"x"}}, {"out", {"there"}}};
+  const auto with = [&](const std::string& key, const std::vector<std::string>& values) {
+    Values changed = good;
+    changed[key] = values;
+    return changed;
+  };
+  EXPECT_EQ(callByName(command, good), 0);
+  for (const Values& bad : {with("colour", {"red"}), with("fast", {"yes"}), with("out", {}), with("out", {"a", "b"}),
+                            with("kind", {"c"}), with("threads", {}), Values{{"INPUT", {"x"}}}})
+    EXPECT_THROW(callByName(command, bad), urban_nav_core::UserError);
+  Console console;
+  EXPECT_THROW(runCommandByName({command}, addStageTables, "prob", good, console), urban_nav_core::UserError);
+}
+
+/// Keeps what a console would print.
+class Kept final : public RunListener {
+ public:
+  void takeLine(Kind kind, const std::string& line) override { lines.emplace_back(kind, line); }
+  void takeProgress(const std::string& label, std::int64_t done, std::int64_t total) override {
+    steps.push_back(label + " " + std::to_string(done) + "/" + std::to_string(total));
+  }
+
+  std::vector<std::pair<Kind, std::string>> lines;
+  std::vector<std::string> steps;
+};
+
+TEST(RunListener, ReceivesLinesAndEveryStepInPlaceOfTheTerminal) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  Kept kept;
+  {
+    Console console(kept);
+    console.print("result\n");
+    console.warn("odd");
+    console.transient("moving");
+    Progress progress(console, "vo", "frames", 2);
+    progress.update(1);
+    progress.update(2);
+    progress.finish(2);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStdout() + ::testing::internal::GetCapturedStderr(), "");
+  ASSERT_EQ(kept.lines.size(), 3U);
+  EXPECT_EQ(kept.lines[0], std::make_pair(RunListener::Kind::Result, std::string("result\n")));
+  EXPECT_EQ(kept.lines[1], std::make_pair(RunListener::Kind::Warning, std::string("odd")));
+  EXPECT_EQ(kept.lines[2].second.rfind("vo: 2 frames", 0), 0U) << kept.lines[2].second;
+  EXPECT_EQ(kept.steps, (std::vector<std::string>{"vo 1/2", "vo 2/2", "vo 2/2"}));
 }
 
 TEST(CommandLine, TellsItsVersion) {

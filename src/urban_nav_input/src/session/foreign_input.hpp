@@ -4,13 +4,9 @@
 #include <optional>
 #include <string>
 
-namespace urban_nav_input {
+#include "recording/foreign_file.hpp"
 
-/// What lies at a path that is no input of the suite, and what makes an input of it.
-struct ForeignInput {
-  std::string found;   ///< follows the path in a sentence: "is compressed by gzip"
-  std::string remedy;  ///< a command, or the input that was probably meant
-};
+namespace urban_nav_input {
 
 /// Recognises stores of the suite, other databases, compressed bags, Git LFS pointers, empty files, and folders of
 /// bags by their contents. Returns nullopt for anything else.

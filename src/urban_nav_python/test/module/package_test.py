@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package as a whole: names, docstrings, stubs, time of import, and the folder for PYTHONPATH."""
+"""The package as a whole: names, docstrings, stubs, time of import, the folder for PYTHONPATH, and the example."""
 import ast
+import json
 import os
 import subprocess
 import sys
+import unittest
 from pathlib import Path
 
 import urban_nav
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from case import PROGRAM, FolderCase  # noqa: E402
+from case import PROGRAM, FolderCase, stereo_bag  # noqa: E402
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "first_map.ipynb"
 
 
 def public_names(tree):
@@ -25,9 +29,11 @@ def public_names(tree):
 class Package(FolderCase):
     def test_every_public_name_has_a_docstring(self):
         for name in urban_nav.__all__:
-            self.assertTrue((getattr(urban_nav, name).__doc__ or "").strip(), name)
-        for name in ("kind", "topics", "start_ns", "end_ns", "warnings", "messages"):
-            self.assertTrue((getattr(urban_nav.Recording, name).__doc__ or "").strip(), name)
+            thing = getattr(urban_nav, name)
+            self.assertTrue((thing.__doc__ or "").strip(), name)
+            for member in vars(thing) if isinstance(thing, type) and not issubclass(thing, tuple) else ():
+                if not member.startswith("_") and member not in getattr(thing, "__slots__", ()):
+                    self.assertTrue((getattr(thing, member).__doc__ or "").strip(), f"{name}.{member}")
 
     def test_stubs_name_what_the_module_has(self):
         folder = Path(urban_nav.__file__).parent
@@ -51,6 +57,24 @@ class Package(FolderCase):
         code = "import urban_nav; print(urban_nav.__file__)"
         found = subprocess.run(["/usr/bin/python3", "-c", code], capture_output=True, text=True, env=environment, cwd=self.folder, check=True)
         self.assertEqual(Path(found.stdout.strip()), Path(urban_nav.__file__))
+
+
+class Example(FolderCase):
+    def test_its_cells_run(self):
+        import matplotlib
+
+        matplotlib.use("Agg")
+        stereo_bag(self.folder / "session.bag", 3)
+        cells = [cell for cell in json.loads(EXAMPLE.read_text())["cells"] if cell["cell_type"] == "code"]
+        self.assertGreater(len(cells), 3)
+        names = {}
+        before = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, before)
+        for cell in cells:
+            exec(compile("".join(cell["source"]), EXAMPLE.name, "exec"), names)
+        self.assertGreater(names["summary"]["frames"], 10)
+        self.assertTrue((self.folder / "trajectory.png").stat().st_size > 1000)
 
 
 if __name__ == "__main__":

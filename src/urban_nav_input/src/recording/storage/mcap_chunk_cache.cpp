@@ -2,6 +2,7 @@
 #include "recording/storage/mcap_chunk_cache.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "recording/storage/crc32.hpp"
 
@@ -37,6 +38,7 @@ ByteView McapChunkCache::inflateChunk(std::size_t chunk) {
     return found->inflated.bytes();
   }
   const mcap::Chunk& packed = chunks_[chunk].chunk;
+  dropEarlier(packed.start);
   ++inflated_;
   Inflated inflated = inflate(packed.compression, packed.packed, static_cast<std::size_t>(packed.size));
   if (!inflated.is_whole && packed.packed.size == packed.packed_size) return {};
@@ -44,6 +46,14 @@ ByteView McapChunkCache::inflateChunk(std::size_t chunk) {
   kept_.push_front({chunk, std::move(inflated)});
   makeRoom();
   return kept_.front().inflated.bytes();
+}
+
+void McapChunkCache::dropEarlier(std::uint64_t start) {
+  for (auto kept = kept_.begin(); kept != kept_.end();) {
+    const bool is_over = chunks_[kept->chunk].chunk.end < start;
+    if (is_over) kept_bytes_ -= kept->inflated.size;
+    kept = is_over ? kept_.erase(kept) : std::next(kept);
+  }
 }
 
 void McapChunkCache::makeRoom() {

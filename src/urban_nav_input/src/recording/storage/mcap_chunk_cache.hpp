@@ -32,6 +32,9 @@ class McapChunkCache {
   };
 
   ByteView inflateChunk(std::size_t chunk);
+  /// Forgets chunks that end before a time, ns: messages in order of receipt do not return to them, and the next one is
+  /// written to memory that is still in the processor's cache.
+  void dropEarlier(std::uint64_t start);
   void makeRoom();
 
   const std::vector<McapChunk>& chunks_;

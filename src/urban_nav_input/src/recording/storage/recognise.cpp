@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "recording/foreign_file.hpp"
 #include "recording/storage/mcap_records.hpp"
 #include "recording/storage/packed_message.hpp"
 #include "recording/storage/storage.hpp"
@@ -16,6 +17,7 @@
 namespace urban_nav_input {
 
 namespace fs = std::filesystem;
+using urban_nav_core::UserError;
 
 namespace {
 
@@ -42,6 +44,17 @@ std::optional<StorageKind> recogniseStorageFolder(const std::string& path) {
   for (std::string line; std::getline(file, line);)
     if (line.find("rosbag2_bagfile_information") != std::string::npos) return StorageKind::Rosbag2Folder;
   return listRosbag2Files(path).empty() ? std::nullopt : std::optional<StorageKind>(StorageKind::Rosbag2Folder);
+}
+
+[[noreturn]] void throwNotARecording(const std::string& path) {
+  constexpr const char* kAllowed = "a ROS 1 bag, MCAP, a .db3 or a folder of rosbag2";
+  std::error_code error;
+  if (!fs::exists(path, error)) throw UserError(path, "is not there", kAllowed);
+  if (fs::is_directory(path, error)) throw UserError(path, "is a folder without a recording of rosbag2", kAllowed);
+  if (!fs::is_regular_file(path, error)) throw UserError(path, "is neither a file nor a folder", kAllowed);
+  if (fs::path(path).extension() == ".zstd") throw UserError(path, "is not a recording that zstd compressed", kAllowed);
+  if (const auto foreign = recogniseForeignFile(path)) throw UserError(path, foreign->found, foreign->remedy);
+  throw UserError(path, "is not a recording", kAllowed);
 }
 
 }  // namespace
@@ -78,11 +91,7 @@ bool isRecording(const std::string& path) { return recogniseStorage(path).has_va
 
 std::unique_ptr<Storage> openStorage(const std::string& path) {
   const std::optional<StorageKind> kind = recogniseStorage(path);
-  if (!kind)
-    throw urban_nav_core::UserError(path, fs::path(path).extension() == ".zstd"
-                                              ? "is not a recording that zstd compressed"
-                                              : "is not a recording",
-                                    "a ROS 1 bag, MCAP, a .db3 or a folder of rosbag2");
+  if (!kind) throwNotARecording(path);
   switch (*kind) {
     case StorageKind::Bag: return openBagStorage(path);
     case StorageKind::Mcap: return openMcapStorage(path);

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/Imu.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "recording/storage/mcap_records.hpp"
 #include "recording/storage/storage.hpp"
 #include "recording_samples.hpp"
@@ -121,6 +124,29 @@ TEST_F(McapStorage, ChunksOfOtherTopicsAreNotDecompressed) {
   EXPECT_LE(for_imu, 2U) << "those of the small topic, the first of which may hold an image too";
   EXPECT_EQ(readAll("/image"), static_cast<std::size_t>(kImages));
   EXPECT_GT(storage->chunksInflated(), for_imu + 1);
+}
+
+TEST_F(McapStorage, EachChunkIsDecompressedOnceInOrderOfReceipt) {
+  constexpr int kMessages = 200;
+  McapWriter writer(folder_.file("long.mcap"));
+  const std::vector<std::uint8_t> message(200'000, 7);
+  std::vector<std::uint16_t> channels;
+  for (const char* topic : {"/a", "/b"})
+    channels.push_back(writer.addChannel({topic, "test_msgs/msg/A", "ros2msg", "string data\n", "cdr", {}}));
+  for (int i = 0; i < kMessages; ++i)
+    writer.write(channels[static_cast<std::size_t>(i) % 2], i / 3, {message.data(), message.size()});
+  writer.commit();
+  const std::unique_ptr<Storage> storage = openMcapStorage(folder_.file("long.mcap"));
+  std::vector<std::pair<MessageEntry, std::size_t>> all;
+  for (std::size_t topic = 0; topic < 2; ++topic)
+    for (const MessageEntry& entry : storage->index(topic)) all.emplace_back(entry, topic);
+  std::sort(all.begin(), all.end());
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(kMessages));
+  for (const auto& [entry, topic] : all) EXPECT_EQ(storage->read(topic, entry).size, message.size());
+  const std::size_t chunks = testing::countChunks(testing::readFile(folder_.file("long.mcap")));
+  EXPECT_GT(chunks, 20U);
+  EXPECT_EQ(storage->chunksInflated(), chunks);
+  EXPECT_EQ(storage->read(all.front().second, all.front().first).size, message.size()) << "back to the first chunk";
 }
 
 TEST_F(McapStorage, AChunkWithAWrongChecksumIsNamedAndLeftOut) {

@@ -16,11 +16,11 @@
 
 #include <stdexcept>
 
-#include "urban_nav_input/recording/message_definition.hpp"
 #include "recording/storage/byte_writer.hpp"
 #include "recording/storage/crc32.hpp"
 #include "recording/storage/inflate.hpp"
 #include "recording/storage/mcap_records.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 
 namespace urban_nav_input::testing {
@@ -241,6 +241,13 @@ Contents readContents(const std::string& path) {
 }
 
 std::string rewriteMcap(const std::string& mcap, const McapForm& form) { return McapRewriter(form).run(mcap); }
+
+std::size_t countChunks(const std::string& mcap) {
+  std::size_t chunks = 0;
+  mcap::RecordWalk walk(toView(mcap), mcap::kMagic.size());
+  while (const std::optional<mcap::Record> record = walk.next()) chunks += record->op == Op::Chunk ? 1 : 0;
+  return chunks;
+}
 
 void writeDb3(const std::string& mcap_path, const std::string& path, int schema, bool is_packed) {
   Recording recording(mcap_path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -29,6 +30,9 @@ struct McapForm {
 };
 /// Returns an MCAP file that McapWriter wrote in another form.
 std::string rewriteMcap(const std::string& mcap, const McapForm& form);
+
+/// Returns the number of chunks of an MCAP file.
+std::size_t countChunks(const std::string& mcap);
 
 /// Writes the messages of an MCAP file as rosbag2 of Humble does (`schema` 3), or of Iron (4), with definitions.
 void writeDb3(const std::string& mcap_path, const std::string& path, int schema, bool is_packed = false);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Free of ROS: compiled under the sanitizers too.
 #include <gtest/gtest.h>
+#include <lz4frame.h>
 #include <sqlite3.h>
 #include <unistd.h>
 #include <zstd.h>
@@ -16,7 +17,9 @@
 #include "recording/storage/inflate.hpp"
 #include "recording/storage/mcap_records.hpp"
 #include "recording/storage/packed_message.hpp"
+#include "recording/storage/rosbag2_metadata.hpp"
 #include "recording/storage/storage.hpp"
+#include "recording/storage/unpacked_file.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/testing/limited_memory.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -62,25 +65,49 @@ std::string makeChunked() {
   return bytes;
 }
 
-std::string makeUnchunked() {
-  ByteWriter out;
-  const auto append = [&](Op op, const ByteWriter& content) {
-    out.number(static_cast<std::uint8_t>(op)).number(static_cast<std::uint64_t>(content.size())).bytes(content.str());
-  };
-  ByteWriter header, schema, channel, end;
-  out.bytes(std::string(mcap::kMagic));
-  header.text("ros2").text("");
-  append(Op::Header, header);
+void append(Op op, const ByteWriter& content, ByteWriter& out) {
+  out.number(static_cast<std::uint8_t>(op)).number(static_cast<std::uint64_t>(content.size())).bytes(content.str());
+}
+
+/// Returns a schema, a channel and messages.
+std::string makeMcapRecords() {
+  ByteWriter out, schema, channel;
   schema.number(std::uint16_t{1}).text("test_msgs/msg/A").text("ros2msg").text(kDefinition);
-  append(Op::Schema, schema);
+  append(Op::Schema, schema, out);
   channel.number(std::uint16_t{0}).number(std::uint16_t{1}).text("/a").text("cdr").text("");
-  append(Op::Channel, channel);
+  append(Op::Channel, channel, out);
   for (int i = 0; i < 20; ++i) {
     ByteWriter message;
     message.number(std::uint16_t{0}).number(std::uint32_t{0}).number(std::uint64_t{5}).number(std::uint64_t{5});
-    append(Op::Message, message.bytes(makeMessage(i)));
+    append(Op::Message, message.bytes(makeMessage(i)), out);
   }
-  append(Op::DataEnd, end.number(std::uint32_t{0}));
+  return out.str();
+}
+
+std::string makeUnchunked() {
+  ByteWriter out;
+  out.bytes(std::string(mcap::kMagic));
+  append(Op::Header, ByteWriter().text("ros2").text(""), out);
+  out.bytes(makeMcapRecords());
+  append(Op::DataEnd, ByteWriter().number(std::uint32_t{0}), out);
+  return out.str();
+}
+
+/// An MCAP file without an index whose chunks are not compressed, or by lz4 and without checksum, and whose end is
+/// missing.
+std::string makeUnfinished() {
+  const std::string records = makeMcapRecords();
+  std::string packed(LZ4F_compressFrameBound(records.size(), nullptr), '\0');
+  packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), records.data(), records.size(), nullptr));
+  ByteWriter out;
+  out.bytes(std::string(mcap::kMagic));
+  append(Op::Header, ByteWriter().text("ros2").text(""), out);
+  for (const auto& [compression, bytes] : {std::pair("", records), std::pair("lz4", packed)}) {
+    ByteWriter chunk;
+    chunk.number(std::uint64_t{5}).number(std::uint64_t{5}).number(static_cast<std::uint64_t>(records.size()));
+    chunk.number(std::uint32_t{0}).text(compression).number(static_cast<std::uint64_t>(bytes.size())).bytes(bytes);
+    append(Op::Chunk, chunk, out);
+  }
   return out.str();
 }
 
@@ -91,6 +118,11 @@ std::string makeDb3() {
   std::string sql =
       "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT, qos TEXT);"
       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB);"
+      "CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT);"
+      "CREATE TABLE message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT, encoding TEXT, "
+      "encoded_message_definition TEXT, type_description_hash TEXT);"
+      "INSERT INTO schema VALUES(4, 'test');"
+      "INSERT INTO message_definitions VALUES(1, 'test_msgs/msg/A', 'ros2msg', 'string data', '');"
       "INSERT INTO topics VALUES(1, '/a', 'test_msgs/msg/A', 'cdr', '');";
   for (int i = 0; i < 20; ++i)
     sql += "INSERT INTO messages VALUES(" + std::to_string(i + 1) + ", 1, " + std::to_string(100 + i) +
@@ -224,7 +256,7 @@ void expectToSurvive(const std::vector<std::string>& seeds, const Open& open) {
   EXPECT_EQ(urban_nav_core::testing::fuzzFile(seeds, "a", read).failure.substr(0, 300), "");
 }
 
-TEST(StorageFuzz, DamagedMcap) { expectToSurvive({makeChunked(), makeUnchunked()}, openMcapStorage); }
+TEST(StorageFuzz, DamagedMcap) { expectToSurvive({makeChunked(), makeUnchunked(), makeUnfinished()}, openMcapStorage); }
 
 TEST(StorageFuzz, DamagedBag) { expectToSurvive({makeBag()}, openScannedBag); }
 
@@ -285,11 +317,37 @@ TEST(StorageFuzz, WhatExceedsTheMemoryLimitIsNotDecompressed) {
 
 TEST(StorageFuzz, DamagedDb3) { expectToSurvive({makeDb3()}, openDb3Storage); }
 
+TEST(StorageFuzz, DamagedMetadata) {
+  const std::string seed =
+      "rosbag2_bagfile_information:\n  version: 5\n  compression_format: zstd\n  compression_mode: FILE\n"
+      "  relative_file_paths:\n    - a_0.db3\n    - a_1.db3\n  topics_with_message_count:\n    - topic_metadata:\n"
+      "        name: /a\n        serialization_format: cdr\n      message_count: 7\n";
+  EXPECT_EQ(urban_nav_core::testing::fuzzFile({seed}, "metadata.yaml", readRosbag2Metadata).failure.substr(0, 300), "");
+}
+
+TEST(StorageFuzz, DamagedCompressedFile) {
+  const std::string plain = makeUnchunked();
+  std::string packed(ZSTD_compressBound(plain.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 1));
+  const auto read = [](const std::string& path) {
+    peekZstdFile(path, 16);
+    try {
+      const UnpackedFile file(path);
+      readAll(*openMcapStorage(file.path()));
+    } catch (const urban_nav_core::DataError&) {
+      return;
+    }
+  };
+  EXPECT_EQ(urban_nav_core::testing::fuzzFile({packed}, "a.mcap.zstd", read).failure.substr(0, 300), "");
+}
+
 TEST(StorageFuzz, SeedsAreReadWhole) {
   const std::string path = (fs::temp_directory_path() / ("storage_fuzz_" + std::to_string(getpid()))).string();
   std::ofstream(path, std::ios::binary) << makeUnchunked();
   const std::unique_ptr<Storage> mcap = openMcapStorage(path);
   EXPECT_EQ(mcap->index(0).size(), 20U);
+  std::ofstream(path, std::ios::binary) << makeUnfinished();
+  EXPECT_EQ(openMcapStorage(path)->index(0).size(), 40U);
   std::ofstream(path, std::ios::binary) << makeBag();
   EXPECT_EQ(openScannedBag(path)->index(0).size(), 40U);
   std::ofstream(path, std::ios::binary) << makeDb3();

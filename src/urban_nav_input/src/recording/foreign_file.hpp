@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace urban_nav_input {
+
+/// What lies at a path that is not a recording, and what to use in its place.
+struct ForeignInput {
+  std::string found;   ///< follows the path in a sentence: "is compressed by gzip"
+  std::string remedy;  ///< a command, or the input that was probably meant
+};
+
+/// Recognises stores of the suite, other databases, compressed bags, Git LFS pointers and empty files by their content.
+/// Returns nullopt for anything else. Requires a regular file that is not a recording.
+std::optional<ForeignInput> recogniseForeignFile(const std::string& path);
+
+}  // namespace urban_nav_input
