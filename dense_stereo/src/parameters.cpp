@@ -41,7 +41,7 @@ const Table<Parameters>& table() {
           {"clearance", &P::clearance, "m", 2.0, 0.1, 10.0, {},
            "What hangs higher above the ground than this is no obstacle.", "height of the robot"},
           {"point_spacing", &P::point_spacing, "m", 0.1, 0.01, 1.0, {},
-           "Of the points in a cube of this size, the map keeps the most certain one of each keyframe.",
+           "Of the points in a cube of this size, a map by planar lasers keeps the most certain one of each keyframe.",
            "size of the store"},
           {"keyframe_distance", &P::keyframe_distance, "m", 0.25, 0.0, 100.0, {},
            "Distance travelled between pairs that map matches densely.", "budget of map"},

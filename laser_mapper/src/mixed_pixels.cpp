@@ -22,11 +22,15 @@ std::vector<float> neighbourSines(const Scan& scan) {
     const float sine = scan.beams[i].direction.cross(scan.beams[i + 1].direction).norm();
     if (sine < kMaxBeamAngle) sines[i] = sine;
   }
-  float smallest = kMaxBeamAngle;
+  std::vector<float> known;
   for (const float sine : sines)
-    if (sine > 0.0F) smallest = std::min(smallest, sine);
+    if (sine > 0.0F) known.push_back(sine);
+  if (known.empty()) return sines;
+  // The spacing of the device; not the smallest angle, since those of 3D LiDARs are rounded by their drivers.
+  const auto spacing = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 10);
+  std::nth_element(known.begin(), spacing, known.end());
   for (float& sine : sines)
-    if (sine > 1.5F * smallest) sine = 0.0F;
+    if (sine > 1.5F * *spacing) sine = 0.0F;
   return sines;
 }
 

@@ -62,9 +62,23 @@ void OccupancyGrid::addSurface(const std::vector<MapPoint>& points) {
     if (const auto at = index(point.p.x(), point.p.y())) cells_[*at].low = std::min(cells_[*at].low, point.p.z());
 }
 
+/// The path is where the base was, which may ride above the ground, as the camera of a folder without extrinsics does.
+void OccupancyGrid::lowerPath() {
+  std::vector<float> below;
+  for (const Cell& cell : cells_)
+    if (cell.ground != kUnreached && cell.low != kUnreached) below.push_back(cell.low - cell.ground);
+  if (below.empty()) return;
+  const auto middle = below.begin() + static_cast<std::ptrdiff_t>(below.size() / 2);
+  std::nth_element(below.begin(), middle, below.end());
+  if (*middle > -kLargestStep) return;
+  for (Cell& cell : cells_)
+    if (cell.ground != kUnreached) cell.ground += *middle;
+}
+
 /// Breadth first from the path. A cell whose lowest point is within a step of the ground beside it is ground; any other
 /// takes over that ground: below a wall, an overhang or unseen land it continues.
 void OccupancyGrid::findGround() {
+  lowerPath();
   std::vector<std::size_t> front, next;
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (cells_[i].ground != kUnreached) front.push_back(i);

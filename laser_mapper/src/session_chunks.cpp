@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "laser_mapper/sensors.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
-#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_store/digest.hpp"
 #include "urban_nav_store/tables/near_points.hpp"
 
@@ -20,14 +20,9 @@ using urban_nav_store::NearPoints;
 
 namespace {
 
-constexpr std::size_t kBatch = 8;      // chunks read before they are rendered, on all threads
-constexpr double kLongestPause = 0.5;  // s between scans of a laser that runs
-
-int laserNumber(const std::string& frame, std::size_t index) {
-  if (frame == urban_nav_core::frames::kLaserLeft) return 0;
-  if (frame == urban_nav_core::frames::kLaserRight) return 1;
-  return static_cast<int>(2 + index);
-}
+constexpr std::size_t kBatch = 8;                           // chunks read before they are rendered, on all threads
+constexpr std::size_t kBatchBytes = std::size_t{96} << 20;  // of their sweeps
+constexpr double kLongestPause = 0.5;                       // s between scans of a laser that runs
 
 }  // namespace
 
@@ -37,7 +32,7 @@ std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_na
   for (std::size_t i = 0; i < lasers.size(); ++i) {
     LaserInput input;
     input.T_base_laser = lasers[i].T_base_laser;
-    input.laser = laserNumber(lasers[i].frame, i);
+    input.laser = planarSensor(lasers[i].frame, i);
     const StampNs delay = lasers[i].delay;
     store.scans().forEach(session, lasers[i].frame, begin + delay, begin + delay + kChunkNs - 1, [&](const Scan& scan) {
       input.scans.push_back(urban_nav_registration::withoutDelay(scan, delay));
@@ -63,6 +58,7 @@ SessionChunks::SessionChunks(const Parameters& parameters, urban_nav_store::Stor
       max_gap_(std::llround(parameters.max_gap * 1e9)),
       lasers_(mountedLasers(store, session)),
       chunk_store_(store, session),
+      evidence_(store, session),
       settings_(renderSettings(parameters, lasers_)),
       last_scan_(lasers_.size(), 0),
       silent_(lasers_.size(), 0.0) {
@@ -77,6 +73,11 @@ bool SessionChunks::isCurrent(const Stored& stored, const Task& task) const {
          chunkShift(found->second.poses, T_map_base_, task.begin, max_gap_) <= parameters_.max_shift;
 }
 
+void SessionChunks::readEvidence(Task& task) {
+  const std::string read = evidence_.read(task.begin, parameters_.stereo, task.input);
+  if (!read.empty()) task.settings = urban_nav_store::sha256(task.settings + read);
+}
+
 void SessionChunks::readStereo(Task& task) const {
   std::string rows;
   if (parameters_.stereo)
@@ -87,7 +88,7 @@ void SessionChunks::readStereo(Task& task) const {
           frame.camera_base = row.camera;
           for (const NearPoints::Point& point : row.points())
             frame.points.push_back({point.p_base, point.sigma, static_cast<float>(point.grey)});
-          task.stereo.push_back(std::move(frame));
+          task.input.stereo.push_back(std::move(frame));
           rows += row.packed;
         });
   task.settings = rows.empty() ? settings_ : urban_nav_store::sha256(settings_ + rows);
@@ -100,15 +101,15 @@ void SessionChunks::checkContinuity(std::size_t laser, const Scan& scan) {
 }
 
 void SessionChunks::readScans(Task& task) {
-  task.lasers = readLasers(store_, session_, lasers_, task.begin);
-  for (std::size_t i = 0; i < task.lasers.size(); ++i)
-    for (const Scan& scan : task.lasers[i].scans) checkContinuity(i, scan);
+  task.input.lasers = readLasers(store_, session_, lasers_, task.begin);
+  for (std::size_t i = 0; i < task.input.lasers.size(); ++i)
+    for (const Scan& scan : task.input.lasers[i].scans) checkContinuity(i, scan);
 }
 
 void SessionChunks::renderTasks(std::vector<Task>& tasks, const Stored& stored) {
   urban_nav_core::forEach(tasks.size(), 1, [&](std::size_t i) {
     Task& task = tasks[i];
-    const RenderedChunk chunk = renderChunk(parameters_, T_map_base_, task.lasers, task.stereo, task.begin);
+    const RenderedChunk chunk = renderChunk(parameters_, T_map_base_, task.input, task.begin);
     task.beams = chunk.beams;
     for (const RenderedChunk::Part& part : chunk.parts) task.parts.push_back(packPart(part.tile, part.cells));
   });
@@ -141,17 +142,19 @@ void SessionChunks::reportGaps() {
 }
 
 void SessionChunks::update(const std::function<void(std::size_t)>& progress) {
-  if (lasers_.empty() || T_map_base_.empty()) return;
+  if (T_map_base_.empty()) return;
   const Stored stored = chunk_store_.chunks();
   const StampNs first = chunkBegin(T_map_base_.front().stamp), last = chunkBegin(T_map_base_.back().stamp);
   for (const auto& [begin, chunk] : stored)
     if (begin < first || begin > last) chunk_store_.remove(chunk);
   std::vector<Task> tasks;
+  std::size_t bytes = 0;
   for (StampNs begin = first; begin <= last; begin += kChunkNs) {
     ++chunks_;
     Task task;
     task.begin = begin;
     readStereo(task);
+    readEvidence(task);
     if (isCurrent(stored, task)) {
       const MapChunk& chunk = stored.at(begin);
       const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
@@ -161,8 +164,13 @@ void SessionChunks::update(const std::function<void(std::size_t)>& progress) {
       continue;
     }
     readScans(task);
+    for (const LidarInput& lidar : task.input.lidars)
+      for (const auto& sweep : lidar.sweeps) bytes += sweep->packed.size();
     tasks.push_back(std::move(task));
-    if (tasks.size() == kBatch) renderTasks(tasks, stored);
+    if (tasks.size() == kBatch || bytes > kBatchBytes) {
+      renderTasks(tasks, stored);
+      bytes = 0;
+    }
     progress(chunks_);
   }
   renderTasks(tasks, stored);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "chunk_store.hpp"
+#include "evidence_reader.hpp"
 
 namespace laser_mapper {
 
@@ -37,8 +38,7 @@ class SessionChunks {
  private:
   struct Task {
     urban_nav_core::StampNs begin = 0;
-    std::vector<LaserInput> lasers;
-    std::vector<StereoFrame> stereo;
+    ChunkInput input;
     std::string settings;
     BeamCounts beams;
     std::vector<PackedPart> parts;
@@ -47,6 +47,7 @@ class SessionChunks {
 
   void renderTasks(std::vector<Task>& tasks, const Stored& stored);
   bool isCurrent(const Stored& stored, const Task& task) const;
+  void readEvidence(Task& task);
   void readStereo(Task& task) const;
   void readScans(Task& task);
   void checkContinuity(std::size_t laser, const urban_nav_core::Scan& scan);
@@ -59,6 +60,7 @@ class SessionChunks {
   const urban_nav_core::StampNs max_gap_;
   std::vector<MountedLaser> lasers_;
   ChunkStore chunk_store_;
+  EvidenceReader evidence_;
   const std::string settings_;
 
   std::size_t chunks_ = 0, rendered_ = 0;

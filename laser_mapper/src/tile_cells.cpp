@@ -5,9 +5,27 @@
 #include <cmath>
 #include <utility>
 
+#include "laser_mapper/sensors.hpp"
+
 namespace laser_mapper {
 
 using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr float kLidarWeight = 0.09F;      // a beam of 2 cm against one of 6 mm
+constexpr float kUnitWeightSigma = 0.01F;  // m: a point of stereo as certain as this has the weight 1
+
+/// Weight of one beam of a cell in the means of a cube.
+float beamWeight(const MapCell& cell) {
+  if (cell.laser == kStereo) {
+    const float sigma = std::max(cell.range, 1e-3F);
+    return kUnitWeightSigma * kUnitWeightSigma / (sigma * sigma);
+  }
+  return isLidar(cell.laser) ? kLidarWeight : 1.0F;
+}
+
+}  // namespace
 
 void TileMerger::elect(MergedCell& cell, const PassVotes& votes) {
   cell.session = votes.session;
@@ -23,6 +41,7 @@ void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells
     cells_.reserve(room);
     votes_.reserve(room);
     best_.reserve(room);
+    weights_.reserve(room);
   }
   for (const MapCell& from : cells) {
     if ((from.laser == kStereo) != (kind == Kind::Stereo)) continue;
@@ -36,11 +55,14 @@ void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells
       cells_.back().cell = from.cell;
       votes_.emplace_back();
       best_.push_back(0.0F);
+      weights_.push_back(0.0F);
     }
     MergedCell& cell = cells_[number];
     const auto count = static_cast<float>(from.count);
+    const float weight = count * beamWeight(from);
     cell.count += count;
-    const float share = count / cell.count;
+    weights_[number] += weight;
+    const float share = weight / weights_[number];
     cell.offset += share * (from.offset - cell.offset);
     cell.to_laser += share * (from.to_laser - cell.to_laser);
     cell.range += share * (from.range - cell.range);
@@ -63,6 +85,7 @@ std::vector<MergedCell> TileMerger::take() {
   votes_.clear();
   ghost_beams_ = 0;
   best_.clear();
+  weights_.clear();
   return std::exchange(cells_, {});
 }
 

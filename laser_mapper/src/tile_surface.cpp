@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "laser_mapper/sensors.hpp"
 #include "local_planes.hpp"
 #include "urban_nav_core/laser/reflectance.hpp"
 
@@ -15,15 +16,15 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr float kFarRange = 20.0F;  // m: beyond, ranges are twice as noisy (data sheet of the LMS291)
+constexpr float kFarRange = 20.0F;  // m: BeamNoise::far_factor applies beyond
 constexpr float kFewestPixels = 2.0F;
 constexpr float kStereoPatches = 4.0F;  // independent measurements in a neighbourhood: windows of matching overlap
 constexpr int kCoarsestStereoLevel = 2;
 constexpr float kLeastStereoCosine = 0.3F;  // grazing views: edges of the matched windows count too
 constexpr float kReach = 3.0F;              // standard deviations of a range: cubes nearer to a plane belong to it
 
-float rangeSigma(const Parameters& parameters, float range) {
-  return static_cast<float>(parameters.range_sigma) * (range > kFarRange ? 2.0F : 1.0F);
+float rangeSigma(const BeamNoise& noise, float range) {
+  return noise.range_sigma * (range > kFarRange ? noise.far_factor : 1.0F);
 }
 
 /// Returns how much of the distance to a plane noise explains, 0...1.
@@ -31,14 +32,14 @@ float noiseShare(const LocalPlane& plane, float sigma) {
   return std::clamp(2.0F - plane.thickness * plane.thickness / (sigma * sigma), 0.0F, 1.0F);
 }
 
-float measurementVariance(const Parameters& parameters, const MergedCell& cell, const LocalPlane* plane, float share,
+float measurementVariance(const BeamNoise& model, const MergedCell& cell, const LocalPlane* plane, float share,
                           float cosine) {
-  const float sigma = rangeSigma(parameters, cell.range);
+  const float sigma = rangeSigma(model, cell.range);
   float beams = cell.count;
   if (plane != nullptr) beams += share * std::max(0.0F, plane->weight - beams);
   const float sine = std::sqrt(std::max(0.0F, 1.0F - cosine * cosine));
-  const float noise = sigma * cosine, bias = static_cast<float>(parameters.range_bias) * cosine;
-  const float pointing = 0.25F * static_cast<float>(parameters.beam_width) * cell.range * sine;
+  const float noise = sigma * cosine, bias = model.range_bias * cosine;
+  const float pointing = 0.25F * model.beam_width * cell.range * sine;
   float variance = (noise * noise + pointing * pointing) / beams + bias * bias;
   if (plane != nullptr) variance += (1.0F - share) * plane->thickness * plane->thickness / cell.count;
   return variance;
@@ -83,6 +84,7 @@ std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile
   std::vector<SurfacePoint> made(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const MergedCell& cell = cells[i];
+    const BeamNoise noise = beamNoise(parameters, cell.laser);
     SurfacePoint& surface = made[i];
     const std::optional<LocalPlane> plane = planes.around(cell);
     Vector3f local = planes.position(cell);
@@ -92,7 +94,7 @@ std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile
       Vector3f normal = plane->normal;
       if (normal.dot(along) < 0.0F) normal = -normal;
       cosine = std::max(0.05F, normal.dot(along));
-      const float sigma = rangeSigma(parameters, cell.range);
+      const float sigma = rangeSigma(noise, cell.range);
       share = noiseShare(*plane, sigma);
       local -= share * normal.dot(local - plane->centre) * normal;
       surface.point.normal = along = normal;
@@ -100,7 +102,7 @@ std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile
     }
     const Vector3d p = planes.inMap(local);
     const double pose = pose_sigma(cell, p, along.cast<double>());
-    const float variance = measurementVariance(parameters, cell, plane ? &*plane : nullptr, share, cosine);
+    const float variance = measurementVariance(noise, cell, plane ? &*plane : nullptr, share, cosine);
     MapPoint& point = surface.point;
     point.p = p.cast<float>();
     point.sigma = std::sqrt(variance + static_cast<float>(pose * pose));
@@ -147,7 +149,7 @@ std::vector<MapPoint> makeStereoSurface(const Parameters& parameters, const Tile
     point.sigma = std::sqrt(sigma * sigma / independent + static_cast<float>(pose * pose));
     point.intensity = static_cast<std::uint8_t>(std::lround(std::clamp(cell.intensity, 0.0F, 255.0F)));
     point.raw_intensity = point.red = point.green = point.blue = point.intensity;
-    point.laser = 255;
+    point.laser = kStereoSensor;
     point.pass = cell.pass;
     point.count = static_cast<std::uint16_t>(std::min(cell.count, 65535.0F));
     point.stamp = cell.stamp;

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "laser_mapper/depth_frame.hpp"
 #include "laser_mapper/map_cell.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_store/tables/lidar_sweep.hpp"
 
 namespace laser_mapper {
 
@@ -21,8 +24,17 @@ urban_nav_core::StampNs chunkBegin(urban_nav_core::StampNs stamp);
 /// Scans of one laser.
 struct LaserInput {
   urban_nav_core::Pose T_base_laser;
-  int laser = 0;  ///< 0 left, 1 right
+  int laser = 0;  ///< sensor id (sensors.hpp)
   std::vector<urban_nav_core::Scan> scans;
+};
+
+/// Sweeps of one 3D LiDAR.
+struct LidarInput {
+  urban_nav_core::Pose T_base_lidar;
+  std::uint8_t sensor = 0;                                                 ///< id (sensors.hpp)
+  std::vector<std::shared_ptr<const urban_nav_store::LidarSweep>> sweeps;  ///< of the chunk
+  /// Some sweeps of the chunk and of the seconds around it: evidence of free space.
+  std::vector<std::shared_ptr<const urban_nav_store::LidarSweep>> evidence;
 };
 
 /// Points of dense stereo of one pair of images.
@@ -56,11 +68,23 @@ struct RenderedChunk {
   BeamCounts beams;
 };
 
-/// Renders scans along a trajectory, each beam at its own time, and averages the ends that fall into one cube of the
-/// map's grid; points of dense stereo apart from them, without those less certain than Parameters::stereo_sigma. Ends
-/// beyond the grid (50 km, 1.6 km in height for cubes of 5 cm) count as out of range. Thread-safe.
+/// What a chunk is rendered from.
+struct ChunkInput {
+  std::vector<LaserInput> lasers;
+  std::vector<LidarInput> lidars;
+  std::vector<StereoFrame> stereo;  ///< points that fill what no laser measured, of sessions with planar lasers
+  std::vector<std::shared_ptr<const DepthFrame>> views;  ///< depth images of the chunk and of the seconds around it
+};
+
+/// Time before and after a chunk within which depth images and sweeps are evidence.
+constexpr urban_nav_core::StampNs kEvidenceNs = 2'000'000'000;
+
+/// Renders measurements along a trajectory, each at its own time, and averages the ends of beams that fall into one
+/// cube of the map's grid. Cubes of a 3D LiDAR that more sweeps of `evidence` see through than see occupied are
+/// ghosts. Points of dense stereo are apart from those of lasers: of `stereo`, without those less certain than
+/// Parameters::stereo_sigma; of `views`, what several of them agree on, weighted by its variance. Ends beyond the grid
+/// (50 km, 1.6 km in height for cubes of 5 cm) count as out of range. Throws DataError for damaged sweeps. Thread-safe.
 RenderedChunk renderChunk(const Parameters& parameters, const urban_nav_core::Trajectory& T_map_base,
-                          const std::vector<LaserInput>& lasers, const std::vector<StereoFrame>& stereo,
-                          urban_nav_core::StampNs begin);
+                          const ChunkInput& input, urban_nav_core::StampNs begin);
 
 }  // namespace laser_mapper

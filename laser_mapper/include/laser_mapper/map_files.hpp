@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "laser_mapper/map_point.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "urban_nav_core/io/cloud/las_writer.hpp"
 #include "urban_nav_core/io/cloud/pcd_writer.hpp"
 #include "urban_nav_core/io/cloud/ply_writer.hpp"
 
 namespace laser_mapper {
 
-/// Returns the columns of map.ply (docs/files.md).
-urban_nav_core::PlyLayout mapLayout();
+/// Returns the columns of map.ply (docs/files.md). The header has a line `comment sensor ID ROLE FRAME` for each
+/// sensor.
+urban_nav_core::PlyLayout mapLayout(const std::vector<SensorName>& sensors = {});
 
 /// Appends the bytes of a vertex of mapLayout().
 void appendVertex(std::string& bytes, const MapPoint& point);

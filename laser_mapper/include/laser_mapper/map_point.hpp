@@ -16,7 +16,8 @@ struct MapPoint {
   std::uint8_t red = 0, green = 0, blue = 0;
   std::uint8_t intensity = 0;      ///< reflectance, normalised for range and incidence
   std::uint8_t raw_intensity = 0;  ///< as measured
-  std::uint8_t laser = 0;          ///< 0 left, 1 right, 255 stereo
+  std::uint8_t laser = 0;          ///< sensor id (sensors.hpp): 0 left, 1 right, 255 stereo
+  bool is_coloured = false;        ///< red, green, blue are those of a camera, not the grey of `intensity`
   std::uint16_t pass = 0;          ///< that most of the beams came from
   std::uint16_t count = 0;         ///< beams
   float range = 0.0F;              ///< m, mean

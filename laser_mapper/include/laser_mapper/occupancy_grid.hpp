@@ -56,6 +56,7 @@ class OccupancyGrid {
   std::optional<std::size_t> index(double x, double y) const;
   float groundAround(std::size_t cell) const;
   void markDriven();
+  void lowerPath();
   void followBeam(const urban_nav_core::Vector3d& from, const urban_nav_core::Vector3d& to);
 
   const GridModel model_;

@@ -55,7 +55,8 @@ class TileMerger {
   std::vector<MergedCell> cells_;
   std::vector<PassVotes> votes_;
   std::size_t ghost_beams_ = 0;
-  std::vector<float> best_;  ///< beams of the pass that MergedCell names
+  std::vector<float> best_;     ///< beams of the pass that MergedCell names
+  std::vector<float> weights_;  ///< of all beams in the means of MergedCell
 };
 
 }  // namespace laser_mapper

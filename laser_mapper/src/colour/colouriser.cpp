@@ -192,6 +192,7 @@ std::size_t Colouriser::colour(std::vector<MapPoint>& points) {
     const auto channel = [&](std::size_t c) {
       return static_cast<std::uint8_t>(std::clamp(std::lround(best[i].weightedMedian(c)), 1L, 255L));
     };
+    points[i].is_coloured = true;
     points[i].blue = channel(0);
     points[i].green = channel(1);
     points[i].red = channel(2);

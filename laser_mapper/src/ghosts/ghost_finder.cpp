@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "laser_mapper/sensors.hpp"
 #include "session_chunks.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -136,6 +137,7 @@ std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vecto
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t i = 0; i < rows[r].cells.size(); ++i) {
       const MapCell& cell = rows[r].cells[i];
+      if (isLidar(cell.laser)) continue;  // decided within its chunk
       const std::uint64_t key = toKey(cell.cell);
       SeenTimes around;
       for (const Cell& beside : {Cell{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
@@ -214,6 +216,7 @@ void GhostFinder::flagGhosts(TileTask& task) {
   for (std::size_t r = 0; r < task.rows.size(); ++r) {
     Row& row = task.rows[r];
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      if (isLidar(row.cells[i].laser)) continue;
       const bool ghost = ghosts[r][i] != 0;
       row.changed = row.changed || row.cells[i].is_ghost != ghost;
       row.cells[i].is_ghost = ghost;

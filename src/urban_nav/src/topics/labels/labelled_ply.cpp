@@ -32,15 +32,30 @@ std::string withoutComments(const std::string& header) {
   return kept;
 }
 
+/// Returns labelledMapLayout() with the comments of an unlabelled file before its own.
+urban_nav_core::PlyLayout labelledLike(const std::string& header) {
+  const std::string prefix = "comment ";
+  const std::size_t own = laser_mapper::mapLayout().comments.size();
+  urban_nav_core::PlyLayout layout = labelledMapLayout();
+  std::vector<std::string> comments;
+  urban_nav_core::forEachLine(header, [&](std::string_view line, int) {
+    if (line.substr(0, prefix.size()) == prefix) comments.emplace_back(line.substr(prefix.size()));
+  });
+  comments.insert(comments.end(), layout.comments.begin() + static_cast<std::ptrdiff_t>(own), layout.comments.end());
+  layout.comments = std::move(comments);
+  return layout;
+}
+
 }  // namespace
 
 void addLabelsToPly(const std::string& path, const std::vector<scene_labeler::PointLabel>& labels) {
   const urban_nav_core::PlyLayout layout = laser_mapper::mapLayout();
   const std::size_t vertex = layout.vertexBytes();
   std::ifstream file(path, std::ios::binary);
-  if (withoutComments(readHeader(file)) != withoutComments(urban_nav_core::plyHeader(layout, labels.size())))
+  const std::string header = readHeader(file);
+  if (withoutComments(header) != withoutComments(urban_nav_core::plyHeader(layout, labels.size())))
     throw urban_nav_core::DataError(path, "is not the map of this run", "map.ply of stage lasers");
-  urban_nav_core::PlyWriter writer(path, labelledMapLayout());
+  urban_nav_core::PlyWriter writer(path, labelledLike(header));
   for (std::size_t begin = 0; begin < labels.size(); begin += kVerticesAtOnce) {
     const std::size_t count = std::min(kVerticesAtOnce, labels.size() - begin);
     std::string block(count * vertex, '\0'), made;

@@ -11,9 +11,11 @@
 #include "base/command_parameters.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "map/stage_result.hpp"
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_viewer.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
@@ -72,9 +74,17 @@ std::size_t prepareColours(const LaserMap& map, laser_mapper::Colouriser& colour
   return colouriser.views();
 }
 
+/// Returns what a map without points lacks.
+std::string whyEmpty(const LaserMapRun& run) {
+  const laser_mapper::BeamCounts& beams = run.rendered.beams;
+  return run.file + " cannot be made: no point is left of " + std::to_string(beams.all) + " beams (" +
+         std::to_string(beams.without_pose) + " without a pose, " + std::to_string(beams.out_of_range) +
+         " out of range), and no surface is seen by three keyframes of dense stereo";
+}
+
 /// `make_colouriser`: called when the map is rendered.
 LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_mapper::Colouriser>()>& make_colouriser,
-                      std::size_t first_session, const std::vector<const Trajectory*>& trajectories,
+                      const std::vector<laser_mapper::MappedSession>& mapped, std::size_t first_session,
                       const MapContext& context) {
   LaserMapRun run;
   run.map = first_session;
@@ -86,8 +96,10 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
   if (colouriser != nullptr) run.views = prepareColours(map, *colouriser);
   std::vector<std::vector<urban_nav_core::Vector3d>> paths;
   std::vector<urban_nav_core::Vector3d> all;
-  for (const Trajectory* trajectory : trajectories) {
-    paths.push_back(thinnedPath(*trajectory));
+  std::vector<urban_nav_store::SessionId> ids;
+  for (const laser_mapper::MappedSession& session : mapped) {
+    ids.push_back(session.id);
+    paths.push_back(thinnedPath(*session.T_map_base));
     all.insert(all.end(), paths.back().begin(), paths.back().end());
   }
   const laser_mapper::MapQuality quality(map);
@@ -97,7 +109,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
   MapPicture above(laser_mapper::viewFromAbove(all, kShownMargin, kLongestPicture));
   MapPicture perspective(laser_mapper::viewInPerspective(all, kPictureWidth, kPictureHeight));
   urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
-                                 laser_mapper::mapLayout());
+                                 laser_mapper::mapLayout(laser_mapper::storedSensors(*context.store, ids)));
   SigmaHistogram sigmas;
   MapViewer viewer(first_session);
   run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
@@ -105,7 +117,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
     std::string bytes;
     for (const MapPoint& point : points) {
       appendVertex(bytes, point);
-      if (point.laser == 255) ++run.stereo;
+      if (point.laser == laser_mapper::kStereoSensor) ++run.stereo;
       else sigmas.add(point.sigma);
     }
     file.append(bytes);
@@ -116,7 +128,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
   });
   run.points = file.vertices();
   run.sigma_median = sigmas.median();
-  file.commit();
+  if (run.points > 0) file.commit();
   for (const auto& path : paths) {
     above.drawPath(path);
     viewer.addPath(path);
@@ -228,13 +240,11 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
   LasersRun run;
   for (const auto& [map, sessions] : sessions_of_map) {
     std::vector<laser_mapper::MappedSession> mapped;
-    std::vector<const Trajectory*> trajectories;
     for (const std::size_t s : sessions) {
       const SessionTrajectory& session = context.trajectories[s];
-      if (context.store->scans().lasers(ids[s]).empty()) continue;
-      calibrateForMap(parameters, s, context, along_odometry, run);
+      if (!laser_mapper::missingMeasurements(*context.store, ids[s]).empty()) continue;
+      if (!context.store->scans().lasers(ids[s]).empty()) calibrateForMap(parameters, s, context, along_odometry, run);
       mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
-      trajectories.push_back(&session.T_map_base);
     }
     if (mapped.empty()) continue;
     LaserMap laser_map(parameters, *context.store, mapped);
@@ -243,7 +253,12 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
       calibrateViews(sessions_of_this_map, laser_map, mapped, context, run);
       return makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
     };
-    run.maps.push_back(renderMap(laser_map, make_colouriser, map, trajectories, context));
+    LaserMapRun map_run = renderMap(laser_map, make_colouriser, mapped, map, context);
+    if (map_run.points == 0) {
+      if (!context.options.stages.empty()) throw urban_nav_core::DataError(context.options.out, whyEmpty(map_run), "");
+      map_run.rendered.warnings.push_back(whyEmpty(map_run));
+    }
+    run.maps.push_back(std::move(map_run));
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return run;

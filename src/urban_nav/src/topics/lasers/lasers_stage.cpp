@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/lasers/lasers.hpp"
 
-#include <algorithm>
-
 #include "base/plot.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "map/session_fixes.hpp"
 #include "topics/lasers/calibration_report.hpp"
 #include "topics/lasers/lasers_report.hpp"
 #include "topics/lasers/lasers_run.hpp"
-#include "topics/lasers/panorama_pass.hpp"
+#include "topics/lasers/sensor_pass.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -21,7 +20,9 @@ class LasersStage final : public Stage {
   explicit LasersStage(SharedCalibrations along_odometry) : along_odometry_(std::move(along_odometry)) {}
 
   Description describe() const override {
-    return {"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
+    Description description{"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
+    description.uses_sweeps = true;
+    return description;
   }
   void addTables(ParameterSet& parameters) const override { parameters.add(laser_mapper::table()); }
   Selection select(const MapOptions& options) const override {
@@ -37,23 +38,25 @@ class LasersStage final : public Stage {
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
     storeFixes(context, start.session);                                                   // export --crs needs them
     laser_mapper::forgetCalibration(*context.store, context.sessions[start.session].id);  // of an earlier run
-    if (context.sessions[start.session].info.panorama.empty()) return nullptr;
-    return std::make_unique<PanoramaPass>(context, start);
+    return std::make_unique<SensorPass>(context, start);
   }
 
   std::string missingInput(const MapContext& context) const override {
-    const std::vector<urban_nav_store::SessionId> ids = context.ids();
-    const bool any =
-        std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return !context.store->scans().lasers(id).empty(); });
-    return any ? "" : "no laser scans";
+    std::string missing = "no sessions";
+    for (const urban_nav_store::SessionId& id : context.ids()) {
+      missing = laser_mapper::missingMeasurements(*context.store, id);
+      if (missing.empty()) break;
+    }
+    return missing;
   }
 
   Messages run(MapContext& context) override {
     run_ = runLasers(context.options.parameters.get(laser_mapper::table()), context, *along_odometry_);
     const laser_mapper::BeamCounts beams = run_->beams();
     Messages messages{calibrationSentences(*run_), lasersWarnings(*run_)};
-    messages.info.push_back("lasers: " + std::to_string(run_->points()) + " points of " + std::to_string(beams.all) +
-                            " beams, " + std::to_string(run_->chunksRendered()) + " chunks rendered in " +
+    messages.info.push_back("lasers: " + std::to_string(run_->points() - run_->stereo()) + " points of " +
+                            std::to_string(beams.all) + " beams and " + std::to_string(run_->stereo()) +
+                            " of dense stereo, " + std::to_string(run_->chunksRendered()) + " chunks rendered in " +
                             urban_nav_core::formatNumber(run_->seconds, 3) + " s");
     return messages;
   }
@@ -66,7 +69,7 @@ class LasersStage final : public Stage {
     made.sections.push_back({report_place::kMap, lasersSection(*run_)});
     made.data_faults = lasersWarnings(*run_);
     for (const LaserMapRun& map : run_->maps) {
-      made.written_files.push_back(map.file);
+      if (map.points > 0) made.written_files.push_back(map.file);
       made.files.push_back({"quality" + fileSuffix(map.map) + ".csv", map.quality_csv.empty()
                                                                           ? std::function<std::string()>()
                                                                           : [&map] { return map.quality_csv; }});

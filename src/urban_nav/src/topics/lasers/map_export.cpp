@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -13,12 +14,11 @@
 #include "laser_mapper/map_picture.hpp"
 #include "laser_mapper/mesh/surface_mesh.hpp"
 #include "laser_mapper/occupancy_grid.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_crs.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_core/types/frames.hpp"
-#include "urban_nav_registration/session/session_lasers.hpp"
 
 namespace urban_nav {
 
@@ -39,11 +39,11 @@ constexpr StampNs kLongestPoseGap = 500'000'000;
 constexpr const char* kLocalSystem =
     R"(LOCAL_CS["map of urban_nav",LOCAL_DATUM["first pose",0],UNIT["metre",1],AXIS["x",OTHER],AXIS["y",OTHER],AXIS["z",UP]])";
 
-/// Sessions of a map that have laser points.
+/// Sessions of a map that have points.
 struct MappedSessions {
   std::vector<std::unique_ptr<Trajectory>> trajectories;
   std::vector<laser_mapper::MappedSession> sessions;
-  std::vector<std::vector<urban_nav_registration::LaserAt>> lasers;
+  std::vector<std::map<std::uint8_t, Pose>> sensors;  ///< poses on the robot by their ids
   std::vector<Vector3d> path;
   std::optional<laser_mapper::Parameters> parameters;
 };
@@ -56,33 +56,39 @@ MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>&
     result.parameters = parameters;
     result.trajectories.push_back(std::make_unique<Trajectory>(each.T_map_base));
     result.sessions.push_back({each.session.id, result.trajectories.back().get(), nullptr});
-    result.lasers.push_back(urban_nav_registration::storedLasers(store, each.session.id));
+    result.sensors.push_back(laser_mapper::sensorPlaces(store, each.session.id));
     for (const urban_nav_core::StampedPose& pose : each.T_map_base) result.path.push_back(pose.pose.t());
   }
   return result;
 }
 
+/// Returns where the sensor of a point was; nullopt for dense stereo, whose lines of sight are no proof of free space.
 std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
-  if (point.laser == 255) return std::nullopt;  // of dense stereo
-  const char* frame = point.laser == 0 ? urban_nav_core::frames::kLaserLeft : urban_nav_core::frames::kLaserRight;
   for (std::size_t s = 0; s < mapped.sessions.size(); ++s) {
-    const auto T_map_base = mapped.trajectories[s]->at(point.stamp, kLongestPoseGap);
-    if (!T_map_base) continue;
-    for (const urban_nav_registration::LaserAt& laser : mapped.lasers[s])
-      if (laser.frame == frame) return *T_map_base * laser.T_base_laser.t();
+    const auto place = mapped.sensors[s].find(point.laser);
+    if (place == mapped.sensors[s].end()) continue;
+    if (const auto T_map_base = mapped.trajectories[s]->at(point.stamp, kLongestPoseGap))
+      return *T_map_base * place->second.t();
   }
   return std::nullopt;
+}
+
+std::vector<laser_mapper::SensorName> mappedSensors(Store& store, const MappedSessions& mapped) {
+  std::vector<urban_nav_store::SessionId> ids;
+  for (const laser_mapper::MappedSession& session : mapped.sessions) ids.push_back(session.id);
+  return laser_mapper::storedSensors(store, ids);
 }
 
 /// The formats with a record for each point.
 class PointFiles {
  public:
   /// `crs`: of the LAS file; null: the frame map. Must outlive it. `more`: attributes of all points; nullopt: none.
-  PointFiles(const MapFilePaths& paths, const MapCrs* crs, std::optional<PointAttributes> more)
+  PointFiles(const MapFilePaths& paths, const MapCrs* crs, const std::vector<laser_mapper::SensorName>& sensors,
+             std::optional<PointAttributes> more)
       : crs_(crs), more_(std::move(more)) {
     std::vector<urban_nav_core::LasAttribute> attributes = laser_mapper::mapLasAttributes();
     if (more_) attributes.push_back(more_->las);
-    if (!paths.ply.empty()) ply_.emplace(paths.ply, plyLayout());
+    if (!paths.ply.empty()) ply_.emplace(paths.ply, plyLayout(sensors));
     if (!paths.pcd.empty()) pcd_.emplace(paths.pcd, laser_mapper::mapPcdFields());
     if (!paths.las.empty()) las_.emplace(paths.las, attributes, crs ? crs->wkt() : kLocalSystem);
   }
@@ -110,8 +116,8 @@ class PointFiles {
     writer.append(bytes_);
   }
 
-  urban_nav_core::PlyLayout plyLayout() const {
-    urban_nav_core::PlyLayout layout = laser_mapper::mapLayout();
+  urban_nav_core::PlyLayout plyLayout(const std::vector<laser_mapper::SensorName>& sensors) const {
+    urban_nav_core::PlyLayout layout = laser_mapper::mapLayout(sensors);
     if (!more_) return layout;
     layout.properties.insert(layout.properties.end(), more_->ply.properties.begin(), more_->ply.properties.end());
     layout.comments.insert(layout.comments.end(), more_->ply.comments.begin(), more_->ply.comments.end());
@@ -199,7 +205,8 @@ std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMa
   if (!paths.ortho.empty()) ortho.emplace(view);
   std::optional<laser_mapper::SurfaceMesher> mesher;
   if (!paths.mesh.empty()) mesher.emplace(mapped.parameters->voxel);
-  PointFiles files(paths, crs, attributes ? attributes(store, mapped.sessions.front().id, map) : std::nullopt);
+  PointFiles files(paths, crs, mappedSensors(store, mapped),
+                   attributes ? attributes(store, mapped.sessions.front().id, map) : std::nullopt);
   std::size_t written = 0;
   forEachColouredTile(store, map, mapped, memory_mb,
                       [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
@@ -240,7 +247,7 @@ ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, co
                       double memory_mb, const AttributeSource& attributes) {
   const MappedSessions mapped = mappedSessions(store, map);
   if (mapped.sessions.empty())
-    throw urban_nav_core::DataError(store.path(), "holds no map of laser points", "a store of map --stages vo,lasers");
+    throw urban_nav_core::DataError(store.path(), "holds no map", "a store of map with stage lasers");
   LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
   laser_map.load();
   ExportedMap result;

@@ -9,6 +9,7 @@
 
 #include "base/plot.hpp"
 #include "dense_stereo_paper/paper_matcher.hpp"
+#include "topics/stereo/depth_view_row.hpp"
 #include "topics/stereo/disparity_picture.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/io/format_number.hpp"
@@ -107,6 +108,7 @@ struct StereoMatcher::Setting {
   std::optional<Eigen::Vector3d> up;
   std::string session;
   double point_spacing = 0.1;
+  bool has_lasers = false;  // planar ones
 
   StereoOutput match(dense_stereo::NearSceneEstimator& estimator, const urban_nav_core::StereoPair& pair,
                      bool with_picture) const {
@@ -117,9 +119,17 @@ struct StereoMatcher::Setting {
     StereoKeyframe& keyframe = made.keyframe;
     keyframe.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     made.ground = viewOfGround(scene.ground, T_base_camera);
-    made.points = nearPoints(scene, pair.left, camera, T_base_camera, point_spacing);
-    made.ground.session = made.points.session = session;
-    made.ground.stamp = made.points.stamp = keyframe.stamp = pair.stamp;
+    made.ground.session = session;
+    made.ground.stamp = keyframe.stamp = pair.stamp;
+    if (has_lasers) {
+      made.points = nearPoints(scene, pair.left, camera, T_base_camera, point_spacing);
+      made.points->session = session;
+      made.points->stamp = pair.stamp;
+    } else if (scene.stereo.answered > 0.0) {
+      made.view = depthViewRow(scene.stereo.image, pair.left, camera, T_base_camera);
+      made.view->session = session;
+      made.view->stamp = pair.stamp;
+    }
     keyframe.reason = toString(static_cast<dense_stereo::Reason>(scene.stereo.status.reason));
     keyframe.sentence = scene.stereo.status.sentence;
     keyframe.answered = scene.stereo.answered;
@@ -139,8 +149,8 @@ struct StereoMatcher::Setting {
 
 StereoMatcher::StereoMatcher(const dense_stereo::Parameters& parameters, const urban_nav_input::SourceInfo& info,
                              const std::string& session, bool one_thread)
-    : setting_(std::make_shared<Setting>(
-          Setting{info.camera, info.T_base_camera, expectedUp(info.T_base_camera), session, parameters.point_spacing})),
+    : setting_(std::make_shared<Setting>(Setting{info.camera, info.T_base_camera, expectedUp(info.T_base_camera),
+                                                 session, parameters.point_spacing, !info.lasers.empty()})),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {
   for (auto& estimator : estimators_)
     estimator = std::make_shared<dense_stereo::NearSceneEstimator>(parameters, info.camera,

@@ -10,6 +10,7 @@
 #include "dense_stereo/near_scene.hpp"
 #include "topics/stereo/stereo_run.hpp"
 #include "urban_nav_input/session/source.hpp"
+#include "urban_nav_store/tables/depth_view.hpp"
 #include "urban_nav_store/tables/ground_view.hpp"
 #include "urban_nav_store/tables/near_points.hpp"
 
@@ -19,7 +20,8 @@ namespace urban_nav {
 struct StereoOutput {
   StereoKeyframe keyframe;
   urban_nav_store::GroundView ground;
-  urban_nav_store::NearPoints points;
+  std::optional<urban_nav_store::NearPoints> points;  ///< of sessions with planar lasers, whose map they fill
+  std::optional<urban_nav_store::DepthView> view;     ///< of others, whose map they make
   std::optional<StereoPicture> picture;
 };
 

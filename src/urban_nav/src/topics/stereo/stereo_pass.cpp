@@ -72,7 +72,8 @@ std::string StereoPass::checkpoint() {
 
 void StereoPass::put(StereoOutput output) {
   TableStore<urban_nav_store::GroundView>(store_).put(output.ground);
-  TableStore<urban_nav_store::NearPoints>(store_).put(output.points);
+  if (output.points) TableStore<urban_nav_store::NearPoints>(store_).put(*output.points);
+  if (output.view) TableStore<urban_nav_store::DepthView>(store_).put(*output.view);
   run_.keyframes.push_back(std::move(output.keyframe));
   if (output.picture) run_.pictures.push_back(std::move(*output.picture));
   const auto isBetween = [this](const StereoPicture& picture) { return picture.keyframe % run_.picture_step != 0; };

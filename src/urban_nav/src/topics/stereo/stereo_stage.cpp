@@ -38,6 +38,10 @@ class StereoStage final : public Stage {
     return true;
   }
 
+  std::string missingInput(const MapContext&) const override {
+    return runs_.empty() ? "no stereo images, or odometry by laser" : "";
+  }
+
   Messages run(MapContext&) override {
     const StereoSummary summary = summariseStereo(runs());
     if (summary.pairs == 0) return {};

@@ -22,12 +22,12 @@ using urban_nav_core::Quaterniond;
 using urban_nav_core::Vector3d;
 using urban_nav_input::testing::readFile;
 using urban_nav_input::testing::TemporaryFolder;
+using urban_nav_store::DepthView;
 using urban_nav_store::GroundView;
-using urban_nav_store::NearPoints;
 
 struct StoredScene {
   std::vector<GroundView> grounds;
-  std::vector<NearPoints> points;
+  std::vector<DepthView> views;
 };
 
 /// Maps a rendered room with dense stereo at each keyframe of 5 cm, and reads the rows of the store.
@@ -46,28 +46,27 @@ StoredScene mapDensely(const TemporaryFolder& folder, const std::string& out, in
   StoredScene scene;
   const std::string id = store.sessions().all().front().id;
   urban_nav_store::TableStore<GroundView>(store).forEach(id, [&](const auto& row) { scene.grounds.push_back(row); });
-  urban_nav_store::TableStore<NearPoints>(store).forEach(id, [&](const auto& row) { scene.points.push_back(row); });
+  urban_nav_store::TableStore<DepthView>(store).forEach(id, [&](const auto& row) { scene.views.push_back(row); });
   return scene;
 }
 
-TEST(StereoStage, StoresGroundAndPointsOfKeyframesWhateverTheThreads) {
+TEST(StereoStage, StoresGroundAndDepthOfKeyframesWhateverTheThreads) {
   const TemporaryFolder folder;
   urban_nav_input::testing::makeKittiFolder(folder.file("in"));
   const StoredScene one = mapDensely(folder, "one", 1), two = mapDensely(folder, "two", 2);
-  ASSERT_GE(one.points.size(), 2U);
-  ASSERT_EQ(one.grounds.size(), one.points.size());
-  ASSERT_EQ(two.points.size(), one.points.size());
-  for (std::size_t i = 0; i < one.points.size(); ++i) {
-    EXPECT_EQ(one.points[i].stamp, two.points[i].stamp);
-    EXPECT_EQ(one.points[i].packed, two.points[i].packed);
+  ASSERT_GE(one.views.size(), 2U);
+  ASSERT_EQ(one.grounds.size(), one.views.size());
+  ASSERT_EQ(two.views.size(), one.views.size());
+  for (std::size_t i = 0; i < one.views.size(); ++i) {
+    EXPECT_EQ(one.views[i].stamp, two.views[i].stamp);
+    EXPECT_EQ(one.views[i].packed, two.views[i].packed);
     EXPECT_EQ(one.grounds[i].up, two.grounds[i].up);
     EXPECT_EQ(one.grounds[i].verdict, two.grounds[i].verdict);
-    const std::vector<NearPoints::Point> points = one.points[i].points();
-    EXPECT_GT(points.size(), 100U);
-    for (const NearPoints::Point& point : points) {
-      EXPECT_LT(point.p_base.norm(), 5.01F);
-      EXPECT_GT(point.p_base.x(), 0.0F) << "ahead of the camera, with the axes of the base";
-    }
+    const DepthView::Samples samples = one.views[i].samples();
+    std::size_t answered = 0;
+    for (const float disparity : samples.disparity) answered += disparity > 0.0F ? 1 : 0;
+    EXPECT_GT(answered, samples.disparity.size() / 4);
+    EXPECT_GT(one.views[i].baseline, 0.0);
   }
   const std::string summary = readFile(folder.file("one/summary.json"));
   for (const char* key : {"dense_stereo", "pairs", "ms_median", "valid_share"})
@@ -117,10 +116,12 @@ TEST(StereoMatcher, KeepsOtherPointsWithAnotherSpacing) {
   const auto source = urban_nav_input::openSource({folder.file("in")}, {});
   const auto frame = source->next();
   ASSERT_TRUE(frame);
+  urban_nav_input::SourceInfo info = source->info();
+  info.lasers.push_back({"laser_left", Pose()});
   const auto pointsWith = [&](const dense_stereo::Parameters& parameters) {
-    StereoMatcher matcher(parameters, source->info(), "session", true);
+    StereoMatcher matcher(parameters, info, "session", true);
     matcher.add(frame->assembled, 0, false);
-    return matcher.next()->points.packed;
+    return matcher.next()->points->packed;
   };
   const std::string faults = urban_nav_core::testing::findChangesWithoutEffect(
       dense_stereo::table(), {{"a pair", pointsWith, {{"point_spacing", 0.3}}}});

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_store/tables/depth_view.hpp"
+
+namespace laser_mapper {
+
+/// The depth image of a stereo pair, thinned.
+struct DepthFrame {
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::Pose T_base_camera;                ///< left optical frame
+  float step = 1.0F;                                 ///< px of the full image, from sample to sample
+  float fx = 0.0F, fy = 0.0F, cx = 0.0F, cy = 0.0F;  ///< px, of the full image
+  float focal_baseline = 0.0F;                       ///< px m: disparity times depth
+  urban_nav_store::DepthView::Samples samples;
+
+  std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(samples.width) + static_cast<std::size_t>(u);
+  }
+};
+
+/// Returns a stored view. Throws DataError if it is damaged.
+DepthFrame depthFrame(const urban_nav_store::DepthView& view);
+
+}  // namespace laser_mapper

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/parameters.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace laser_mapper {
+
+/// Sensor ids of points (MapPoint::laser, column `laser` of the files): 0 and 1 are the lasers at the frames laser_left
+/// and laser_right, 2...31 other planar lasers in the order of their frames, kFirstLidar + N the 3D LiDAR of role
+/// pointsN.
+constexpr std::uint8_t kFirstLidar = 32, kLastLidar = 126;
+/// Dense stereo.
+constexpr std::uint8_t kStereoSensor = 255;
+
+inline bool isLidar(std::uint8_t sensor) { return sensor >= kFirstLidar && sensor <= kLastLidar; }
+
+/// Returns the id of a planar laser. `index`: in the order of the session's frames.
+std::uint8_t planarSensor(const std::string& frame, std::size_t index);
+/// Returns the id of a 3D LiDAR by its role ("points0"); kLastLidar for any other word.
+std::uint8_t lidarSensor(const std::string& role);
+
+/// What a sensor id stands for.
+struct SensorName {
+  std::uint8_t id = 0;
+  std::string role;   ///< "laser_left", "points0", "stereo"; "laser" for planar lasers at other frames
+  std::string frame;  ///< of its measurements
+};
+/// Returns the sensors whose measurements sessions have in the store, ascending by id. An id that stands for different
+/// frames in different sessions has a row for each.
+std::vector<SensorName> storedSensors(urban_nav_store::Store& store,
+                                      const std::vector<urban_nav_store::SessionId>& sessions);
+
+/// Returns the poses of the lasers and LiDARs of a session on the robot, with the adopted calibration, by their ids.
+std::map<std::uint8_t, urban_nav_core::Pose> sensorPlaces(urban_nav_store::Store& store,
+                                                          const urban_nav_store::SessionId& session);
+
+/// Returns what the map of a session lacks: "no laser scans, sweeps of a 3D LiDAR or depth images of dense stereo";
+/// empty if it can be made.
+std::string missingMeasurements(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
+
+/// Errors of a sensor's beams.
+struct BeamNoise {
+  float range_sigma = 0.0F;  ///< m, standard deviation of a range
+  float far_factor = 1.0F;   ///< of the standard deviation beyond 20 m
+  float range_bias = 0.0F;   ///< m, standard deviation of the constant error of ranges
+  float beam_width = 0.0F;   ///< rad, divergence
+};
+/// Returns the errors of a laser: of planar ones as the parameters state them, of 3D LiDARs those of the HDL-64E. Not
+/// of dense stereo, whose points have deviations of their own.
+BeamNoise beamNoise(const Parameters& parameters, std::uint8_t sensor);
+
+}  // namespace laser_mapper

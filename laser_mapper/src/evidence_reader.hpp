@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/chunk_renderer.hpp"
+#include "urban_nav_store/store.hpp"
+#include "urban_nav_store/tables/mounted_lidar.hpp"
+
+namespace laser_mapper {
+
+/// Reads the sweeps and depth images that the chunks of a session need, with those of the seconds around them. What two
+/// chunks share is read once, if they are asked for in order of time. Not thread-safe.
+class EvidenceReader {
+ public:
+  /// The store must outlive the reader.
+  EvidenceReader(urban_nav_store::Store& store, urban_nav_store::SessionId session);
+
+  /// Adds the sweeps and, with `stereo`, the depth images of a chunk to `input`. Returns a digest of them; empty if
+  /// there are none. Throws DataError if the store is damaged.
+  std::string read(urban_nav_core::StampNs begin, bool stereo, ChunkInput& input);
+
+ private:
+  using SweepPtr = std::shared_ptr<const urban_nav_store::LidarSweep>;
+  using ViewPtr = std::shared_ptr<const DepthFrame>;
+  struct Lidar {
+    urban_nav_store::MountedLidar mounted;
+    std::map<urban_nav_core::StampNs, SweepPtr> sweeps;
+    urban_nav_core::StampNs read_to = 0;
+  };
+  void advance(urban_nav_core::StampNs from, urban_nav_core::StampNs to, bool stereo);
+
+  urban_nav_store::Store& store_;
+  const urban_nav_store::SessionId session_;
+  std::vector<Lidar> lidars_;
+  std::map<urban_nav_core::StampNs, ViewPtr> views_;
+  std::map<urban_nav_core::StampNs, std::string> view_digests_;
+  urban_nav_core::StampNs views_read_to_ = 0;
+};
+
+}  // namespace laser_mapper
