@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "laser_mapper/laser_map.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_store/bytes.hpp"
 #include "urban_nav_store/digest.hpp"
@@ -71,6 +72,11 @@ void ChunkStore::putCells(StampNs begin, PackedPart part) {
 void ChunkStore::remove(const MapChunk& chunk) {
   for (const Tile& tile : chunkTiles(chunk)) cells_.remove({session_, toString(tile), chunk.begin, 0, {}});
   chunks_.remove(chunk);
+}
+
+void forgetChunks(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
+  ChunkStore chunks(store, session);
+  for (const auto& [begin, chunk] : chunks.chunks()) chunks.remove(chunk);
 }
 
 void ChunkStore::forEachInTile(const Tile& tile, const std::function<void(StampNs, std::string)>& take) const {

@@ -112,6 +112,14 @@ TEST_F(LaserMapTest, BytesDoNotDependOnTheNumberOfThreads) {
   EXPECT_TRUE(one == two && one.size() > 1000);
 }
 
+TEST_F(LaserMapTest, ForgottenChunksAreRenderedAgain) {
+  RenderStatistics statistics;
+  const std::string before = bytes(mapPoints(trajectory_));
+  forgetChunks(*store_, kRoomSession);
+  EXPECT_TRUE(bytes(mapPoints(trajectory_, &statistics)) == before);
+  EXPECT_EQ(statistics.chunks_rendered, statistics.chunks);
+}
+
 TEST_F(LaserMapTest, OnlyChunksThatMovedAreRenderedAgain) {
   RenderStatistics statistics;
   const std::string before = bytes(mapPoints(trajectory_, &statistics));

@@ -22,6 +22,9 @@ namespace laser_mapper {
 
 class RelativeCovariances;
 
+/// Removes the rendered chunks of a session from a store: the next map renders all of them.
+void forgetChunks(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
+
 /// A session of the map. The members pointed to must outlive the map.
 struct MappedSession {
   urban_nav_store::SessionId id;

@@ -19,10 +19,10 @@ using urban_nav_core::LocalTangent;
 namespace {
 
 constexpr std::size_t kFewestFixes = 10;
-constexpr double kMostHeadingSigma = 3.0 * M_PI / 180.0;
-constexpr double kCorrelationTime = 180.0;  // s: errors of ephemeris and ionosphere change over minutes
-constexpr double kCauchyWidth = 2.4;        // standard deviations: 95 % efficient on normal errors
-constexpr double kNarrower = 0.7;           // per round, from the width that keeps all fixes
+constexpr double kMostHeadingSigma = 10.0 * M_PI / 180.0;  // positions then err no more than the fixes do
+constexpr double kCorrelationTime = 180.0;                 // s: errors of ephemeris and ionosphere change over minutes
+constexpr double kCauchyWidth = 2.4;                       // standard deviations: 95 % efficient on normal errors
+constexpr double kNarrower = 0.7;                          // per round, from the width that keeps all fixes
 constexpr int kMostRounds = 60;
 constexpr std::size_t kMostInSums = 500;  // fixes
 

@@ -25,7 +25,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t kNamed = 5;  // contradictions that an error spells out
+constexpr std::size_t kNamed = 5;                                      // contradictions that an error spells out
+constexpr const char* kMeasuring[] = {"loop_metric", "laser_mapper"};  // stages that measure closures
 
 /// Orders the keys of rows that are to be dropped.
 struct LessByText {
@@ -42,14 +43,14 @@ struct LessByText {
 /// Puts the rows of one source after the other into a target.
 class Merger {
  public:
-  Merger(Connection& target, MergeContent content) : target_(target), content_(content) {}
+  Merger(Connection& target, MergeContent content, RowFilter takes = {})
+      : target_(target), content_(content), takes_(std::move(takes)) {}
 
   void add(Connection& source) {
     source_ = source.name();
     const int version = schema::version(source);
     for (const Table* table : schema::tables())
-      if (table->since <= version && (content_ == MergeContent::All || !table->of_graph))
-        addTable(source, schema::atVersion(*table, version), *table);
+      if (table->since <= version && isWanted(*table)) addTable(source, schema::atVersion(*table, version), *table);
   }
 
   /// DataError where rows contradict each other.
@@ -64,21 +65,38 @@ class Merger {
   }
 
  private:
+  bool isWanted(const Table& table) const {
+    return content_ == MergeContent::All || !table.of_graph || &table == &declaredTable<EvidenceRow>();
+  }
+
   /// `stored`: the table as the source has it.
   void addTable(Connection& source, const Table& stored, const Table& table) {
     RowReader reader(source, stored, "");
     while (reader.next()) {
-      const Row row = completed(readRow(reader), stored, table);
-      if (content_ == MergeContent::All || !isClosure(table, row)) addRow(table, row);
+      Row row = completed(readRow(reader), stored, table);
+      if (content_ == MergeContent::Sessions) forgetVerdict(table, row);
+      if ((content_ == MergeContent::All || !isClosure(table, row)) && isTaken(table, row)) addRow(table, row);
     }
     verifyTally(source, stored);
   }
 
-  /// Returns whether a row is an edge that a relaxation of several sessions has written.
+  /// Resets in an edge what the relaxation has decided that stored it: another one decides anew.
+  static void forgetVerdict(const Table& table, Row& row) {
+    if (&table != &declaredTable<EdgeRow>()) return;
+    row[indexOf(table, "weight")].real = Edge().weight;
+    row[indexOf(table, "verdict")].bytes = toString(Edge().verdict);
+    row[indexOf(table, "reason")].bytes = Edge().reason;
+  }
+
+  bool isTaken(const Table& table, const Row& row) const {
+    return !takes_ || takes_(table, Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(table.keys)));
+  }
+
+  /// Returns whether a row is an edge, or evidence of one, that a relaxation of all sessions finds anew.
   static bool isClosure(const Table& table, const Row& row) {
-    if (&table != &declaredTable<EdgeRow>()) return false;
+    if (&table != &declaredTable<EdgeRow>() && &table != &declaredTable<EvidenceRow>()) return false;
     const std::optional<EdgeKind> kind = parseEdgeKind(row[indexOf(table, "kind")].bytes);
-    return kind && *kind != EdgeKind::Odometry && *kind != EdgeKind::Asserted;
+    return kind && isFoundAnew(*kind, row[indexOf(table, "source")].bytes);
   }
 
   void addRow(const Table& table, const Row& row) {
@@ -104,18 +122,20 @@ class Merger {
     dropped_.emplace(&table, Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(table.keys) - 1));
   }
 
-  /// Returns whether a row describes the run that read a session, not the session: the path of its input, the options
-  /// of the run.
-  static bool isOfRun(const Table& table, const Row& row) {
+  /// Returns whether a row describes the run that read a session, not the session: the path of its input, options and
+  /// parameters. What they change is in the measurements.
+  bool isOfRun(const Table& table, const Row& row) const {
+    if (&table == &declaredTable<ParameterRow>()) return true;
+    if (&table == &declaredTable<EvidenceRow>()) return content_ == MergeContent::Sessions;
     if (&table != &declaredTable<PropertyRow>()) return false;
     const std::string& name = row[indexOf(table, "name")].bytes;
     return name.rfind("run/", 0) == 0 || name.rfind("input/", 0) == 0;
   }
 
   void keepLesser(const Table& table, const Row& there, const Row& row) {
-    const std::size_t value = indexOf(table, "value");
     ++result_.identical;
-    if (row[value].bytes < there[value].bytes) write(table, row);
+    const auto isLess = [](const Value& a, const Value& b) { return a.bytes < b.bytes; };
+    if (std::lexicographical_compare(row.begin(), row.end(), there.begin(), there.end(), isLess)) write(table, row);
   }
 
   void addRevision(const Table& table, const Row& there, const Row& row) {
@@ -184,6 +204,7 @@ class Merger {
 
   Connection& target_;
   const MergeContent content_;
+  const RowFilter takes_;  // empty: all
   std::string source_, named_;
   std::int64_t contradictions_ = 0;
   /// Rows of which different ones were found: the table, and all keys but the last.
@@ -205,6 +226,12 @@ void replace(const std::string& path, urban_nav_core::PartialFile& partial) {
 
 }  // namespace
 
+bool isFoundAnew(EdgeKind kind, const std::string& source) {
+  if (kind == EdgeKind::Odometry || kind == EdgeKind::Asserted) return false;
+  const bool is_measured = std::find(std::begin(kMeasuring), std::end(kMeasuring), source) != std::end(kMeasuring);
+  return is_measured || kind == EdgeKind::Plane || kind == EdgeKind::Session;
+}
+
 MergeResult merge(const std::vector<std::string>& sources, const std::string& given, MergeContent content) {
   const std::string path = resolved(given);
   refuseOtherFiles(path);
@@ -225,6 +252,16 @@ MergeResult merge(const std::vector<std::string>& sources, const std::string& gi
   }
   replace(path, partial);
   return result;
+}
+
+void copyRows(const std::string& source, const std::string& path, const RowFilter& takes) {
+  Store target(path, Access::Write);
+  Merger merger(target.implementation().connection, MergeContent::All, takes);
+  Store opened(source, Access::Frozen);
+  merger.add(opened.implementation().connection);
+  merger.finish();
+  target.commit();
+  target.close();
 }
 
 }  // namespace urban_nav_store

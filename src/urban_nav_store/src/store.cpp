@@ -69,7 +69,7 @@ const std::string& prepared(const std::string& path, Access access, std::optiona
   } else if (fileKind(path) == FileKind::Absent) {
     throw UserError(path, fs::exists(path) ? "is empty" : "is not there", "a session store of urban_nav");
   }
-  refuseOtherFiles(path);
+  refuseOtherFiles(path, access == Access::Frozen ? Releases::Allowed : Releases::Refused);
   return path;
 }
 
@@ -92,7 +92,7 @@ Store::Implementation::Implementation(const std::string& path, Access access)
     connection.execute("PRAGMA synchronous=FULL");
     schema::migrate(connection, schema::tables());
   }
-  if (access == Access::Snapshot) snapshot_.emplace(connection);
+  if (access == Access::Snapshot || access == Access::Frozen) snapshot_.emplace(connection);
   schema::check(connection);
   if (toSize(path_) <= kCheckedThroughout) checkThroughout(connection);
 }
@@ -152,7 +152,7 @@ int schemaVersion() { return schema::latestVersion(schema::tables()); }
 
 bool isStore(const std::string& path) {
   const FileKind kind = fileKind(path);
-  return kind == FileKind::Store || kind == FileKind::NewerStore;
+  return kind == FileKind::Store || kind == FileKind::NewerStore || kind == FileKind::Release;
 }
 
 void removeStore(const std::string& given) {

@@ -115,9 +115,26 @@ TEST_F(Merge, NamesWhatContradicts) {
     store.sessions().put(id, StoredParameter{"swf_vo.window", "26", "default"});
   });
   writeFile(out, "");
-  expectError([&] { merge({a, b}, out); }, out, "8 rows contradict each other; parameter session=" + id);
+  expectError([&] { merge({a, b}, out); }, out, "7 rows contradict each other; node session=" + id);
   EXPECT_EQ(readFile(out), "");
   EXPECT_EQ(folder.files(), 3U);
+}
+
+TEST_F(Merge, TakesWhatDescribesARunFromOneOfThem) {
+  SessionId id;
+  const auto with = [&](const std::string& name, const std::string& value, const std::string& path) {
+    return make(name, [&](Store& store) {
+      id = fill(store, 1, 5);
+      store.sessions().put(id, StoredParameter{"command.memory_mb", value, value == "500" ? "default" : path});
+      store.sessions().put(id, Property{"run/inputs", path});
+      store.sessions().put(id, Property{"input/name", path});
+    });
+  };
+  const std::string a = with("a.db", "500", "/first/drive.bag"), b = with("b.db", "900", "/second/drive.bag");
+  merge({a, b}, out);
+  EXPECT_TRUE(dumpStore(out) == dumpStore(a));
+  merge({b, a}, out);
+  EXPECT_TRUE(dumpStore(out) == dumpStore(a));
 }
 
 TEST_F(Merge, TakesTheLaterRevisionOfTheGraph) {

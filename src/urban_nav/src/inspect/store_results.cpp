@@ -77,6 +77,13 @@ StoredResults readResults(Store& store) {
   return results;
 }
 
+std::map<SessionId, std::string> sessionNamesById(Store& store) {
+  const PreviousSessions sessions = readPreviousSessions(store, {});
+  std::map<SessionId, std::string> names;
+  for (std::size_t s = 0; s < sessions.ids.size(); ++s) names[sessions.ids[s]] = sessions.names[s];
+  return names;
+}
+
 std::size_t numberOfSession(Store& store, const SessionId& id) {
   const std::vector<SessionId> ids = readPreviousSessions(store, {}).ids;
   return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());

@@ -17,6 +17,7 @@ enum class Access {
   Read,      ///< changes no byte of the file; what another program commits meanwhile is seen by the next call
   Snapshot,  ///< as Read, but every call sees the file as it was when it was opened: for results made of many calls
   Write,     ///< opens the file or creates it; one writer at a time
+  Frozen     ///< as Snapshot; opens releases too
 };
 
 /// One session store: an SQLite file in WAL mode with any number of sessions.
@@ -67,7 +68,7 @@ class Store {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Returns whether a file exists at `path` and begins as a session store of any version does.
+/// Returns whether a file exists at `path` and begins as a session store or a release of any version does.
 bool isStore(const std::string& path);
 
 /// Removes a store, damaged or not, with the files beside it. Does nothing if there is none. Throws UserError if it is

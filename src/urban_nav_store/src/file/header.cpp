@@ -42,10 +42,11 @@ FileKind fileKind(const std::string& path) {
   if (file.gcount() < static_cast<std::streamsize>(kHeaderBytes) ||
       std::string_view(bytes.data(), kMagic.size()) != kMagic)
     return FileKind::Other;
-  if (bigEndian(bytes, kApplication) != static_cast<std::uint32_t>(schema::kApplicationId))
-    return FileKind::OtherSqlite;
-  return bigEndian(bytes, kUserVersion) > static_cast<std::uint32_t>(schemaVersion()) ? FileKind::NewerStore
-                                                                                      : FileKind::Store;
+  const std::uint32_t id = bigEndian(bytes, kApplication);
+  const bool is_release = id == static_cast<std::uint32_t>(schema::kReleaseId);
+  if (id != static_cast<std::uint32_t>(schema::kApplicationId) && !is_release) return FileKind::OtherSqlite;
+  if (bigEndian(bytes, kUserVersion) > static_cast<std::uint32_t>(schemaVersion())) return FileKind::NewerStore;
+  return is_release ? FileKind::Release : FileKind::Store;
 }
 
 std::string resolved(const std::string& path) {
@@ -55,10 +56,15 @@ std::string resolved(const std::string& path) {
   return error ? path : target.string();
 }
 
-void refuseOtherFiles(const std::string& path) {
+void refuseOtherFiles(const std::string& path, Releases releases) {
   switch (fileKind(path)) {
     case FileKind::Absent:
     case FileKind::Store: return;
+    case FileKind::Release:
+      if (releases == Releases::Allowed) return;
+      throw UserError(path,
+                      "is a release, which is read by map --localise, info, export, join --onto and release --diff",
+                      "a session store of urban_nav");
     case FileKind::NewerStore:
       throw UserError(path, "was written by a newer urban_nav, and was left as it is",
                       "schema " + std::to_string(schemaVersion()) + " or older; or a newer urban_nav");

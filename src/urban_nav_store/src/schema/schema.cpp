@@ -143,7 +143,7 @@ void migrate(Connection& connection, const Tables& tables) {
 }
 
 void check(Connection& connection, const Tables& tables) {
-  if (connection.integer("PRAGMA application_id") != kApplicationId)
+  if (const std::int64_t id = connection.integer("PRAGMA application_id"); id != kApplicationId && id != kReleaseId)
     throw UserError(connection.name(), "is another program's SQLite file, and was left as it is",
                     "a session store of urban_nav, or a name where there is no file yet");
   const int found_version = version(connection), latest = latestVersion(tables);

@@ -15,6 +15,8 @@ namespace schema {
 
 /// "UNav": SQLite's application id in the header of the file.
 constexpr int kApplicationId = 0x554e6176;
+/// "UNre": that of a release, which has the schema of a store and is never written to.
+constexpr int kReleaseId = 0x554e7265;
 
 /// Returns all declared tables in the order in which they are created, merged and dumped.
 const Tables& tables();
