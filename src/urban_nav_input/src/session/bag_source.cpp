@@ -238,12 +238,7 @@ class BagSource : public Source {
     const std::vector<std::string> leading = info_.has_images ? imageTopics() : sweeps_in_bag_.topics();
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
-    const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
-    if (options_.motion_input != "none") {
-      if (!topics_.find(motion_role))
-        throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
-      feed.motion = true;
-    }
+    feed.motion = findMotion();
     surveyOrder(leading);
     feed.pairing_tolerance = convention_.tolerance;
     if (info_.has_images) feed_.emplace(feed, calibration_);
@@ -280,6 +275,16 @@ class BagSource : public Source {
                             "until the stamps have caught up");
   }
 
+  /// Returns the motion sensors that are asked for and have a topic.
+  urban_nav_core::MotionChoice findMotion() const {
+    urban_nav_core::MotionChoice motion = urban_nav_core::toMotionChoice(options_.motion_input);
+    motion.gyroscope = motion.gyroscope && topics_.find(Role::Imu);
+    motion.wheels = motion.wheels && topics_.find(Role::Wheels);
+    if (motion.is_required && !motion.any())
+      throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
+    return motion;
+  }
+
   void noteUnused() {
     std::set<std::string> used(names_.begin(), names_.end());
     used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
@@ -289,8 +294,8 @@ class BagSource : public Source {
     const auto leave = [&](Role role, bool is_of_use) {  // it is examined all the same
       if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
     };
-    leave(Role::Wheels, options_.motion_input == "wheels");
-    leave(Role::Imu, R_base_imu_ || options_.motion_input == "gyroscope");
+    leave(Role::Wheels, findMotion().wheels);
+    leave(Role::Imu, R_base_imu_ || findMotion().gyroscope);
     if (std::string sentence = describeUnusedTopics(recording_, used); !sentence.empty())
       info_.notes.push_back(std::move(sentence));
   }
@@ -415,12 +420,11 @@ class BagSource : public Source {
       }
     } else if (const auto odometry = instance.as<nav_msgs::Odometry>()) {
       sensors_.add(*odometry, topic, instance.receipt());
-      if (options_.motion_input != "wheels") return;
+      if (!findMotion().wheels) return;
       if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
     } else if (const auto imu = instance.as<sensor_msgs::Imu>()) {
       sensors_.add(*imu, topic, instance.receipt());
-      if (const auto motion = gyroscope_->add(*imu); motion && options_.motion_input == "gyroscope")
-        feed_->add(*motion);
+      if (const auto motion = gyroscope_->add(*imu); motion && findMotion().gyroscope) feed_->add(*motion);
     } else if (const auto scan = instance.as<sensor_msgs::LaserScan>()) {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {

@@ -120,7 +120,10 @@ const OdometryFrame& VoRecorder::process(const urban_nav_input::SourceItem& inpu
   row.accepted = frame.accepted;
   row.status = frame.status;
   row.T_odom_base = frame.T_odom_base.pose;
-  if (frame.accepted) run_.rig = frame.rig;
+  if (frame.accepted) {
+    run_.rig = frame.rig;
+    run_.motion = frame.motion;
+  }
   run_.faults_total += static_cast<std::int64_t>(input.faults.size());
   for (const std::string& fault : input.faults) {
     if (run_.faults.size() < kMaxFaults) run_.faults.push_back(fault);
