@@ -198,6 +198,8 @@ class SwfVo::Implementation {
     if (seen != nullptr && (trusted || !started_) && !(is_loose && blurred)) remember(*seen);
     if (seen != nullptr) observe(*seen, trusted);
     const UpdateReport update = window_.update();
+    if (started_ && by_images && !reckons && window_.hasPose(frame_ - 1))
+      sensors_.check(before, pair.stamp, window_.pose(frame_ - 1).inverse() * window_.newest().pose);
 
     if (started_) learn(last, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);

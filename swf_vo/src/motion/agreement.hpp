@@ -20,7 +20,8 @@ struct ComparedStep {
 
 /// Whether a motion sensor agrees with images that agree among themselves. Steps form blocks of 0.25 s. A block
 /// contradicts where the corrected difference is far beyond its standard deviation and more than half of the motion; it
-/// confirms where a motion far beyond its standard deviation is met. Blocks of rest do neither.
+/// confirms where a motion far beyond its standard deviation is met. Blocks of rest do neither. Over the last seconds
+/// the scale of the motion must be met as well.
 class Agreement {
  public:
   enum class Verdict { Unknown, Agrees, Contradicts };
@@ -49,10 +50,14 @@ class Agreement {
     urban_nav_core::Vector3d error = urban_nav_core::Vector3d::Zero(), by_images = error, by_sensor = error;
   };
   void closeBlock();
+  bool isOffScale() const;
 
   double floor_;
   Block block_;
   double contradicted_ = 0.0, confirmed_ = 0.0;  // blocks, older ones for less
+  // Sums over blocks, older ones for less: the square of the motion, its product with the error, and the variance of
+  // that.
+  double motion_ = 0.0, along_ = 0.0, along_variance_ = 0.0;
   double compared_ = 0.0, wanted_ = 0.0;         // s since the last restart, and how many are enough
   int restarts_ = 0;
   std::vector<ComparedStep> steps_;

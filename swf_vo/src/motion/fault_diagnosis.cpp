@@ -20,7 +20,7 @@ constexpr double kFrozen = 0.5;           // s
 constexpr double kGoodCorrelation = 0.8;  // of an explanation
 constexpr double kLinear = 0.95;          // of a scale
 constexpr double kAxesGain = 0.3;         // of correlation, by other axes
-constexpr double kLeastScaleError = 0.2;  // relative
+constexpr double kLeastScaleError = 0.08;  // relative
 constexpr double kLongestDelay = 2.0;     // s
 constexpr std::size_t kFewestSteps = 8;
 constexpr double kLeastHistory = 4.0;  // s, for axes and delays
@@ -177,7 +177,7 @@ MotionFault diagnoseWheels(const std::vector<ComparedStep>& steps, const Diagnos
   if (fits && ratio < 0.0)
     return {Kind::Axes, "their speed is " + formatNumber(ratio, 3) +
                             " times that of the images: forward and backward are exchanged, correct their sign"};
-  if (fits && std::abs(ratio - 1.0) > 0.5 * kLeastScaleError)
+  if (fits && std::abs(ratio - 1.0) > kLeastScaleError)
     return {Kind::Scale, "their speed is " + formatNumber(ratio, 3) +
                              " times that of the images: correct the radius of the wheels or the counts of a turn"};
   const double period = meanPeriod(steps);

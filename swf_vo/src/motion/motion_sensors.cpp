@@ -27,6 +27,8 @@ namespace {
 
 // Differences over a quarter of a second that are never held against a sensor: rad, m.
 constexpr double kTurnFloor = 2e-3, kForwardFloor = 0.01;
+// The newest step is not final: so many floors, and this share of the motion, are held against a sensor.
+constexpr double kFarInOneStep = 4.0, kLargeShareOfStep = 0.5;
 // A bias beyond so many standard deviations of its prior belongs to no sound sensor, once it is known that well.
 constexpr double kBeyond = 2.0, kWellKnown = 0.02;
 // Half of the time over which rates at the ends of a step are averaged, s.
@@ -102,8 +104,8 @@ void MotionSensors::add(const std::vector<MotionInput>& inputs) {
 std::optional<Reckoned> MotionSensors::reckonBy(bool gyroscope, bool wheels, StampNs from, StampNs to,
                                                 const Pose& T_odom_base) const {
   MotionEvidence evidence;
-  if (gyroscope && gyroscope_.is_used && !gyroscope_.stream.isEmpty()) evidence.gyroscope = &gyroscope_.stream;
-  if (wheels && wheels_.is_used && !wheels_.stream.isEmpty()) evidence.wheels = &wheels_.stream;
+  if (gyroscope && gyroscope_.mayPredict()) evidence.gyroscope = &gyroscope_.stream;
+  if (wheels && wheels_.mayPredict()) evidence.wheels = &wheels_.stream;
   evidence.states = &calibration_.states();
   evidence.ground = &ground_;
   evidence.gyroscope_noise = calibration_.gyroscopeNoise();
@@ -127,6 +129,37 @@ void MotionSensors::addFrame(FrameId frame, double seconds, bool by_images, bool
   since_measured_ = by_images ? 0.0 : since_measured_ + seconds;
   if (gyroscope_.stream.isEmpty() && wheels_.stream.isEmpty()) return;
   notes_.push_back({frame, reckoned});
+}
+
+void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
+  const Pose base = T_base_camera_ * T_from_to * T_base_camera_.inverse();
+  const MotionStates& states = calibration_.states();
+  const auto contradicts = [](double error, double motion, double floor) {
+    return error > kFarInOneStep * floor && error > kLargeShareOfStep * motion;
+  };
+  if (!gyroscope_.stream.isEmpty()) {
+    const double offset = states.mean[MotionStates::kImuOffset];
+    urban_nav_core::RotationPreintegration turned(states.bias());
+    const Coverage coverage =
+        gyroscope_.stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
+          turned.add(span.twist.tail<3>(), seconds, 0.0);
+        });
+    const Quaterniond by_gyroscope = turned.rotation();
+    const double motion = std::max(logSo3(base.q()).norm(), logSo3(by_gyroscope).norm());
+    if (coverage.isComplete())
+      gyroscope_.is_contradicted = contradicts(by_gyroscope.angularDistance(base.q()), motion, kTurnFloor);
+  }
+  if (!wheels_.stream.isEmpty()) {
+    const double offset = states.mean[MotionStates::kWheelOffset], scale = 1.0 + states.mean[MotionStates::kSpeedScale];
+    double distance = 0.0;
+    const Coverage coverage =
+        wheels_.stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
+          distance += span.twist[0] / scale * seconds;
+        });
+    const double motion = std::max(std::abs(base.t().x()), std::abs(distance));
+    if (coverage.isComplete())
+      wheels_.is_contradicted = contradicts(std::abs(distance - base.t().x()), motion, kForwardFloor);
+  }
 }
 
 void MotionSensors::learn(const Settled& settled) {

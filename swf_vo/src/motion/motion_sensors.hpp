@@ -31,6 +31,9 @@ class MotionSensors {
                                       const urban_nav_core::Pose& T_odom_camera) const;
   /// A frame went into the window. `by_images`: images measure where it is; `reckoned`: the prediction had part in it.
   void addFrame(FrameId frame, double seconds, bool by_images, bool reckoned);
+  /// Takes the newest step of the left camera, measured by images alone, before it is final: a sensor that contradicts
+  /// it predicts nothing until one agrees.
+  void check(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const urban_nav_core::Pose& T_from_to);
   /// A frame is final. Frames come in order.
   void learn(const Settled& settled);
 
@@ -43,7 +46,11 @@ class MotionSensors {
     TwistStream stream;
     Agreement agreement;
     bool is_used = false, is_left_out = false;
-    void archive(urban_nav_core::Archive& archive) { archive(stream, agreement, is_used, is_left_out); }
+    bool is_contradicted = false;  // the newest step contradicts it
+    bool mayPredict() const { return is_used && !is_contradicted && !stream.isEmpty() && !stream.isStuck(); }
+    void archive(urban_nav_core::Archive& archive) {
+      archive(stream, agreement, is_used, is_left_out, is_contradicted);
+    }
   };
   struct FrameNote {
     FrameId frame = 0;

@@ -16,6 +16,10 @@ namespace {
 // A sensor may be so late against the images, and miss so much of a span.
 constexpr double kLongestExtrapolation = 0.12;  // s
 constexpr double kExtrapolatedShare = 0.1, kBridgedShare = 0.2;
+// Numbers that differ by less, relatively, are the same to all digits of a message: stamps do not divide evenly.
+constexpr double kSameDigits = 1e-9;
+// A device that moves does not repeat itself for so long, s.
+constexpr double kStuck = 0.25;
 // Statements over which scatter and changes are averaged.
 constexpr double kAveraged = 200.0;
 // Variance of second differences of white noise, and share of the mean at which one difference is cut off: a jolt is no
@@ -47,7 +51,7 @@ void TwistStream::add(const MotionInput& input) {
     if (input.information(i, i) > 0.0) span.density[i] = 1.0 / (input.information(i, i) * seconds);
   if (!spans_.empty()) {
     const Vector6d change = span.twist - spans_.back().twist;
-    repeated_ = change.isZero(0.0) ? repeated_ + seconds : 0.0;
+    repeated_ = change.norm() <= kSameDigits * span.twist.norm() ? repeated_ + seconds : 0.0;
     for (int i = 0; i < 6; ++i) walk_[i] = averaged(walk_[i], change[i] * change[i] / seconds);
     if (spans_.size() > 1) {
       const Vector3d second = (change - (spans_.back().twist - spans_[spans_.size() - 2].twist)).tail<3>();
@@ -62,6 +66,10 @@ void TwistStream::forget(StampNs before) {
   const auto first = std::partition_point(spans_.begin(), std::prev(spans_.end()),
                                           [&](const TwistSpan& span) { return span.to < before; });
   spans_.erase(spans_.begin(), first);
+}
+
+bool TwistStream::isStuck() const {
+  return repeated_ > kStuck && !spans_.empty() && !spans_.back().twist.isZero(0.0);
 }
 
 const TwistSpan& TwistStream::at(StampNs stamp) const {

@@ -47,6 +47,8 @@ class TwistStream {
   const TwistSpan& at(urban_nav_core::StampNs stamp) const;
   /// Returns for how long every number of the statements has been the same, s.
   double repeatedSeconds() const { return repeated_; }
+  /// Returns whether it states the same motion, to all digits, for longer than a device does. Rest is no such motion.
+  bool isStuck() const;
   /// Returns the variance per second of an integrated rate of rotation, rad^2/s, by the second differences of
   /// successive rates; 0 before there are some.
   double scatterDensity() const { return scatter_; }

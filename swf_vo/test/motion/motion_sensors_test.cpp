@@ -36,6 +36,8 @@ class Play {
     for (; now_ + kFrame <= end_ms; now_ += kFrame) {
       feed(now_ + kFrame);
       motion.addFrame(frame_, 1e-3 * kFrame, true, false);
+      motion.check(now_ * kMillisecond, (now_ + kFrame) * kMillisecond,
+                   kCameraPlace.inverse() * longDrive().between(now_, now_ + kFrame) * kCameraPlace);
       Settled settled = sensors_.step(frame_, now_, now_ + kFrame);
       if (frame_++ == 0) settled.from_previous.from = settled.from_previous.to;
       pending_.push_back(settled);
@@ -203,6 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongSensor{"Axes", turned([](const auto& w) { return Eigen::Vector3d(w.z(), w.x(), w.y()); }), "y,z,x"},
         WrongSensor{"Ned", turned([](const auto& w) { return Eigen::Vector3d(w.x(), -w.y(), -w.z()); }), "x,-y,-z"},
         WrongSensor{"Degrees", turned([](const auto& w) -> Eigen::Vector3d { return w * 180.0 / M_PI; }), "degrees"},
+        WrongSensor{"Scale", turned([](const auto& w) -> Eigen::Vector3d { return 1.3 * w; }), "scale"},
         WrongSensor{"Bias",
                     turned([](const auto& w) -> Eigen::Vector3d { return w + Eigen::Vector3d(0.0, 0.0, 0.003); }),
                     "bias"},
@@ -221,6 +224,63 @@ INSTANTIATE_TEST_SUITE_P(
                     },
                     "late"}),
     [](const auto& instance) { return std::string(instance.param.what); });
+
+// Frames are final half a second later; until then a sensor that was sound could lead everything astray.
+TEST(MotionSensors, ThatGoWrongPredictNothingFromTheFirstStepOn) {
+  const auto exchanged = turned([](const auto& w) { return Eigen::Vector3d(w.y(), w.z(), w.x()); });
+  Play play(
+      DriveErrors(), 8,
+      [&](MotionInput& input, int ms) {
+        if (ms >= 10'000) exchanged(input, ms);
+      },
+      false);
+  play.until(10'000);
+  EXPECT_TRUE(play.motion.estimates().uses_gyroscope);
+  play.until(10'000 + 2 * kFrame);
+  EXPECT_TRUE(play.motion.estimates().uses_gyroscope);  // not yet known for what it is
+  EXPECT_FALSE(play.outage(play.now() + kFrame));
+}
+
+TEST(MotionSensors, ThatRepeatTheirNumbersPredictNothing) {
+  Play play(
+      DriveErrors(), 9,
+      [last = Pose()](MotionInput& input, int ms) mutable {
+        if (ms < 10'000) last = input.T_from_to;
+        input.T_from_to = last;
+      },
+      false);
+  play.until(9'990);
+  EXPECT_TRUE(play.motion.estimates().uses_gyroscope);
+  EXPECT_FALSE(play.outage(10'500));
+}
+
+TEST(MotionSensors, BeforeTheyHaveMovedPredictNothing) {
+  MotionSensors motion(kCameraPlace);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<MotionInput> rest(5);
+    for (int k = 0; k < 5; ++k) {
+      MotionInput& input = rest[static_cast<std::size_t>(k)];
+      input.source = urban_nav_core::MotionSource::Gyroscope;
+      input.from = (kFrame * i + 10 * k) * kMillisecond;
+      input.to = input.from + 10 * kMillisecond;
+      input.T_from_to = Pose(urban_nav_core::expSo3(Eigen::Vector3d(0.0, 0.0, 1e-6 * ((7 * i + k) % 5))),
+                             Eigen::Vector3d::Zero());
+    }
+    motion.add(rest);
+    motion.addFrame(i, 1e-3 * kFrame, true, false);
+    Settled settled;
+    settled.frame = i;
+    settled.stamp = settled.from_previous.to = (i + 1) * kFrame * kMillisecond;
+    settled.from_previous.from = i == 0 ? settled.stamp : i * kFrame * kMillisecond;
+    settled.from_previous.covariance = settled.from_previous.drift_covariance =
+        1e-8 * urban_nav_core::Matrix6d::Identity();
+    motion.learn(settled);
+  }
+  EXPECT_TRUE(motion.estimates().has_gyroscope);
+  EXPECT_FALSE(motion.estimates().uses_gyroscope);
+  EXPECT_TRUE(motion.estimates().faults.empty());
+  EXPECT_LT(motion.estimates().gyroscope_bias_sigma.maxCoeff(), 0.002);  // known from rest all the same
+}
 
 TEST(MotionSensors, WheelsOfAnotherRadiusAreLeftOutAndNamed) {
   DriveErrors errors;

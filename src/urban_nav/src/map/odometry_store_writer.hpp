@@ -20,6 +20,8 @@ class OdometryStoreWriter {
 
   /// Writes what the run has gained since the last call. Does not commit.
   void write(const SessionOdometry& run);
+  /// Writes all poses and steps of the run, in place of those of earlier calls. Does not commit.
+  void rewrite(const SessionOdometry& run);
   /// Writes the specific forces of a finished run.
   void writeForces(const SessionOdometry& run);
 
