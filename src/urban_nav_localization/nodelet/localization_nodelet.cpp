@@ -91,7 +91,7 @@ void LocalizationStage::openMap() {
   if (nodelet_.store.empty() || nodelet_.store.front() != '/')
     throw UserError(parameter, "`" + nodelet_.store + "`", "the absolute path of a session store");
   try {
-    Store store = urban_nav_store::openForReading(nodelet_.store, Access::Frozen);
+    Store store = urban_nav_store::openForReading(nodelet_.store, urban_nav_store::Access::Frozen);
     FrozenMap map(store);
     map_ = map.sessions();
     publisher_ = std::make_unique<LocalizationPublisher>(node_.nh(), nodelet_);

@@ -158,7 +158,7 @@ void writeResults(Store& store, const Maps& maps, const Arguments& arguments, Wr
 int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
-  Store store = urban_nav_store::openForReading(arguments.get("STORE"), Access::Frozen);
+  Store store = urban_nav_store::openForReading(arguments.get("STORE"), urban_nav_store::Access::Frozen);
   const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
   if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
   Written written(console);

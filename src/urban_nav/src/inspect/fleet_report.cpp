@@ -15,6 +15,7 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 #include "urban_nav_store/release.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 #include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav {
@@ -92,7 +93,7 @@ void addClosures(Store& store, std::vector<FleetSession>& sessions) {
 
 std::vector<FleetSession> readSessions(const std::string& path, const std::string& name) {
   const StoreInfo info = readStoreInfo(path);
-  Store store(path, Access::Snapshot);
+  Store store = urban_nav_store::openForReading(path, Access::Snapshot);
   std::vector<FleetSession> sessions;
   for (std::size_t i = 0; i < info.sessions.size(); ++i) {
     const StoredSession& each = info.sessions[i];
@@ -205,7 +206,7 @@ Fleet readFleet(const std::string& folder) {
     const std::string path = (fs::path(folder) / name).string();
     try {
       if (urban_nav_store::isRelease(path)) {
-        Store release(path, Access::Frozen);
+        Store release = urban_nav_store::openForReading(path, Access::Frozen);
         fleet.releases.push_back(name + ": version " + std::to_string(readReleaseHead(release).version));
         continue;
       }

@@ -7,6 +7,7 @@
 #include "map/stored_run.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -25,7 +26,7 @@ Command storesCommand(bool is_output_required) {
 }
 
 void requireFinished(const std::string& store) {
-  Store opened(store, urban_nav_store::Access::Snapshot);
+  Store opened = urban_nav_store::openForReading(store, urban_nav_store::Access::Snapshot);
   for (const urban_nav_store::Session& session : opened.sessions().all()) {
     if (storedFingerprint(opened, session.id).empty()) continue;
     const std::vector<std::string> stages = opened.states().stages(session.id);

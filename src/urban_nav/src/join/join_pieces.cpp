@@ -18,6 +18,7 @@
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 #include "urban_nav_store/bytes.hpp"
 #include "urban_nav_store/digest.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -57,7 +58,7 @@ std::vector<Source> sortSources(const std::vector<std::string>& stores, const st
     Source source;
     source.path = path;
     source.relative = fs::absolute(path).lexically_normal().lexically_relative(folder).generic_string();
-    Store store(path, Access::Snapshot);
+    Store store = urban_nav_store::openForReading(path, Access::Snapshot);
     for (const urban_nav_store::Session& session : store.sessions().all()) {
       if (source.ids.empty()) source.start = session.start;
       source.ids.push_back(session.id);
@@ -143,7 +144,7 @@ loop_metric::StoredPlaceData::Sessions readSessions(const JoinPiece& piece, cons
                                                     const urban_nav_registration::MountedCamera& camera) {
   loop_metric::StoredPlaceData::Sessions sessions;
   for (std::size_t s = 0; s < paths.size(); ++s) {
-    Store store(paths[s], Access::Snapshot);
+    Store store = urban_nav_store::openForReading(paths[s], Access::Snapshot);
     const PreviousSessions known = readPreviousSessions(store, {});
     std::vector<CandidateSession> candidates;
     for (const PlannedSession& session : piece.sessions) {

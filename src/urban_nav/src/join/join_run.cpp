@@ -97,7 +97,7 @@ Join::Join(JoinOptions options, AllStages stages, Console& console)
                {}, std::move(options.parameters), options.threads} {
   for (const std::string& path : sources_) requireFinished(path);
   for (const std::string& path : sources_) {
-    Store store(path, Access::Snapshot);
+    Store store = urban_nav_store::openForReading(path, Access::Snapshot);
     addAcceptedClosures(store, accepted_before_);
   }
   urban_nav_store::merge(sources_, workplace_.store(), urban_nav_store::MergeContent::Sessions);

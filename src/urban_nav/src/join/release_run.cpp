@@ -11,6 +11,7 @@
 #include "topics/lasers/map_export.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_place.hpp"
 
@@ -58,7 +59,7 @@ void removeThumbnails(Store& store, const std::vector<KeptSession>& kept) {
 }
 
 ReleaseContent readContent(const std::string& path, double memory_mb) {
-  Store store(path, Access::Frozen);
+  Store store = urban_nav_store::openForReading(path, Access::Frozen);
   ReleaseContent content;
   content.head = readReleaseHead(store);
   const auto maps = readMaps(store, store.sessions().all());
@@ -155,7 +156,7 @@ ReleaseRun makeRelease(const std::string& path, const std::string& out, const Pa
   urban_nav_store::SessionId first;
   std::size_t left_out = 0;
   {
-    Store store(path, Access::Snapshot);
+    Store store = urban_nav_store::openForReading(path, Access::Snapshot);
     const auto maps = readMaps(store, store.sessions().all());
     if (maps.empty()) throw DataError(path, "holds no session", "a store that map has written");
     for (std::size_t m = 1; m < maps.size(); ++m) left_out += maps[m].size();

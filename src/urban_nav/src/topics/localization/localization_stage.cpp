@@ -5,6 +5,7 @@
 #include "topics/localization/localization_run.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav {
 
@@ -35,12 +36,12 @@ class LocalizationStage final : public Stage {
     if (options.localise.empty()) return {false, "no --localise", {}};
     if (!options.store.empty())
       throw urban_nav_core::UserError("--localise", "the map is only read, and --store continues one", "one of them");
-    Store(options.localise, Access::Frozen).close();  // reports an unusable file before the work
+    urban_nav_store::openForReading(options.localise, Access::Frozen).close();  // reports an unusable file before the work
     return {true, "", {"each session is localised in the map of " + options.localise + ", which is only read"}};
   }
 
   Messages run(MapContext& context) override {
-    Store frozen(context.options.localise, Access::Frozen);
+    Store frozen = urban_nav_store::openForReading(context.options.localise, Access::Frozen);
     urban_nav_localization::Parameters parameters = context.options.parameters.get(urban_nav_localization::table());
     parameters.registration = context.options.parameters.get(urban_nav_registration::table());
     Messages messages;
