@@ -36,7 +36,8 @@ class LocalizationStage final : public Stage {
     if (options.localise.empty()) return {false, "no --localise", {}};
     if (!options.store.empty())
       throw urban_nav_core::UserError("--localise", "the map is only read, and --store continues one", "one of them");
-    urban_nav_store::openForReading(options.localise, Access::Frozen).close();  // reports an unusable file before the work
+    urban_nav_store::openForReading(options.localise, Access::Frozen)
+        .close();  // reports an unusable file before the work
     return {true, "", {"each session is localised in the map of " + options.localise + ", which is only read"}};
   }
 
