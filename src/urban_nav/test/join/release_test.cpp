@@ -74,7 +74,7 @@ TEST_F(JoinedDays, ADriveIsLocalisedInARelease) {
 }
 
 TEST_F(JoinedDays, WhatAReleaseDoesNotHoldIsAdded) {
-  const std::string release = makeReleaseOnce(store("again"), file("middle.release"));  // 1 ... 7 s
+  const std::string release = makeReleaseOnce(store("again"), file("shorter.release"));  // 6 of 8 s
   ASSERT_EQ(
       runWords({"join", store("first"), "--onto", release, "-o", file("next.release"), "--json", file("onto.json")}),
       0);
