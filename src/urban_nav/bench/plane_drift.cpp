@@ -21,6 +21,7 @@
 #include "support/laser_sessions.hpp"
 #include "topics/graph/plane_closures.hpp"
 #include "topics/loops/loops_run.hpp"
+#include "topics/loops/stored_sessions.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
@@ -125,7 +126,10 @@ std::vector<MetricClosure> measureClosures(const Trajectory& truth, const Sessio
   std::vector<MetricClosure> candidates;
   for (const auto& [a, b] : findRevisits(truth)) candidates.push_back(toMetricClosure(makeCandidate(truth, a, b)));
   Console console;
-  return runLoops({}, {}, {}, {{"drive", kBenchSession, &odometry}}, store, candidates, console).closures;
+  CandidateMeasurer measurer;
+  measurer.stores = {store.path()};
+  measurer.sessions = storedSessions({{"drive", kBenchSession, &odometry}}, store, measurer.camera);
+  return runLoops(measurer, candidates, {}, console).closures;
 }
 
 struct Figures {

@@ -8,6 +8,7 @@
 #include "inspect/inspect.hpp"
 #include "inspect/results/result_recording.hpp"
 #include "join/join_command.hpp"
+#include "join/release_command.hpp"
 #include "map/map_command.hpp"
 #include "simulate/simulate_command.hpp"
 #include "topics/graph/graph.hpp"
@@ -27,6 +28,7 @@ std::vector<Command> allCommands() {
           exportCommand(),
           mergeCommand(),
           joinCommand(makeStages),
+          releaseCommand(),
           relaxCommand(),
           icpCommand(),
           disparityCommand(),

@@ -7,6 +7,7 @@
 #include "base/console.hpp"
 #include "base/json.hpp"
 #include "base/parameters.hpp"
+#include "inspect/geopackage/store_geopackage.hpp"
 #include "inspect/inspect.hpp"
 #include "inspect/numbered_path.hpp"
 #include "inspect/results/result_recording.hpp"
@@ -38,19 +39,28 @@ MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
   const auto path = [&](const char* option) {
     return arguments.has(option) ? numberedPath(arguments.get(option), number) : std::string();
   };
-  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho"), path("mesh"), arguments.get("crs")};
+  return {path("ply"),
+          path("pcd"),
+          path("las"),
+          path("grid"),
+          path("ortho"),
+          path("mesh"),
+          arguments.get("crs") == "local" ? "" : arguments.get("crs")};
 }
 
 void checkFormats(const Arguments& arguments) {
   const bool any = mapFilePaths(arguments, 0).any() || arguments.has("tum") || arguments.has("kitti") ||
-                   arguments.has("g2o") || arguments.has("places") || arguments.has("mcap") || arguments.has("results");
+                   arguments.has("g2o") || arguments.has("places") || arguments.has("mcap") ||
+                   arguments.has("results") || arguments.has("gpkg");
   if (!any)
-    throw UserError("urban_nav export", "no format is asked for",
-                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho, --mesh or --mcap FILE, or --places "
-                    "or --results DIR");
+    throw UserError(
+        "urban_nav export", "no format is asked for",
+        "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho, --mesh, --gpkg or --mcap FILE, or --places "
+        "or --results DIR");
   if (arguments.has("crs")) {
-    parseCrs(arguments.get("crs"));
-    if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
+    if (arguments.get("crs") != "local") parseCrs(arguments.get("crs"));
+    if (!arguments.has("las") && !arguments.has("gpkg"))
+      throw UserError("--crs", "no --las or --gpkg FILE", "one of them, whose coordinates it sets");
   }
   if (arguments.has("mcap")) checkResultPath(arguments.get("mcap"));
   const std::string ortho = arguments.get("ortho");
@@ -148,7 +158,7 @@ void writeResults(Store& store, const Maps& maps, const Arguments& arguments, Wr
 int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
-  Store store(arguments.get("STORE"), Access::Snapshot);
+  Store store(arguments.get("STORE"), Access::Frozen);
   const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
   if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
   Written written(console);
@@ -172,6 +182,10 @@ int runExport(const Arguments& arguments, Console& console) {
     for (const std::string& path : places.files)
       written.note(path,
                    std::to_string(places.places) + " places, " + std::to_string(places.thumbnails) + " thumbnails");
+  }
+  if (arguments.has("gpkg")) {
+    writeGeoPackage(store, maps, arguments.get("gpkg"), arguments.get("crs"));
+    written.note(arguments.get("gpkg"), "trajectories, closures, coverage and quality as layers");
   }
   if (arguments.has("results")) writeResults(store, maps, arguments, written);
   if (arguments.has("mcap"))
@@ -201,9 +215,15 @@ std::vector<Option> exportOptions() {
           {"--ply", "FILE", "the map of laser points, with the bytes of map.ply", false, false, {}},
           {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
           {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
+          {"--gpkg",
+           "FILE",
+           "trajectories, closures, coverage and quality of all sessions as layers of a GeoPackage",
+           false,
+           false,
+           {}},
           {"--crs",
-           "auto,EPSG:N",
-           "coordinate system of --las; needs GPS fixes (default: the frame map)",
+           "auto,EPSG:N,local",
+           "coordinate system of --las and --gpkg; needs GPS fixes (default: local, the frame map)",
            false,
            false,
            {}},

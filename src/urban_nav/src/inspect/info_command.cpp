@@ -6,10 +6,12 @@
 #include "base/json.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
+#include "inspect/fleet_report.hpp"
 #include "inspect/inspect.hpp"
 #include "inspect/store_info.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/examination/input_info.hpp"
 
 namespace urban_nav {
@@ -74,8 +76,26 @@ Json toJson(const urban_nav_input::InputInfo& info) {
   return json;
 }
 
+int runReport(const Arguments& arguments, Console& console) {
+  const std::vector<std::string> folders = arguments.all("INPUT");
+  if (folders.size() != 1)
+    throw urban_nav_core::UserError("--report", std::to_string(folders.size()) + " inputs", "one folder of stores");
+  const Fleet fleet = readFleet(folders.front());
+  urban_nav_core::writeAtomically(arguments.get("report"), renderPage(fleetPage(fleet)));
+  console.info(std::to_string(fleet.sessions.size()) + " sessions");
+  for (const auto& [name, reason] : fleet.unreadable) console.warn(reason);
+  console.print(arguments.get("report") + "\n");
+  if (arguments.has("json")) {
+    Json all = Json::array();
+    all.append(toJson(fleet));
+    urban_nav_core::writeAtomically(arguments.get("json"), all.print());
+  }
+  return 0;
+}
+
 int runInfo(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
+  if (arguments.has("report")) return runReport(arguments, console);
   Json all = Json::array();
   for (const std::string& input : arguments.all("INPUT")) {
     if (urban_nav_store::isStore(input) || fs::path(input).extension() == ".db") {
@@ -98,12 +118,19 @@ Command infoCommand() {
   Command command;
   command.name = "info";
   command.summary = "Says what is in a recording, folder or session store: sessions, topics, rates, gaps, distance.";
-  command.options = {{"INPUT", "", "recordings, folders or session stores", true, true, {}},
+  command.options = {{"INPUT", "", "recordings, folders, session stores or releases", true, true, {}},
+                     {"--report",
+                      "FILE.html",
+                      "one page on all stores below the folder INPUT: sessions by robot and day, joined or why not, "
+                      "quality, disagreement, calibrations",
+                      false,
+                      false,
+                      {}},
                      jsonOption(),
                      configOption(),
                      setOption(),
                      threadsOption()};
-  command.examples = {"urban_nav info robot.bag out/session.db"};
+  command.examples = {"urban_nav info robot.bag out/session.db", "urban_nav info sessions --report fleet.html"};
   command.more_help = commonHelp;
   command.run = runInfo;
   return command;

@@ -124,9 +124,10 @@ std::string toText(const StoredSession& each) {
 }  // namespace
 
 StoreInfo readStoreInfo(const std::string& path) {
-  Store store(path, urban_nav_store::Access::Snapshot);
+  Store store(path, urban_nav_store::Access::Frozen);
   StoreInfo info;
   info.path = path;
+  if (urban_nav_store::isRelease(path)) info.release = readReleaseHead(store);
   for (const char* suffix : {"", "-wal"}) {
     std::error_code error;
     const auto size = std::filesystem::file_size(path + suffix, error);
@@ -172,6 +173,9 @@ StoreInfo readStoreInfo(const std::string& path) {
         groups.join(places.at(edge.a.session), b->second);
     });
   }
+  for (std::size_t i = 0; info.release && i < info.sessions.size(); ++i)  // its closures may be left out
+    for (std::size_t k = 0; k < i; ++k)
+      if (info.sessions[i].map == info.sessions[k].map) groups.join(i, k);
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < info.sessions.size(); ++i) members[groups.find(i)].push_back(i);
   for (auto& [first, group] : members) info.joined.push_back(std::move(group));
@@ -179,8 +183,12 @@ StoreInfo readStoreInfo(const std::string& path) {
 }
 
 std::string toText(const StoreInfo& info) {
-  std::string text = info.path + ": session store, " + printBytes(info.bytes) + ", " +
-                     std::to_string(info.sessions.size()) + (info.sessions.size() == 1 ? " session\n" : " sessions\n");
+  std::string text = info.path +
+                     (info.release ? ": release " + std::to_string(info.release->version) + ", digest " +
+                                         info.release->digest.substr(0, 12) + ", "
+                                   : std::string(": session store, ")) +
+                     printBytes(info.bytes) + ", " + std::to_string(info.sessions.size()) +
+                     (info.sessions.size() == 1 ? " session\n" : " sessions\n");
   for (const StoredSession& each : info.sessions) text += toText(each);
   text += info.sessions.empty() ? "" : "\n";
   for (std::size_t i = 0; i < info.joined.size(); ++i) {
@@ -195,11 +203,23 @@ std::string toText(const StoreInfo& info) {
   return text;
 }
 
+namespace {
+
+void addRelease(const urban_nav_store::ReleaseHead& release, Json& json) {
+  json["version"] = release.version;
+  json["digest"] = release.digest;
+  Json& parents = json["parents"] = Json::array();
+  for (const std::string& parent : release.parents) parents.append(parent);
+}
+
+}  // namespace
+
 Json toJson(const StoreInfo& info) {
   Json json = Json::object();
   json["name"] = info.path;
-  json["kind"] = "session store";
+  json["kind"] = info.release ? "release" : "session store";
   json["bytes"] = info.bytes;
+  if (info.release) addRelease(*info.release, json);
   Json& sessions = json["sessions"] = Json::array();
   for (const StoredSession& each : info.sessions) {
     Json entry = Json::object();

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/json.hpp"
 #include "urban_nav_input/examination/input_info.hpp"
+#include "urban_nav_store/release.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
@@ -35,7 +37,8 @@ struct StoredSession {
 
 struct StoreInfo {
   std::string path;
-  std::int64_t bytes = 0;  ///< with the log beside the file
+  std::int64_t bytes = 0;                               ///< with the log beside the file
+  std::optional<urban_nav_store::ReleaseHead> release;  ///< nullopt: a session store
   std::vector<StoredSession> sessions;
   /// Sessions that accepted closures tie together, by place in `sessions`; one of its own for each that stands alone.
   std::vector<std::vector<std::size_t>> joined;

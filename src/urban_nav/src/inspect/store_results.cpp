@@ -99,9 +99,14 @@ std::optional<PlacedRow> storedRow(const std::string& evidence, const std::strin
   }
 }
 
-std::string closuresCsv(Store& store, const PreviousSessions& sessions) {
+std::map<SessionId, std::string> namesById(const PreviousSessions& sessions) {
   std::map<SessionId, std::string> names;
   for (std::size_t s = 0; s < sessions.ids.size(); ++s) names[sessions.ids[s]] = sessions.names[s];
+  return names;
+}
+
+std::string closuresCsv(Store& store, const PreviousSessions& sessions) {
+  const std::map<SessionId, std::string> names = namesById(sessions);
   std::vector<PlacedRow> rows;
   for (const SessionId& id : sessions.ids) {
     std::vector<Edge> edges;
@@ -150,6 +155,10 @@ StoredResults readResults(Store& store) {
   else addOdometryGraphs(store, sessions.ids, results);
   return results;
 }
+
+std::string storedClosures(Store& store) { return closuresCsv(store, readPreviousSessions(store, {})); }
+
+std::map<SessionId, std::string> sessionNamesById(Store& store) { return namesById(readPreviousSessions(store, {})); }
 
 std::size_t numberOfSession(Store& store, const SessionId& id) {
   const std::vector<SessionId> ids = readPreviousSessions(store, {}).ids;

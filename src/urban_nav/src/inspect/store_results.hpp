@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct StoredResults {
 
 /// Returns the files of all sessions of a store, in the order of their start, with the bytes that `map` wrote.
 StoredResults readResults(urban_nav_store::Store& store);
+
+/// Returns closures.csv of all sessions of a store, with the bytes that `map` wrote.
+std::string storedClosures(urban_nav_store::Store& store);
+
+/// Returns the names that closures.csv gives the sessions of a store.
+std::map<urban_nav_store::SessionId, std::string> sessionNamesById(urban_nav_store::Store& store);
 
 /// Returns the number of the session, from 0, whose map has its frame from session `id`: what fileSuffix() takes.
 std::size_t numberOfSession(urban_nav_store::Store& store, const urban_nav_store::SessionId& id);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/console.hpp"
@@ -36,7 +38,8 @@ struct SessionEvaluations {
 /// What the stages of one run share: its options, its sessions, its store, and the results that earlier stages hand to
 /// later ones. Not thread-safe.
 ///
-/// Vectors "over all sessions" hold the previous sessions first (previous.runs), then those of this run.
+/// Vectors "over all sessions" hold the sessions in the order of their numbers: the previous ones first, then those of
+/// this run; all of them in the order of their start where the run joins them.
 struct MapContext {
   MapContext(const MapOptions& of_run, Console& of_user) : options(of_run), console(of_user) {}
 
@@ -44,8 +47,8 @@ struct MapContext {
   Console& console;
   urban_nav_store::Store* store = nullptr;  ///< session.db of the run; set before the first session
   std::vector<MapSession> sessions;
-  PreviousSessions previous;  ///< of the store given by --store, if a stage uses them
-  bool joins = false;  ///< no session is read: places of the previous ones are recognised anew, closures measured anew
+  PreviousSessions previous;       ///< of the store given by --store, if a stage uses them
+  bool joins = false;              ///< places of the previous sessions are recognised anew, and closures measured anew
   std::vector<std::string> names;  ///< over all sessions, as closures.csv names them
 
   std::vector<urban_nav_core::MetricClosure> closures;  ///< candidates, then with transforms; those of previous runs
@@ -56,12 +59,23 @@ struct MapContext {
   std::vector<urban_nav_core::Trajectory>
       stereo_only;                              ///< over all sessions, relaxed without ICP; empty: no difference
   std::vector<SessionEvaluations> evaluations;  ///< over all sessions; empty until all stages have run
+  std::vector<std::size_t> numbers;  ///< over all sessions, of those of this run; empty: they follow the previous ones
+  /// Over all sessions: part of a release, whose places are known and whose poses stay. Empty: none is.
+  std::vector<bool> is_frozen;
+  /// Closures that pieces of a join have measured, by their poses: not measured again.
+  std::map<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>, urban_nav_core::MetricClosure> measured;
 
+  /// Returns the number of a session of this run over all sessions. Requires session < sessions.size().
+  std::size_t number(std::size_t session) const;
+  /// Returns whether the session with this number is one of the previous ones.
+  bool isPrevious(std::size_t number) const;
+  /// Returns how many sessions, the first ones, keep the files that an earlier run has written.
+  std::size_t sessionsKept() const { return joins ? 0 : previous.runs.size(); }
   /// Return odometry and store keys over all sessions.
   std::vector<const SessionOdometry*> runs() const;
   std::vector<urban_nav_store::SessionId> ids() const;
-  /// Returns the camera of the last session that has one, those of this run before previous ones; that of a stored
-  /// session is the one with which it was read. Returns nullopt if none has images.
+  /// Returns the camera of the last session that has one; that of a stored session is the one with which it was read.
+  /// Returns nullopt if none has images.
   std::optional<urban_nav_registration::MountedCamera> lastCamera() const;
 };
 

@@ -132,8 +132,8 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        {}},
       {"--localise",
        "FILE",
-       "localise the inputs in the map of this store, which is only read: localisation.csv holds poses, and whether "
-       "they are KNOWN",
+       "localise the inputs in the map of this store or release, which is only read: localisation.csv holds poses, and "
+       "whether they are KNOWN",
        false,
        false,
        {}},

@@ -5,10 +5,12 @@
 
 #include "base/command_parameters.hpp"
 #include "base/plot.hpp"
+#include "map/lost_closures.hpp"
 #include "map/map_report.hpp"
 #include "map/output_files.hpp"
 #include "map/run_totals.hpp"
 #include "map/session_evaluation.hpp"
+#include "map/session_order.hpp"
 #include "map/session_reader.hpp"
 #include "map/stage_selection.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -54,8 +56,15 @@ class MapRun {
     RunCheckpoint checkpoint(context_.options, stages_, context_.sessions, folder_.file("session.db"),
                              context_.console);
     context_.store = &checkpoint.store();
+    ClosurePoses accepted_before;
+    addAcceptedClosures(*context_.store, accepted_before);
     readSessions(checkpoint);
+    context_.joins = joinsSessions(context_.options, stages_);
+    if (context_.joins) orderSessions(context_);
     runStages();
+    if (context_.joins)
+      if (const std::string lost = lostClosuresWarning(*context_.store, accepted_before); !lost.empty())
+        context_.console.warn(lost);
     context_.evaluations = evaluateSessions(context_);
     writeResults();
     if (record_ && !context_.options.mcap.empty()) recordResults();

@@ -114,11 +114,10 @@ StageResult evaluationResult(const Evaluation& evaluation, std::size_t session) 
 /// Returns one result per comparison with ground truth.
 std::vector<StageResult> evaluationResults(const MapContext& context) {
   std::vector<StageResult> results;
-  const std::size_t previous = context.previous.runs.size();
-  for (std::size_t s = previous; s < context.evaluations.size(); ++s)
-    if (context.evaluations[s].map)
-      results.push_back(
-          evaluationResult(*context.evaluations[s].map, context.sessions.size() > 1 ? s - previous + 1 : 0));
+  if (context.evaluations.empty()) return results;
+  for (std::size_t i = 0; i < context.sessions.size(); ++i)
+    if (const std::optional<Evaluation>& of_map = context.evaluations[context.number(i)].map)
+      results.push_back(evaluationResult(*of_map, context.sessions.size() > 1 ? i + 1 : 0));
   return results;
 }
 

@@ -86,7 +86,7 @@ void writeOutputFiles(const OutputFolder& folder, const MapContext& context,
   for (const std::string& name : folder.list()) {
     if (written.count(name) != 0) continue;
     const bool by_run = matches(name, names.by_run, 0);
-    if (by_run ? matches(name, names.by_run, context.previous.runs.size()) : matches(name, names.by_left_out, 0))
+    if (by_run ? matches(name, names.by_run, context.sessionsKept()) : matches(name, names.by_left_out, 0))
       folder.remove(name);
   }
 }

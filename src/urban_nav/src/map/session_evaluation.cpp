@@ -47,12 +47,11 @@ std::optional<urban_nav_input::TrajectoryFile> readTruth(const MapContext& conte
 }  // namespace
 
 std::vector<SessionEvaluations> evaluateSessions(const MapContext& context) {
-  const std::size_t previous = context.previous.runs.size();
   std::vector<SessionEvaluations> evaluations(context.trajectories.size());
   for (std::size_t i = 0; i < context.sessions.size(); ++i) {
     const MapSession& session = context.sessions[i];
-    const SessionTrajectory& trajectory = context.trajectories[previous + i];
-    SessionEvaluations& result = evaluations[previous + i];
+    const SessionTrajectory& trajectory = context.trajectories[context.number(i)];
+    SessionEvaluations& result = evaluations[context.number(i)];
     try {
       const std::optional<urban_nav_input::TrajectoryFile> truth = readTruth(context, session);
       if (!truth) continue;

@@ -4,74 +4,22 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "commands/stages.hpp"
-#include "inspect/inspect.hpp"
-#include "inspect/store_info.hpp"
-#include "join/join_command.hpp"
-#include "map/map_command.hpp"
-#include "support/shared_drive.hpp"
-#include "urban_nav_input/testing/folders.hpp"
+#include "join/join_plan.hpp"
+#include "joined_days.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 namespace {
 
 using urban_nav_input::testing::readFile;
-using urban_nav_input::testing::TemporaryFolder;
 using urban_nav_input::testing::writeFile;
 
-int runWords(std::vector<std::string> words) {
-  std::vector<const char*> argv = {"urban_nav"};
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  return runCommandLine({mapCommand(makeStages), exportCommand(), mergeCommand(), joinCommand(makeStages)},
-                        addStageTables, static_cast<int>(argv.size()), argv.data());
-}
-
-/// Two parts of one drive, each mapped alone, and both in one run.
-class Join : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    shared_ = std::make_unique<TemporaryFolder>();
-    const std::vector<std::string> topics = {"/stereo/", "/ladybug/", "/laser_", "/imu/"};
-    testing::cutSharedDrive(file("first.bag"), {0.0, 8.0, topics});
-    testing::cutSharedDrive(file("second.bag"), {14.0, 22.0, topics});
-    for (const char* name : {"first", "second"}) ASSERT_EQ(map({file(std::string(name) + ".bag")}, name), 0);
-    ASSERT_EQ(map({file("first.bag"), file("second.bag")}, "both"), 0);
-  }
-  static void TearDownTestSuite() { shared_.reset(); }
-  static std::string file(const std::string& name) { return shared_->file(name); }
-  static std::string store(const std::string& name) { return file(name + "/session.db"); }
-  static int map(std::vector<std::string> inputs, const std::string& out) {
-    inputs.insert(inputs.begin(), "map");
-    for (const std::string& word :
-         {std::string("--out"), file(out), std::string("--stages"), std::string("vo,places,loops,graph,lasers")})
-      inputs.push_back(word);
-    return runWords(inputs);
-  }
-  /// Names of the result files that differ from those of a folder that `map` wrote.
-  static std::vector<std::string> differences(const std::string& written, const std::string& mapped) {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(file(mapped))) {
-      const std::string name = entry.path().filename().string();
-      const bool is_result = name.rfind("trajectory", 0) == 0 || name.rfind("covariance", 0) == 0 ||
-                             name.rfind("relative_covariance", 0) == 0 || name.rfind("closures", 0) == 0 ||
-                             name.rfind("graph", 0) == 0 || name == "map.ply";
-      if (is_result && readFile(entry.path().string()) != readFile(file(written) + "/" + name)) names.push_back(name);
-    }
-    return names;
-  }
-
- private:
-  static std::unique_ptr<TemporaryFolder> shared_;
-};
-std::unique_ptr<TemporaryFolder> Join::shared_;
-
-TEST_F(Join, TheStoreOfAMapHoldsItsResults) {
+TEST_F(JoinedDays, TheStoreOfAMapHoldsItsResults) {
   ASSERT_EQ(runWords({"export", store("both"), "--results", file("results")}), 0);
   EXPECT_EQ(differences("results", "both"), std::vector<std::string>());
 }
 
-TEST_F(Join, StoresInAnyOrderGiveTheBytesOfOneRun) {
+TEST_F(JoinedDays, StoresInAnyOrderGiveTheBytesOfOneRun) {
   ASSERT_EQ(runWords({"join", store("second"), store("first"), "-o", file("joined.db"), "--json", file("joined.json")}),
             0);
   ASSERT_EQ(runWords({"export", file("joined.db"), "--results", file("joined")}), 0);
@@ -81,7 +29,7 @@ TEST_F(Join, StoresInAnyOrderGiveTheBytesOfOneRun) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
 }
 
-TEST_F(Join, JoinedAndMergedStoresAreSourcesLikeOthers) {
+TEST_F(JoinedDays, JoinedAndMergedStoresAreSourcesLikeOthers) {
   ASSERT_EQ(runWords({"merge", store("first"), store("second"), "-o", file("merged.db")}), 0);
   EXPECT_EQ(readStoreInfo(file("merged.db")).joined.size(), 2U);
   ASSERT_EQ(runWords({"join", file("merged.db"), store("first"), "-o", file("again.db")}), 0);
@@ -89,7 +37,54 @@ TEST_F(Join, JoinedAndMergedStoresAreSourcesLikeOthers) {
   EXPECT_EQ(differences("again", "both"), std::vector<std::string>());
 }
 
-TEST_F(Join, ClosuresThatAreNotProposedAnywhereAreNamed) {
+TEST_F(JoinedDays, SessionsOfOnePlaceBecomeOneMap) {
+  ASSERT_EQ(runWords({"merge", store("again"), store("first"), "-o", file("apart.db")}), 0);
+  EXPECT_EQ(readStoreInfo(file("apart.db")).joined.size(), 2U);
+  ASSERT_EQ(runWords({"join", file("apart.db"), "-o", file("days.db")}), 0);
+  EXPECT_EQ(readStoreInfo(file("days.db")).joined.size(), 1U);
+  ASSERT_EQ(runWords({"export", file("days.db"), "--results", file("days_joined")}), 0);
+  EXPECT_EQ(differences("days_joined", "days"), std::vector<std::string>());
+}
+
+TEST_F(JoinedDays, ARunThatContinuesAStoreGivesTheSameInAnyOrder) {
+  ASSERT_EQ(map({file("first.bag")}, "backwards", {"--store", store("again")}), 0);
+  EXPECT_EQ(differences("backwards", "days"), std::vector<std::string>());
+}
+
+TEST_F(JoinedDays, PiecesGiveTheSame) {
+  ASSERT_EQ(runWords({"join", store("again"), store("first"), "--plan", file("plan"), "--json", file("plan.json")}), 0);
+  EXPECT_EQ(readFile(file("plan.json")), readFile(file("plan/plan.json")));
+  ASSERT_EQ(runWords({"join", store("first"), store("again"), "--plan", file("other")}), 0);
+  EXPECT_EQ(readFile(file("other/plan.json")), readFile(file("plan/plan.json")));
+  EXPECT_EQ(runWords({"join", "--finish", file("plan"), "-o", file("pieces.db")}), 1) << "a piece without result";
+  for (const std::string& piece : readPlan(file("plan/plan.json")).pieces) {
+    ASSERT_EQ(runWords({"join", "--piece", file("plan/" + piece)}), 0);
+    const std::string result = readFile(file("plan/" + piece + ".done"));
+    ASSERT_EQ(runWords({"join", "--piece", file("plan/" + piece)}), 0);
+    EXPECT_EQ(readFile(file("plan/" + piece + ".done")), result);
+  }
+  ASSERT_EQ(runWords({"join", "--finish", file("plan"), "-o", file("pieces.db")}), 0);
+  ASSERT_EQ(runWords({"export", file("pieces.db"), "--results", file("pieces")}), 0);
+  EXPECT_EQ(differences("pieces", "days"), std::vector<std::string>());
+  const std::string name = readPlan(file("plan/plan.json")).pieces.front();
+  ASSERT_EQ(runWords({"join", store("first"), store("second"), "--plan", file("foreign")}), 0);
+  ASSERT_EQ(runWords({"join", "--piece", file("foreign/" + name)}), 0);
+  std::filesystem::copy_file(file("foreign/" + name + ".done"), file("plan/" + name + ".done"),
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(runWords({"join", "--finish", file("plan"), "-o", file("none.db")}), 2) << "of another plan";
+  EXPECT_FALSE(std::filesystem::exists(file("none.db")));
+}
+
+TEST_F(JoinedDays, OptionsThatContradictEachOtherAreRefused) {
+  EXPECT_EQ(runWords({"join", store("first")}), 2);
+  EXPECT_EQ(runWords({"join", "-o", file("none.db")}), 2);
+  EXPECT_EQ(runWords({"join", store("first"), "--plan", file("p"), "-o", file("none.db")}), 2);
+  EXPECT_EQ(runWords({"join", "--piece", file("p"), "--finish", file("p"), "-o", file("none.db")}), 2);
+  EXPECT_EQ(runWords({"join", "--piece", file("absent.json")}), 2);
+  EXPECT_EQ(runWords({"join", "--finish", file("absent"), "-o", file("none.db")}), 2);
+}
+
+TEST_F(JoinedDays, ClosuresThatAreNotProposedAnywhereAreNamed) {
   std::filesystem::copy_file(store("first"), file("given.db"));
   {
     urban_nav_store::Store given(file("given.db"), urban_nav_store::Access::Write);
@@ -110,7 +105,7 @@ TEST_F(Join, ClosuresThatAreNotProposedAnywhereAreNamed) {
             std::string::npos);
 }
 
-TEST_F(Join, StoresWithoutCovariancesGiveNoneAndAreNamed) {
+TEST_F(JoinedDays, StoresWithoutCovariancesGiveNoneAndAreNamed) {
   std::filesystem::copy_file(store("first"), file("live.db"));
   {
     urban_nav_store::Store live(file("live.db"), urban_nav_store::Access::Write);
@@ -131,7 +126,7 @@ TEST_F(Join, StoresWithoutCovariancesGiveNoneAndAreNamed) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1) << "the header alone";
 }
 
-TEST_F(Join, WhatCannotBeJoinedIsRefusedAndNothingIsWritten) {
+TEST_F(JoinedDays, WhatCannotBeJoinedIsRefusedAndNothingIsWritten) {
   writeFile(file("text.db"), "not a store\n");
   EXPECT_EQ(runWords({"join", store("first"), file("text.db"), "-o", file("none.db")}), 2);
   EXPECT_EQ(runWords({"join", store("first"), file("absent.db"), "-o", file("none.db")}), 2);

@@ -3,6 +3,12 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MagneticField.h>
 #include <stdio.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -35,6 +41,27 @@ void copyTruth(const std::string& drive, const std::string& to) {
     std::filesystem::copy_file(from / file, folder / file);
 }
 
+/// Writes a message with a later header stamp if it is of type Message; returns whether it is.
+template <typename Message>
+bool writeLater(const rosbag::MessageInstance& message, int days, rosbag::Bag& target) {
+  const auto original = message.instantiate<Message>();
+  if (original == nullptr) return false;
+  Message later = *original;
+  later.header.stamp += ros::Duration(86400.0 * days);
+  target.write(message.getTopic(), message.getTime(), later);
+  return true;
+}
+
+void writeLater(const rosbag::MessageInstance& message, int days, rosbag::Bag& target) {
+  const bool is_written = writeLater<sensor_msgs::Image>(message, days, target) ||
+                          writeLater<sensor_msgs::CompressedImage>(message, days, target) ||
+                          writeLater<sensor_msgs::CameraInfo>(message, days, target) ||
+                          writeLater<sensor_msgs::LaserScan>(message, days, target) ||
+                          writeLater<sensor_msgs::Imu>(message, days, target) ||
+                          writeLater<sensor_msgs::MagneticField>(message, days, target);
+  if (!is_written) throw std::runtime_error(message.getTopic() + " has no header that is known");
+}
+
 }  // namespace
 
 void cutSharedDrive(const std::string& to, const DrivePart& part) {
@@ -57,7 +84,9 @@ void cutSharedDrive(const std::string& to, const DrivePart& part) {
   }
   rosbag::View view(source, begin, start + ros::Duration(part.end) - ros::Duration(0, 1));
   for (const rosbag::MessageInstance& message : view) {
-    if (is_wanted(message.getTopic())) target.write(message.getTopic(), message.getTime(), message);
+    if (!is_wanted(message.getTopic())) continue;
+    if (part.days != 0) writeLater(message, part.days, target);
+    else target.write(message.getTopic(), message.getTime(), message);
   }
   copyTruth(drive, to);
 }

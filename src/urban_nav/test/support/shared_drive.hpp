@@ -11,6 +11,7 @@ struct DrivePart {
   double begin = 0.0, end = 0.0;         ///< s since its start
   std::vector<std::string> topics = {};  ///< how the names of its topics begin; /tf_static belongs to every part
   std::string misplaced = "";            ///< as `simulate --misplace`: FRAME:ROLL,PITCH,YAW (deg); empty: nothing
+  int days = 0;                          ///< by so many days later stamps of headers: another session of the same drive
 };
 
 /// Writes a part of the simulated drive that tests share to the bag `to`, and to the folder of the same name with the

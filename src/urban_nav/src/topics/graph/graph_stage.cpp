@@ -16,6 +16,7 @@
 #include "topics/graph/plane_closures.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_store/merge.hpp"
 #include "urban_nav_store/stored_fixes.hpp"
 
 namespace urban_nav {
@@ -25,32 +26,44 @@ namespace {
 constexpr double kDegreesPerRadian = 57.29577951308232;
 constexpr double kLevelDeg = 5.0;  // standard deviation of a map that is called aligned
 
-/// Returns the closures that the store holds between previous sessions and continued ones.
-PreviousClosures previousClosures(const MapContext& context) {
-  std::vector<urban_nav_store::SessionId> ids = context.previous.ids;
-  std::vector<std::string> names = context.previous.names;
-  for (std::size_t i = 0; i < context.sessions.size(); ++i) {
-    if (!context.sessions[i].continued) continue;
-    ids.push_back(context.sessions[i].id);
-    names.push_back(context.names[context.previous.names.size() + i]);
-  }
-  return closuresBetween(*context.store, ids, names);
-}
-
-/// Removes the constraints from planes from closures of earlier runs, and returns them.
-std::vector<pose_graph::Closure> takePlanes(PreviousClosures& closures) {
-  PreviousClosures others;
-  std::vector<pose_graph::Closure> planes;
+/// Removes closures from those of earlier runs, and returns them.
+template <typename IsTaken>
+PreviousClosures takeClosures(PreviousClosures& closures, const IsTaken& is_taken) {
+  PreviousClosures others, taken;
   for (std::size_t i = 0; i < closures.in_graph.size(); ++i) {
-    if (closures.in_graph[i].kind == pose_graph::EdgeKind::Plane) {
-      planes.push_back(closures.in_graph[i]);
-    } else {
-      others.offered.push_back(closures.offered[i]);
-      others.in_graph.push_back(closures.in_graph[i]);
-    }
+    PreviousClosures& to = is_taken(closures.in_graph[i]) ? taken : others;
+    to.offered.push_back(closures.offered[i]);
+    to.in_graph.push_back(closures.in_graph[i]);
   }
   closures = std::move(others);
-  return planes;
+  return taken;
+}
+
+bool isOfPlane(const pose_graph::Closure& closure) { return closure.kind == pose_graph::EdgeKind::Plane; }
+
+/// Returns whether a run that joins finds the closure of an earlier run anew. Those of a file and asserted ones stay.
+bool isFoundAnew(const pose_graph::Closure& closure) {
+  return urban_nav_store::isFoundAnew(closure.kind, closure.source);
+}
+
+/// Returns the closures that the store holds between previous sessions and continued ones, as far as this run does not
+/// find them anew.
+PreviousClosures previousClosures(const MapContext& context) {
+  const std::vector<urban_nav_store::SessionId> all = context.ids();
+  std::vector<bool> has_closures(all.size());
+  for (std::size_t s = 0; s < all.size(); ++s) has_closures[s] = context.isPrevious(s);
+  for (std::size_t i = 0; i < context.sessions.size(); ++i)
+    if (context.sessions[i].continued) has_closures[context.number(i)] = true;
+  std::vector<urban_nav_store::SessionId> ids;
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    if (!has_closures[s]) continue;
+    ids.push_back(all[s]);
+    names.push_back(context.names[s]);
+  }
+  PreviousClosures closures = closuresBetween(*context.store, ids, names);
+  if (context.joins) takeClosures(closures, isFoundAnew);
+  return closures;
 }
 
 /// Returns whether the stage loops has accepted the closure, by ICP.
@@ -99,7 +112,7 @@ class GraphStage final : public Stage {
     const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
     const std::vector<const SessionOdometry*> runs = context.runs();
     PreviousClosures previous = previousClosures(context);
-    const PlaneFinder find_planes = makePlaneFinder(context, takePlanes(previous));
+    const PlaneFinder find_planes = makePlaneFinder(context, takeClosures(previous, isOfPlane).in_graph);
     const SessionGrounds grounds = readGrounds(context);
     const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
     run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes);

@@ -21,8 +21,8 @@ class CalibrationStage final : public Stage {
     const laser_mapper::Parameters& parameters = context.options.parameters.get(laser_mapper::table());
     const std::vector<urban_nav_store::SessionId> ids = context.ids();
     Messages messages;
-    for (std::size_t s = context.previous.runs.size(); s < ids.size(); ++s) {
-      if (context.store->scans().lasers(ids[s]).empty()) continue;
+    for (std::size_t s = 0; s < ids.size(); ++s) {
+      if (context.isPrevious(s) || context.store->scans().lasers(ids[s]).empty()) continue;
       calibrations_->push_back(calibrateSession(parameters, s, context));
       messages.info.push_back("calibration of " + context.names[s] + " along odometry: " +
                               (calibrations_->back().found.isAdopted() ? "adopted" : "as stated"));

@@ -134,7 +134,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
 /// adopted. What stage calibration has found stands where no relaxation has changed the trajectory since.
 void calibrateForMap(const laser_mapper::Parameters& parameters, std::size_t session, const MapContext& context,
                      const std::vector<SessionCalibration>& along_odometry, LasersRun& run) {
-  if (!context.options.calibrate || session < context.previous.runs.size()) return;
+  if (!context.options.calibrate || context.isPrevious(session)) return;
   const auto found = std::find_if(along_odometry.begin(), along_odometry.end(),
                                   [&](const SessionCalibration& each) { return each.number == session; });
   if (found != along_odometry.end() && !context.relaxed) run.calibrations.push_back(*found);
@@ -237,6 +237,8 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
       trajectories.push_back(&session.T_map_base);
     }
     if (mapped.empty()) continue;
+    if (context.joins)  // chunks of earlier runs lie within max_shift of their places, not at them
+      for (const laser_mapper::MappedSession& session : mapped) laser_mapper::forgetChunks(*context.store, session.id);
     LaserMap laser_map(parameters, *context.store, mapped);
     const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;
     const auto make_colouriser = [&, &sessions_of_this_map = sessions] {

@@ -104,7 +104,7 @@ class LoStage final : public Stage {
   }
 
   Messages run(MapContext& context) override {
-    context.trajectories = odometryTrajectories(context.runs(), context.previous.runs.size());
+    context.trajectories = odometryTrajectories(context.runs(), context.sessionsKept());
     const LoSummary summary = summariseLo(runs());
     Messages messages;
     messages.info.push_back("lo: " + std::to_string(summary.sweeps) + " sweeps, " +
@@ -123,7 +123,6 @@ class LoStage final : public Stage {
     result.method = "Laser odometry";
     result.tiles = {{urban_nav_core::formatNumber(summary.ms_median, 3), "ms", "median time of a sweep", Grade::Plain}};
     result.verdicts = loVerdicts(summary);
-    const std::size_t previous = context.previous.runs.size();
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (!runs_[i]) continue;
       for (Section& section : loSections(*runs_[i])) {
@@ -133,7 +132,7 @@ class LoStage final : public Stage {
         }
         result.sections.push_back({report_place::kOdometry, std::move(section)});
       }
-      const std::string suffix = fileSuffix(previous + i);
+      const std::string suffix = fileSuffix(context.number(i));
       const LoRun& run = *runs_[i];
       if (!context.relaxed) result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
       result.files.push_back({"sweeps" + suffix + ".csv", [&run] { return sweepsCsv(run); }});

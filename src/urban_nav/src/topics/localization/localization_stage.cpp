@@ -35,12 +35,12 @@ class LocalizationStage final : public Stage {
     if (options.localise.empty()) return {false, "no --localise", {}};
     if (!options.store.empty())
       throw urban_nav_core::UserError("--localise", "the map is only read, and --store continues one", "one of them");
-    Store(options.localise, Access::Read).close();  // reports an unusable file before the work
+    Store(options.localise, Access::Frozen).close();  // reports an unusable file before the work
     return {true, "", {"each session is localised in the map of " + options.localise + ", which is only read"}};
   }
 
   Messages run(MapContext& context) override {
-    Store frozen(context.options.localise, Access::Snapshot);
+    Store frozen(context.options.localise, Access::Frozen);
     urban_nav_localization::Parameters parameters = context.options.parameters.get(urban_nav_localization::table());
     parameters.registration = context.options.parameters.get(urban_nav_registration::table());
     Messages messages;
@@ -51,7 +51,7 @@ class LocalizationStage final : public Stage {
       const LocalizationRun& made = runs_.back();
       messages.info.push_back(describeRun(made));
       messages.warnings.insert(messages.warnings.end(), made.warnings.begin(), made.warnings.end());
-      if (!made.T_map_base.empty()) context.trajectories[context.previous.runs.size() + i].localized = made.T_map_base;
+      if (!made.T_map_base.empty()) context.trajectories[context.number(i)].localized = made.T_map_base;
     }
     return messages;
   }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/console.hpp"
 #include "base/page.hpp"
-#include "loop_metric/parameters.hpp"
-#include "map/session_odometry.hpp"
-#include "topics/loops/stored_sessions.hpp"
-#include "urban_nav_core/types/closure.hpp"
-#include "urban_nav_store/store.hpp"
+#include "topics/loops/candidate_measurement.hpp"
 
 namespace urban_nav {
 
@@ -24,12 +22,14 @@ struct LoopsRun {
   std::vector<std::string> warnings;
 };
 
-/// Measures the transforms of candidates from the keyframes and scans that `store` holds, which must be committed. Uses
-/// the two times and the probability of each candidate alone. Runs on several threads; the result does not depend on
-/// their number. `camera`: that of the last session.
-LoopsRun runLoops(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
-                  const urban_nav_core::Pose& T_base_camera, const std::vector<CandidateSession>& sessions,
-                  urban_nav_store::Store& store, const std::vector<urban_nav_core::MetricClosure>& candidates,
-                  Console& console);
+/// Closures that were measured before, by their poses.
+using MeasuredClosures =
+    std::map<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>, urban_nav_core::MetricClosure>;
+
+/// Measures the transforms of candidates from keyframes and scans of stores, which must be committed, but for those in
+/// `measured`, and compares all of them with each other. Uses the two times and the probability of each candidate
+/// alone. Runs on several threads; the result does not depend on their number.
+LoopsRun runLoops(const CandidateMeasurer& measurer, const std::vector<urban_nav_core::MetricClosure>& candidates,
+                  const MeasuredClosures& measured, Console& console);
 
 }  // namespace urban_nav

@@ -5,6 +5,7 @@
 #include "map/closure_notes.hpp"
 #include "topics/loops/loops_report.hpp"
 #include "topics/loops/loops_run.hpp"
+#include "topics/loops/stored_sessions.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
 namespace urban_nav {
@@ -29,11 +30,13 @@ class LoopsStage final : public Stage {
     const std::vector<urban_nav_store::SessionId> ids = context.ids();
     std::vector<CandidateSession> sessions;
     for (std::size_t i = 0; i < runs.size(); ++i) sessions.push_back({context.names[i], ids[i], runs[i]});
-    const auto last = context.lastCamera().value_or(urban_nav_registration::MountedCamera());  // of none: no views
-    loop_metric::Parameters parameters = context.options.parameters.get(loop_metric::table());
-    parameters.registration = context.options.parameters.get(urban_nav_registration::table());
-    run_ = runLoops(parameters, last.camera, last.T_base_left, sessions, *context.store, context.closures,
-                    context.console);
+    CandidateMeasurer measurer;
+    measurer.camera = context.lastCamera().value_or(urban_nav_registration::MountedCamera());  // of none: no views
+    measurer.stores = {context.store->path()};
+    measurer.sessions = storedSessions(sessions, *context.store, measurer.camera);
+    measurer.parameters = context.options.parameters.get(loop_metric::table());
+    measurer.parameters.registration = context.options.parameters.get(urban_nav_registration::table());
+    run_ = runLoops(measurer, context.closures, context.measured, context.console);
     context.closures = run_->closures;
     if (run_->candidates == 0) return {};
     return {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -28,6 +29,20 @@ TravelledDistance travelledDistance(const SessionOdometry& run) {
   return travelled;
 }
 
+/// Returns whether the places of a session are known from the beginning.
+bool isKnown(const MapContext& context, std::size_t session) {
+  if (session < context.is_frozen.size() && context.is_frozen[session]) return true;
+  return !context.joins && context.isPrevious(session);
+}
+
+/// Returns the numbers of all sessions: first those whose places are known.
+std::vector<std::size_t> knownFirst(const MapContext& context) {
+  std::vector<std::size_t> order(context.names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t session) { return isKnown(context, session); });
+  return order;
+}
+
 /// One run over all sessions.
 class PlaceRecognitionRun {
  public:
@@ -36,9 +51,10 @@ class PlaceRecognitionRun {
       : model_(model),
         context_(context),
         ids_(context.ids()),
+        order_(knownFirst(context)),
         map_(model.model, parameters, [this](std::size_t session, urban_nav_core::StampNs stamp) {
           StoredPlace key;
-          key.session = ids_[session];
+          key.session = ids_[order_[session]];
           key.stamp = stamp;
           const auto row = TableStore<StoredPlace>(*context_.store).get(key);
           return row ? row->descriptors : std::string();
@@ -46,11 +62,10 @@ class PlaceRecognitionRun {
 
   PlacesRun run() {
     const std::vector<const SessionOdometry*> runs = context_.runs();
-    const std::size_t known = context_.joins ? 0 : context_.previous.runs.size();
     result_.beliefs.resize(ids_.size());
-    for (std::size_t s = 0; s < ids_.size(); ++s) {
+    for (const std::size_t s : order_) {
       map_.beginSession(context_.names[s]);
-      addSession(s, ids_[s], travelledDistance(*runs[s]), s < known);
+      addSession(s, ids_[s], travelledDistance(*runs[s]), isKnown(context_, s));
     }
     result_.places = map_.places();
     if (other_model_ > 0)
@@ -89,7 +104,8 @@ class PlaceRecognitionRun {
   const LoadedPlaceModel& model_;
   const MapContext& context_;
   const std::vector<urban_nav_store::SessionId> ids_;
-  FabMap map_;  // with descriptors from the store
+  const std::vector<std::size_t> order_;  // of sessions
+  FabMap map_;                            // with descriptors from the store
   PlacesRun result_;
   std::size_t other_model_ = 0;
 };

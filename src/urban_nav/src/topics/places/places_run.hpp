@@ -26,8 +26,9 @@ struct PlacesRun {
   std::vector<std::string> warnings;
 };
 
-/// Recognises the places of the sessions of this run, in order, in the rows that the store holds; those of previous
-/// sessions come first. The result does not depend on the number of threads.
+/// Recognises the places of the sessions of this run, and of all sessions where it joins them, in order, in the rows
+/// that the store holds. Places of other sessions are known from the beginning. The result does not depend on the
+/// number of threads.
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context);
 

@@ -120,7 +120,7 @@ class VoStage final : public Stage {
   }
 
   Messages run(MapContext& context) override {
-    context.trajectories = odometryTrajectories(context.runs(), context.previous.runs.size());
+    context.trajectories = odometryTrajectories(context.runs(), context.sessionsKept());
     const std::string problem = mostFrequentProblem(runs(), summarise(runs()));
     return {{}, problem.empty() ? std::vector<std::string>() : std::vector<std::string>{problem}};
   }
@@ -134,9 +134,9 @@ class VoStage final : public Stage {
     stage_result.tiles = {
         {urban_nav_core::formatNumber(summary.ms_median, 3), "ms", "median time in the filter", Grade::Plain}};
     stage_result.verdicts = voVerdicts(summary);
-    const std::size_t previous = context.previous.runs.size();
     for (std::size_t i = 0; i < of_sessions.size(); ++i) {
-      const bool compared = previous + i < context.evaluations.size() && context.evaluations[previous + i].map;
+      const std::size_t number = context.number(i);
+      const bool compared = number < context.evaluations.size() && context.evaluations[number].map;
       for (Section& section : voSections(*of_sessions[i], !compared)) {
         if (context.sessions.size() > 1) {
           section.id += std::to_string(i + 1);
@@ -145,7 +145,7 @@ class VoStage final : public Stage {
         stage_result.sections.push_back({report_place::kOdometry, std::move(section)});
       }
       if (!runs_[i]) continue;
-      const std::string suffix = fileSuffix(previous + i);
+      const std::string suffix = fileSuffix(number);
       const VoRun& run = *of_sessions[i];
       if (!context.relaxed) stage_result.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
       stage_result.files.push_back({"landmarks" + suffix + ".ply", [&run] { return landmarksPly(run); }});

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "inspect/geopackage/geopackage_file.hpp"
+
+namespace urban_nav {
+
+/// An area as polygons with their holes.
+struct Coverage {
+  std::vector<Geometry::Polygon> polygons;
+  double area_m2 = 0.0;
+};
+
+/// Returns the area within `reach` of a path, on a grid of cells of width `cell`, m. Polygons do not overlap; they
+/// touch at corners at most.
+Coverage coverageAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell);
+
+}  // namespace urban_nav

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inspect/stores_command.hpp"
+
+#include <algorithm>
+
+#include "map/store_keys.hpp"
+#include "map/stored_run.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_store::Store;
+
+Command storesCommand(bool is_output_required) {
+  Command command;
+  command.options = {
+      {"STORE", "", "session stores; they are only read", is_output_required, true, {}},
+      {"-o,--output", "STORE", "store to write; it appears when it is complete", is_output_required, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  return command;
+}
+
+void requireFinished(const std::string& store) {
+  Store opened(store, urban_nav_store::Access::Snapshot);
+  for (const urban_nav_store::Session& session : opened.sessions().all()) {
+    if (storedFingerprint(opened, session.id).empty()) continue;
+    const std::vector<std::string> stages = opened.states().stages(session.id);
+    const bool is_resumable = std::any_of(
+        stages.begin(), stages.end(), [](const std::string& stage) { return stage == kVoStage || stage == kLoStage; });
+    if (is_resumable || !session.complete)
+      throw urban_nav_core::DataError(store,
+                                      "session " + session.id + " (" + session.name +
+                                          ") is not complete: the run of map that writes it has not finished, or was "
+                                          "interrupted",
+                                      "the same call of map once more, which goes on from there");
+  }
+}
+
+void writeSummary(const Arguments& arguments, const Json& json) {
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/command.hpp"
+#include "base/json.hpp"
+#include "join/release_run.hpp"
+
+namespace urban_nav {
+
+/// Returns the command that freezes a map, or compares two frozen ones.
+Command releaseCommand();
+
+/// Returns the summary of a release, without its warnings.
+Json toJson(const ReleaseRun& run);
+
+}  // namespace urban_nav

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace urban_nav {
+
+/// An unfinished store next to the one that it will be, and a folder for files that stages write. Both vanish unless
+/// the store is published.
+class Workplace {
+ public:
+  /// Throws UserError if the folder of `out` does not exist.
+  explicit Workplace(const std::string& out);
+  ~Workplace();
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  const std::string& store() const { return store_; }
+  const std::string& folder() const { return folder_; }
+  /// Copies the unfinished store, closed by now, to `out`, which appears whole.
+  void publish();
+
+ private:
+  void clear();
+
+  const std::string out_, store_, folder_;
+};
+
+}  // namespace urban_nav
