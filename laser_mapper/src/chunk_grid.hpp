@@ -20,7 +20,7 @@ class ChunkGrid {
   urban_nav_core::Pose framePose() const;
 
   /// Adds a point in framePose(). `sensor`: its id in MapCell::laser; `weight`: of its share in the means of the cube;
-  /// `count`: beams that it stands for. Returns false for a point beyond the grid.
+  /// `count`: beams that it represents. Returns false for a point beyond the grid.
   bool add(const urban_nav_core::LaserPoint& point, std::uint8_t sensor, float weight = 1.0F, int count = 1);
 
   /// Marks the cubes of a kind of sensor for which `is_ghost` holds: eight of them at once, by their mean position in

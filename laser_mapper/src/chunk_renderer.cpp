@@ -140,7 +140,7 @@ void markMoving(const Parameters& parameters, const Trajectory& T_map_base, cons
   grid.markGhosts(isLidar, [&](const Eigen::Vector3d& p) {
     int through = 0, hits = 0;
     for (const SweepView& view : views) {
-      const Sight sight = view.judge(p);
+      const Sight sight = view.classify(p);
       through += sight == Sight::Through ? 1 : 0;
       hits += sight == Sight::Hit ? 1 : 0;
     }

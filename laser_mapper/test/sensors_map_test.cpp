@@ -73,7 +73,7 @@ class SensorsMap : public ::testing::Test {
         [&](const Tile&, const std::vector<MapPoint>& points) { all.insert(all.end(), points.begin(), points.end()); });
     return all;
   }
-  static std::vector<double> errorsOf(const std::vector<MapPoint>& points) {
+  static std::vector<double> distancesToRoom(const std::vector<MapPoint>& points) {
     std::vector<double> errors;
     for (const MapPoint& point : points) errors.push_back(testing_room::distanceToRoom(point.p.cast<double>()));
     std::sort(errors.begin(), errors.end());
@@ -90,7 +90,7 @@ TEST_F(SensorsMap, DepthImagesAloneMakeAMap) {
   for (std::size_t i = 0; i < trajectory_.size(); i += 10) putDepth(i, testing_room::rangeInRoom);
   const std::vector<MapPoint> points = mapPoints();
   ASSERT_GT(points.size(), 3000U);
-  const std::vector<double> errors = errorsOf(points);
+  const std::vector<double> errors = distancesToRoom(points);
   EXPECT_LT(errors[errors.size() / 2], 0.02);
   EXPECT_LT(errors[errors.size() * 99 / 100], 0.12);
   for (const MapPoint& point : points) {
@@ -128,7 +128,7 @@ TEST_F(SensorsMap, SweepsMakeAMapWithoutWhatMoved) {
   }
   const std::vector<MapPoint> points = mapPoints();
   ASSERT_GT(points.size(), 20'000U);
-  const std::vector<double> errors = errorsOf(points);
+  const std::vector<double> errors = distancesToRoom(points);
   EXPECT_LT(errors[errors.size() / 2], 0.005);
   EXPECT_LT(errors[errors.size() * 99 / 100], 0.05);
   std::size_t moved = 0;

@@ -68,7 +68,7 @@ struct RenderedChunk {
   BeamCounts beams;
 };
 
-/// What a chunk is rendered from.
+/// Measurements that a chunk is rendered from.
 struct ChunkInput {
   std::vector<LaserInput> lasers;
   std::vector<LidarInput> lidars;

@@ -26,13 +26,13 @@ std::uint8_t planarSensor(const std::string& frame, std::size_t index);
 /// Returns the id of a 3D LiDAR by its role ("points0"); kLastLidar for any other word.
 std::uint8_t lidarSensor(const std::string& role);
 
-/// What a sensor id stands for.
+/// Role and frame of a sensor id.
 struct SensorName {
   std::uint8_t id = 0;
   std::string role;   ///< "laser_left", "points0", "stereo"; "laser" for planar lasers at other frames
   std::string frame;  ///< of its measurements
 };
-/// Returns the sensors whose measurements sessions have in the store, ascending by id. An id that stands for different
+/// Returns the sensors whose measurements sessions have in the store, ascending by id. An id that denotes different
 /// frames in different sessions has a row for each.
 std::vector<SensorName> storedSensors(urban_nav_store::Store& store,
                                       const std::vector<urban_nav_store::SessionId>& sessions);

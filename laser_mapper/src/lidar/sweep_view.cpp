@@ -12,10 +12,10 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int kAzimuths = 720;           // bins of half a degree
-constexpr float kBehindPoint = 0.3F;     // m: farther than errors of poses, and a beam's own width
-constexpr double kMostSpread = 0.01;     // rad, standard deviation of the elevations of a ring
-constexpr float kMostRingAngle = 0.06F;  // rad, between neighbouring rings: wider gaps are unknown
+constexpr int kAzimuths = 720;                 // bins of half a degree
+constexpr float kBeyondPoint = 0.3F;           // m: farther than errors of poses, and a beam's own width
+constexpr double kMostElevationSpread = 0.01;  // rad, standard deviation of the elevations of a ring
+constexpr float kMostRingAngle = 0.06F;        // rad, between neighbouring rings: wider gaps are unknown
 constexpr float kNearestRange = 1.0F, kFarthestRange = 30.0F;  // m
 
 std::size_t azimuthBin(double x, double y) {
@@ -72,12 +72,12 @@ void SweepView::addRing(const Scan& beams) {
     if (shortest == 0.0F || beam.range < shortest) shortest = beam.range;
   }
   const double share = 1.0 / static_cast<double>(beams.beams.size()), mean = share * sum;
-  if (share * squares - mean * mean > kMostSpread * kMostSpread) return;
+  if (share * squares - mean * mean > kMostElevationSpread * kMostElevationSpread) return;
   ring.elevation = static_cast<float>(mean);
   rings_.push_back(std::move(ring));
 }
 
-Sight SweepView::judge(const Eigen::Vector3d& p_frame) const {
+Sight SweepView::classify(const Eigen::Vector3d& p_frame) const {
   if (!T_lidar_frame_middle_) return Sight::None;
   const Eigen::Vector3d about = *T_lidar_frame_middle_ * p_frame;
   const std::optional<urban_nav_core::Pose>& T_lidar_frame =
@@ -97,8 +97,8 @@ Sight SweepView::judge(const Eigen::Vector3d& p_frame) const {
   for (const Ring* ring : {&*below, &*above})
     for (const std::size_t step : {std::size_t{kAzimuths - 1}, std::size_t{0}, std::size_t{1}}) {
       const float found = ring->ranges[(azimuth + step) % kAzimuths];
-      through = through && found >= range + kBehindPoint;
-      hit = hit || std::abs(found - range) < kBehindPoint;
+      through = through && found >= range + kBeyondPoint;
+      hit = hit || std::abs(found - range) < kBeyondPoint;
     }
   if (through) return Sight::Through;
   return hit ? Sight::Hit : Sight::None;

@@ -16,15 +16,15 @@ namespace laser_mapper {
 /// Immutable, so thread-safe.
 class SweepView {
  public:
-  /// `rings`: beams of each ring. `T_frame_map`: of the frame that judge() takes points in. Parts of the sweep at times
-  /// without a pose are left out.
+  /// `rings`: beams of each ring. `T_frame_map`: of the frame that classify() takes points in. Parts of the sweep at
+  /// times without a pose are left out.
   SweepView(const std::vector<urban_nav_core::Scan>& rings, const urban_nav_core::Trajectory& T_map_base,
             const urban_nav_core::Pose& T_base_lidar, const urban_nav_core::Pose& T_frame_map,
             urban_nav_core::StampNs max_gap);
 
   /// Returns Through if the beams around the point's direction, of the ring above and of the one below, all ended at
   /// least 0.3 m farther away; Hit if one ended within 0.3 m of its distance; None otherwise.
-  Sight judge(const Eigen::Vector3d& p_frame) const;
+  Sight classify(const Eigen::Vector3d& p_frame) const;
 
  private:
   static constexpr std::size_t kSectors = 36;

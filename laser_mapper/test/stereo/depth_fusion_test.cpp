@@ -19,11 +19,11 @@ constexpr float kNoise = 0.3F;  // px
 /// Depth images of a drive of 0.4 m steps towards the wall at x = 10 m.
 class DepthFusion : public ::testing::Test {
  protected:
-  void drive(int images, const std::function<Scene(int image)>& sceneOf) {
+  void drive(int images, const std::function<Scene(int image)>& makeScene) {
     for (int i = 0; i < images; ++i) {
       const Pose T_map_base(Eigen::Quaterniond::Identity(), Vector3d(0.4 * i, 0.0, 0.0));
       frames_.push_back(std::make_unique<DepthFrame>(
-          depthFrame(testing_room::depthOfScene(sceneOf(i), T_map_base, i, kNoise, static_cast<unsigned>(i)))));
+          depthFrame(testing_room::depthOfScene(makeScene(i), T_map_base, i, kNoise, static_cast<unsigned>(i)))));
       posed_.push_back({frames_.back().get(), T_map_base * testing_room::roomCamera()});
     }
   }
@@ -66,7 +66,7 @@ TEST_F(DepthFusion, LeavesOutWhatTooFewImagesSee) {
 }
 
 TEST_F(DepthFusion, LeavesOutWhatOthersSeeThrough) {
-  // Something stands at x = 6 m in the first three of nine images.
+  // A thing is at x = 6 m in the first three of nine images.
   const Scene with_thing = [](const Vector3d& origin, const Vector3d& direction) {
     const double wall = testing_room::rangeInRoom(origin, direction), t = (6.0 - origin.x()) / direction.x();
     const Vector3d at = origin + t * direction;

@@ -40,7 +40,7 @@ inline urban_nav_core::Sweep sweepOfScene(const Scene& scene, const urban_nav_co
 }
 
 /// Returns the beams of each ring, as the store returns them.
-inline std::vector<urban_nav_core::Scan> ringsOf(const urban_nav_core::Sweep& sweep) {
+inline std::vector<urban_nav_core::Scan> toRings(const urban_nav_core::Sweep& sweep) {
   return urban_nav_store::LidarSweep{"", "points0", sweep.reference, urban_nav_store::LidarSweep::pack(sweep)}.rings();
 }
 

@@ -12,7 +12,7 @@ namespace laser_mapper::testing_room {
 /// Returns the range to what a ray meets, m. Direction: unit.
 using Scene = std::function<double(const Vector3d& origin, const Vector3d& direction)>;
 
-/// The camera looks along the robot's x axis, 1.2 m up.
+/// A camera along the x axis of the robot, 1.2 m up.
 inline Pose roomCamera() {
   Eigen::Matrix3d R;
   R.col(0) = -Vector3d::UnitY();

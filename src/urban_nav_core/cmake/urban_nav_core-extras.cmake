@@ -82,7 +82,7 @@ function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
     CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
-    # Beside the program in the build space too: the list that CMake would exchange at the installation ends with a colon, and libraries
+    # The same in the build space: the list that CMake would exchange at the installation ends with a colon, and libraries
     # would be taken from the current folder.
     INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib" BUILD_WITH_INSTALL_RPATH ON
     UNITY_BUILD ${URBAN_NAV_UNITY} UNITY_BUILD_BATCH_SIZE ${URBAN_NAV_UNITY_BATCH})

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMemory = std::size_t{64} << 20U;
-constexpr double kBeside = 64e6;  // bytes: of the libraries' own, and of the allocator
+constexpr double kOther = 64e6;  // bytes: of the libraries' own, and of the allocator
 
 /// Returns the number of messages, images or points that are read; 0 for a file that is refused.
 std::size_t countRead(const fs::path& path) {
@@ -40,7 +40,7 @@ std::size_t countRead(const fs::path& path) {
 
 TEST(Corpus, FilesThatDidHarmAreRefusedOrReadAsFarAsTheyAreWhole) {
   const urban_nav_core::testing::LimitedMemory limit(kMemory);
-  // By their records, of which nothing is damaged but the index.
+  // Read by their records, in which nothing is damaged but the index.
   const std::set<std::string> whole = {"fields_of_4_GB.bag", "message_beyond_its_chunk.bag",
                                        "same_chunk_100_times.bag"};
   std::size_t files = 0;
@@ -50,7 +50,7 @@ TEST(Corpus, FilesThatDidHarmAreRefusedOrReadAsFarAsTheyAreWhole) {
     ++files;
     std::size_t count = 0;
     const double grown = urban_nav_core::testing::measureMemory([&] { count = countRead(entry.path()); });
-    EXPECT_LE(grown, static_cast<double>(kMemory) + kBeside) << name;
+    EXPECT_LE(grown, static_cast<double>(kMemory) + kOther) << name;
     EXPECT_EQ(count, whole.count(name) > 0 ? 3U : 0U) << name;
   }
   EXPECT_GE(files, 16U);

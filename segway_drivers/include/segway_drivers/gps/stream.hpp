@@ -11,8 +11,9 @@
 
 namespace segway_drivers {
 
-/// Stream of a receiver or of gpsd: NMEA sentences, binary packets of Garmin and u-blox and gpsd's lines, distinguished
-/// by content; corrections in RTCM are recognised. Each time is given out once. Reads no clock. Not thread-safe.
+/// Stream of a receiver or of gpsd: NMEA sentences, binary packets of Garmin and u-blox and lines of gpsd,
+/// distinguished by content. Corrections in RTCM are recognised. Each time is given out once. Reads no clock. Not
+/// thread-safe.
 class GpsStream {
  public:
   struct Options {

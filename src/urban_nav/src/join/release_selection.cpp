@@ -99,7 +99,7 @@ bool ReleaseSelection::Views::add(const View& view, const Nearness& nearness) {
     const double distance = distanceBetween(view.T_map_base, other.T_map_base);
     if (distance > nearness.distance || angleBetween(view.T_map_base, other.T_map_base) > nearness.angle) return true;
     if (other.session == view.session) {
-      is_known = distance < nearness.own_distance;
+      is_known = distance < nearness.own_distance && agreement(view.features, other.features) >= kSameFeatures;
     } else {
       near.insert(other.session);
       is_known = near.size() >= kAppearances || agreement(view.features, other.features) >= kSameFeatures;

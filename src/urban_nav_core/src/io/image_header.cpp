@@ -11,7 +11,7 @@ namespace urban_nav_core {
 
 namespace {
 
-/// Numbers at places of a file, in either byte order; `good` is false once one lay beyond the end.
+/// Numbers at places of a file, in either byte order; `good` is false after one beyond the end.
 class Bytes {
  public:
   Bytes(std::string_view file, bool is_big_endian) : file_(file), is_big_endian_(is_big_endian) {}
@@ -62,7 +62,7 @@ std::optional<ImageHeader> parsePng(std::string_view file) {
   return finished(bytes, header);
 }
 
-// ITU-T T.81, annex B.2.2. A progressive image is held as coefficients of two bytes beside its pixels.
+// ITU-T T.81, annex B.2.2. A progressive image is held as coefficients of two bytes as well.
 std::optional<ImageHeader> parseJpeg(std::string_view file) {
   Bytes bytes(file, true);
   for (std::size_t at = 2; bytes.good;) {

@@ -12,7 +12,7 @@ namespace urban_nav_store {
 /// Another text could name a file elsewhere ("../x") once it becomes part of a path.
 bool isStoredId(std::string_view text);
 
-/// Opens a store that somebody else may have written, for reading: ids of sessions and hashes of models are checked
+/// Opens a store of any origin for reading: ids of sessions and hashes of models are checked
 /// before anything is made of them. Throws what Store throws, and DataError that names the table and the id.
 Store openForReading(const std::string& path, Access access = Access::Snapshot);
 

@@ -25,7 +25,7 @@ DepthView::Samples someSamples() {
   return samples;
 }
 
-DepthView viewOf(std::string packed) {
+DepthView storedView(std::string packed) {
   DepthView view;
   view.packed = std::move(packed);
   return view;
@@ -33,7 +33,7 @@ DepthView viewOf(std::string packed) {
 
 TEST(DepthViews, ComeBackToAHundredthOfAPixel) {
   const DepthView::Samples samples = someSamples();
-  const DepthView::Samples back = viewOf(DepthView::pack(samples)).samples();
+  const DepthView::Samples back = storedView(DepthView::pack(samples)).samples();
   ASSERT_EQ(back.width, 7);
   ASSERT_EQ(back.height, 5);
   for (std::size_t i = 0; i < 35; ++i) {
@@ -48,7 +48,7 @@ TEST(DepthViews, HaveNoAnswerWhereNumbersAreNotFinite) {
   samples.disparity[1] = std::numeric_limits<float>::quiet_NaN();
   samples.sigma[2] = std::numeric_limits<float>::quiet_NaN();
   samples.sigma[3] = std::numeric_limits<float>::infinity();
-  const DepthView::Samples back = viewOf(DepthView::pack(samples)).samples();
+  const DepthView::Samples back = storedView(DepthView::pack(samples)).samples();
   EXPECT_EQ(back.disparity[1], 0.0F);
   EXPECT_EQ(back.disparity[2], 0.0F);
   EXPECT_GT(back.sigma[3], 3.9F) << "the largest one";
@@ -58,7 +58,7 @@ TEST(DepthViews, SurviveAnything) {
   const std::string packed = DepthView::pack(someSamples()), plain = *inflated(packed, 1 << 20);
   for (const bool inside : {false, true}) {
     const auto result = urban_nav_core::testing::fuzzText({inside ? plain : packed}, [&](const std::string& text) {
-      const DepthView::Samples samples = viewOf(inside ? deflated(text) : text).samples();
+      const DepthView::Samples samples = storedView(inside ? deflated(text) : text).samples();
       ASSERT_EQ(samples.disparity.size(),
                 static_cast<std::size_t>(samples.width) * static_cast<std::size_t>(samples.height));
       for (const float disparity : samples.disparity) ASSERT_TRUE(std::isfinite(disparity));

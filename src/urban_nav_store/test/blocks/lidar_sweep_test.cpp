@@ -40,11 +40,11 @@ Sweep someSweep() {
   return sweep;
 }
 
-LidarSweep rowOf(std::string packed) { return {"s", "points0", kReference, std::move(packed)}; }
+LidarSweep storedSweep(std::string packed) { return {"s", "points0", kReference, std::move(packed)}; }
 
 TEST(LidarSweeps, ComeBackRingByRing) {
   const Sweep sweep = someSweep();
-  const std::vector<Scan> rings = rowOf(LidarSweep::pack(sweep)).rings();
+  const std::vector<Scan> rings = storedSweep(LidarSweep::pack(sweep)).rings();
   ASSERT_EQ(rings.size(), 16U);
   for (std::size_t ring = 0; ring < rings.size(); ++ring) {
     ASSERT_EQ(rings[ring].beams.size(), 90U);
@@ -71,10 +71,10 @@ TEST(LidarSweeps, LeaveOutWhatCannotBeEncoded) {
   sweep.beams[2].range = 200.0F;
   sweep.beams[3].stamp += 2'000'000'000;
   std::size_t beams = 0;
-  for (const Scan& ring : rowOf(LidarSweep::pack(sweep)).rings()) beams += ring.beams.size();
+  for (const Scan& ring : storedSweep(LidarSweep::pack(sweep)).rings()) beams += ring.beams.size();
   EXPECT_EQ(beams, sweep.beams.size() - 4);
   sweep.beams.clear();
-  EXPECT_TRUE(rowOf(LidarSweep::pack(sweep)).rings().empty());
+  EXPECT_TRUE(storedSweep(LidarSweep::pack(sweep)).rings().empty());
 }
 
 TEST(LidarSweeps, SurviveAnything) {
@@ -83,7 +83,7 @@ TEST(LidarSweeps, SurviveAnything) {
   const std::string packed = LidarSweep::pack(few), plain = *inflated(packed, 1 << 20);
   for (const bool inside : {false, true}) {
     const auto result = urban_nav_core::testing::fuzzText({inside ? plain : packed}, [&](const std::string& text) {
-      for (const Scan& ring : rowOf(inside ? deflated(text) : text).rings())
+      for (const Scan& ring : storedSweep(inside ? deflated(text) : text).rings())
         for (const Beam& beam : ring.beams) ASSERT_TRUE(beam.direction.allFinite() && std::isfinite(beam.range));
     });
     EXPECT_EQ(result.failure, "");

@@ -23,7 +23,7 @@ constexpr std::uint32_t kSensorPassVersion = 1;
 constexpr double kSweepDistance = 0.25, kSweepAngle = 0.1;  // m, rad
 constexpr StampNs kLongestRest = 10'000'000'000;
 
-std::string frameOf(const urban_nav_input::SourceInfo& info, const std::string& role) {
+std::string frameName(const urban_nav_input::SourceInfo& info, const std::string& role) {
   for (const urban_nav_input::InputStream& input : info.inputs)
     if (input.role == role) return input.frame;
   return role;
@@ -41,7 +41,7 @@ SensorPass::StoredSweep& SensorPass::lastOf(const urban_nav_input::SweepInput& i
                                   [&](const StoredSweep& each) { return each.role == input.role; });
   if (found != state_.last.end()) return *found;
   TableStore<MountedLidar>(store_).put(
-      {session_.id, input.role, frameOf(session_.info, input.role), input.T_base_lidar});
+      {session_.id, input.role, frameName(session_.info, input.role), input.T_base_lidar});
   state_.last.push_back({input.role, 0, std::nullopt});
   return state_.last.back();
 }

@@ -12,7 +12,7 @@
 namespace urban_nav {
 
 /// Stores what the map needs of the sensors of a session, so that it can be made again without the recording:
-/// panoramas, and the sweeps of 3D LiDARs about every 0.25 m or 6 deg of travel. Of a robot that stands, a sweep every
+/// panoramas, and the sweeps of 3D LiDARs about every 0.25 m or 6 deg of travel. From a robot at rest, a sweep every
 /// ten seconds.
 class SensorPass final : public SessionPass {
  public:
@@ -23,7 +23,7 @@ class SensorPass final : public SessionPass {
   std::string checkpoint() override;
 
  private:
-  /// Where and when the last sweep of a LiDAR was stored.
+  /// Pose and time of the last stored sweep of a LiDAR.
   struct StoredSweep {
     std::string role;
     urban_nav_core::StampNs stamp = 0;
@@ -35,7 +35,7 @@ class SensorPass final : public SessionPass {
     std::vector<StoredSweep> last;
     void archive(urban_nav_core::Archive& archive) { archive(last); }
   };
-  /// Returns the last sweep of a LiDAR, which it adds if there is none.
+  /// Returns the last sweep of a LiDAR, which it adds if it is missing.
   StoredSweep& lastOf(const urban_nav_input::SweepInput& input);
 
   urban_nav_store::Store& store_;

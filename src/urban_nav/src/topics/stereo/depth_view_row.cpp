@@ -9,7 +9,7 @@ using urban_nav_store::DepthView;
 
 namespace {
 
-constexpr int kLeastStep = 2;  // px: windows of matching overlap, neighbouring pixels tell little more
+constexpr int kLeastStep = 2;  // px: windows of matching overlap, neighbouring pixels add little
 constexpr std::int64_t kMostSamples = 60'000;
 
 int samplingStep(int width, int height) {

@@ -12,7 +12,7 @@ namespace urban_nav_core {
 /// Size of an image by the first bytes of its file, before anything is decoded.
 struct ImageHeader {
   std::uint64_t width = 0, height = 0;  ///< px
-  std::uint64_t bytes = 0;              ///< that a decoder takes at most for pixels and for what it holds beside them
+  std::uint64_t bytes = 0;              ///< that a decoder takes at most for pixels and its own tables
 };
 
 /// Reads the header of a PNG, JPEG, TIFF (not BigTIFF), BMP or PNM file. Returns nullopt for other formats, and where

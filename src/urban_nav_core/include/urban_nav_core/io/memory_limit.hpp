@@ -12,8 +12,8 @@ std::size_t memoryLimit();
 /// Sets the limit; the command does so with its parameter `memory_mb`. Thread-safe.
 void setMemoryLimit(std::size_t bytes);
 
-/// Returns the most bytes that one compressed piece (chunk, message, file) may have once it is decompressed: an eighth
-/// of memoryLimit(), so that copies in other representations find room beside it.
+/// Returns an eighth of memoryLimit(): the most bytes that one compressed piece (chunk, message, file) may have once it
+/// is decompressed, with room left for copies in other representations.
 std::size_t largestPiece();
 /// Returns the most bytes that one decoded image may have: half of largestPiece(), because several are held at once.
 std::size_t largestImage();

@@ -168,7 +168,7 @@ std::string makeBagRecords(std::string& index) {
 /// Numbers that are wrong in the index of a bag; 0: right.
 struct IndexLie {
   std::uint32_t chunk_size = 0, packed_size = 0, messages = 0, offset = 0, index_size = 0, fields_size = 0;
-  std::uint32_t chunks = 1;  ///< how often the index names the chunk
+  std::uint32_t chunks = 1;  ///< number of times that the index names the chunk
   std::string compression = "none";
 };
 
