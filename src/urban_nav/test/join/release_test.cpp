@@ -21,7 +21,9 @@ using urban_nav_store::Store;
 
 /// Makes a release once for all tests.
 std::string makeReleaseOnce(const std::string& store, const std::string& release) {
-  if (!std::filesystem::exists(release)) EXPECT_EQ(runWords({"release", store, "-o", release}), 0);
+  if (!std::filesystem::exists(release)) {
+    EXPECT_EQ(runWords({"release", store, "-o", release}), 0);
+  }
   return release;
 }
 

@@ -51,7 +51,10 @@ TEST(CoverageOutline, OfScatteredPointsKeepsItsAreaWhereCellsTouchAtCorners) {
   std::mt19937 random(3);
   for (int round = 0; round < 20; ++round) {
     std::vector<Eigen::Vector2d> points;
-    for (int i = 0; i < 120; ++i) points.emplace_back(0.5 + random() % 14, 0.5 + random() % 14);
+    for (int i = 0; i < 120; ++i) {
+      const auto x = static_cast<double>(random() % 14), y = static_cast<double>(random() % 14);
+      points.emplace_back(0.5 + x, 0.5 + y);
+    }
     const Coverage coverage = coverageAround(points, 0.4, 1.0);
     EXPECT_NEAR(polygonArea(coverage), coverage.area_m2, 1e-9) << round;
     for (const Geometry::Polygon& polygon : coverage.polygons)

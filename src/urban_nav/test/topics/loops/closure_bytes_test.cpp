@@ -50,8 +50,9 @@ TEST(ClosureBytes, DamageIsNoticed) {
   for (int round = 0; round < 2000; ++round) {  // no crash, and nothing that is not finite
     std::string damaged = bytes;
     for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
-    if (const auto closures = unpackClosures(damaged))
+    if (const auto closures = unpackClosures(damaged)) {
       EXPECT_TRUE(closures->front().measured.T_a_b.isFinite() && closures->front().measured.information.allFinite());
+    }
   }
 }
 
