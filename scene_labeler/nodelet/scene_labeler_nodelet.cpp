@@ -112,8 +112,7 @@ class SceneLabelerStage {
   std::chrono::steady_clock::time_point last_pose_;
   geometry_msgs::PointStampedConstPtr click_;
   std::string taught_fault_;
-  ClassMap class_map_;                   // values of class images
-  urban_nav_ros::GreyRange grey_range_;  // 16-bit pixels of both cameras
+  ClassMap class_map_;  // of class images
 };
 
 SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
@@ -225,9 +224,7 @@ void SceneLabelerStage::handle(Input& input) {
     return;
   }
   if (const auto* image = std::get_if<CameraImage>(&input)) {
-    urban_nav_ros::RecordedImage recorded = image->image;
-    recorded.addTo(grey_range_);
-    recorded.setScale(grey_range_.scale());
+    const urban_nav_ros::RecordedImage recorded = image->image;
     labels_->addImage(image->side, recorded.stamp(), [recorded] { return recorded.colour().pixels; });
   }
 }
