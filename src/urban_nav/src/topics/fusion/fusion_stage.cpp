@@ -38,7 +38,7 @@ class FusionStage final : public Stage {
       for (const std::string& sentence : constantSentences(*fused)) messages.warnings.push_back(sentence);
       messages.info.push_back(fusionSentence(*fused));
     }
-    context.trajectories = odometryTrajectories(context.runs(), context.previous.runs.size());
+    context.trajectories = odometryTrajectories(context.runs(), context.sessionsKept());
     faults_ = messages.warnings;
     return messages;
   }
@@ -58,8 +58,7 @@ class FusionStage final : public Stage {
       result.sections.push_back({report_place::kOdometry, std::move(section)});
       for (Verdict& verdict : fusionVerdicts(*run)) result.verdicts.push_back(verdict);
       if (!context.relaxed)
-        result.files.push_back(
-            {"graph" + fileSuffix(context.previous.runs.size() + i) + ".g2o", [run] { return chainG2o(*run); }});
+        result.files.push_back({"graph" + fileSuffix(context.number(i)) + ".g2o", [run] { return chainG2o(*run); }});
     }
     return result;
   }
