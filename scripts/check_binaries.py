@@ -30,7 +30,7 @@ def read_elf(path):
 
 
 def find_faults(text, size):
-    """What is wrong with a file, by what readelf says of it."""
+    """Faults of a file in the output of readelf."""
     faults = []
     for line in text.splitlines():
         if "(RUNPATH)" in line or "(RPATH)" in line:

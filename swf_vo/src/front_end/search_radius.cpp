@@ -59,7 +59,7 @@ double SearchRadius::widest() const { return kWidestSearch * camera_.width; }
 
 void SearchRadius::archive(urban_nav_core::Archive& archive) {
   archive(radius_);
-  archive.require(radius_ >= 0.0 && radius_ <= anywhere(), "a search radius is none");
+  archive.require(radius_ >= 0.0 && radius_ <= anywhere(), "a search radius out of range");
 }
 
 }  // namespace swf_vo

@@ -36,7 +36,7 @@ SensorPass::SensorPass(MapContext& context, const Stage::SessionStart& start)
   if (start.checkpoint) unpackState(kSensorPassName, kSensorPassVersion, *start.checkpoint, state_);
 }
 
-SensorPass::StoredSweep& SensorPass::lastOf(const urban_nav_input::SweepInput& input) {
+SensorPass::StoredSweep& SensorPass::lastPassFor(const urban_nav_input::SweepInput& input) {
   const auto found = std::find_if(state_.last.begin(), state_.last.end(),
                                   [&](const StoredSweep& each) { return each.role == input.role; });
   if (found != state_.last.end()) return *found;
@@ -49,7 +49,7 @@ SensorPass::StoredSweep& SensorPass::lastOf(const urban_nav_input::SweepInput& i
 void SensorPass::process(const urban_nav_input::SweepInput& input) {
   const bool is_first = std::none_of(state_.last.begin(), state_.last.end(),
                                      [&](const StoredSweep& each) { return each.role == input.role; });
-  StoredSweep& last = lastOf(input);
+  StoredSweep& last = lastPassFor(input);
   const std::vector<OdometryFrame>& frames = session_.odometry->frames;
   const std::optional<Pose> now = frames.empty() ? std::nullopt : std::optional(frames.back().T_odom_base);
   const bool has_moved = now.has_value() != last.T_odom_base.has_value() ||

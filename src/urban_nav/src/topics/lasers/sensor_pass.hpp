@@ -36,7 +36,7 @@ class SensorPass final : public SessionPass {
     void archive(urban_nav_core::Archive& archive) { archive(last); }
   };
   /// Returns the last sweep of a LiDAR, which it adds if it is missing.
-  StoredSweep& lastOf(const urban_nav_input::SweepInput& input);
+  StoredSweep& lastPassFor(const urban_nav_input::SweepInput& input);
 
   urban_nav_store::Store& store_;
   MapSession& session_;
