@@ -25,10 +25,7 @@ void archive(Archive& archive, RelativePose& value) {
 }
 
 void archive(Archive& archive, MotionInput& input) {
-  Pose sensor(input.q_base_sensor, Vector3d::Zero());
-  archive(input.from, input.to, input.T_from_to, input.information, input.source, sensor);
-  archive.require(input.source >= MotionSource::Given && input.source <= MotionSource::Wheels, "no such sensor");
-  input.q_base_sensor = sensor.q();
+  archive(input.from, input.to, input.T_from_to, input.information);
 }
 
 void archive(Archive& archive, SpecificForce& value) { archive(value.stamp, value.force); }

@@ -53,7 +53,7 @@ TEST(GraphRows, AStoreHoldsTheRelaxedMap) {
   const std::string path = folder.file("s.db");
   {
     Store store(path, Access::Write);
-    for (const char* id : {"m", "t", "f"}) {
+    for (const char* id : {kMonday, kTuesday, kFar}) {
       store.sessions().put({id, id, "", "", 0, true});
       for (const SmoothedFrame& settled : monday.settled) {
         urban_nav_store::Node node;
@@ -62,15 +62,15 @@ TEST(GraphRows, AStoreHoldsTheRelaxedMap) {
         store.graph().put(id, node);
       }
     }
-    exportGraph(store, {"m", "t", "f"}, run);
-    exportGraph(store, {"m", "t", "f"}, run);
+    exportGraph(store, {kMonday, kTuesday, kFar}, run);
+    exportGraph(store, {kMonday, kTuesday, kFar}, run);
     store.commit();
     std::size_t session = 0;
-    for (const char* id : {"m", "t", "f"}) {
+    for (const char* id : {kMonday, kTuesday, kFar}) {
       const StoredTrajectory stored = readTrajectory(store, *store.sessions().find(id));
       const urban_nav_core::Trajectory expected = run.trajectory(session++);
       EXPECT_TRUE(stored.relaxed);
-      EXPECT_EQ(stored.map, session == 3 ? "f" : "m");
+      EXPECT_EQ(stored.map, session == 3 ? kFar : kMonday);
       ASSERT_EQ(stored.T_map_base.size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(stored.T_map_base[i].pose.t(), expected[i].pose.t());
     }
