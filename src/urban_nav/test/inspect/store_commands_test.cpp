@@ -217,8 +217,9 @@ TEST_F(StoreCommands, RelaxedSessionsOfOneMapAreExportedTogether) {
   Store store(file("joined.db"), Access::Write);
   const Pose T_map_odom(urban_nav_core::Quaterniond::Identity(), {5.0, 0.0, 0.0});
   const auto at = [](double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); };
-  for (const auto& [id, start] : {std::pair{"one", 0}, {"two", 100}}) {
-    store.sessions().put({id, std::string("day ") + id, "", "", start, true});
+  const std::string one(16, '1'), two(16, '2');
+  for (const auto& [id, start] : {std::pair{one, 0}, {two, 100}}) {
+    store.sessions().put({id, "day " + id, "", "", start, true});
     for (int i = 0; i < 3; ++i) {
       urban_nav_store::Node node;
       node.stamp = start + i;
@@ -226,11 +227,11 @@ TEST_F(StoreCommands, RelaxedSessionsOfOneMapAreExportedTogether) {
       store.graph().put(id, node);
     }
   }
-  store.graph().put("one", urban_nav_store::RelaxedPose{0, at(0.5), 1});
-  store.graph().put("one", urban_nav_store::RelaxedPose{1, at(2.0), 1});
-  store.sessions().put(urban_nav_store::Anchor{"two", "one", 1, T_map_odom});
-  Edge edge{{"one", 1},
-            {"two", 100},
+  store.graph().put(one, urban_nav_store::RelaxedPose{0, at(0.5), 1});
+  store.graph().put(one, urban_nav_store::RelaxedPose{1, at(2.0), 1});
+  store.sessions().put(urban_nav_store::Anchor{two, one, 1, T_map_odom});
+  Edge edge{{one, 1},
+            {two, 100},
             EdgeKind::Stereo,
             "x",
             {at(3.0), urban_nav_core::Matrix6d::Identity()},
@@ -255,8 +256,7 @@ TEST_F(StoreCommands, RelaxedSessionsOfOneMapAreExportedTogether) {
   EXPECT_EQ(graph.edges, 1);
   EXPECT_EQ(graph.left_out, 1);
   EXPECT_EQ(graph.outside, 0);
-  EXPECT_EQ(exportG2o(store, readMaps(store, selectSessions(store, {"one"}))).outside, 2)
-      << "both to the other session";
+  EXPECT_EQ(exportG2o(store, readMaps(store, selectSessions(store, {one}))).outside, 2) << "both to the other session";
   EXPECT_EQ(urban_nav_core::parseG2o(graph.text, "x").edges.front().to, 3);
   store.commit();
   store.close();
