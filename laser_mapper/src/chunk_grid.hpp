@@ -13,7 +13,7 @@ namespace laser_mapper {
 /// Averages of the measurements of a chunk by the cube of the map's grid that they end in. Not thread-safe.
 class ChunkGrid {
  public:
-  /// `centre`: around which the chunk lies, m. `begin`: of the chunk.
+  /// `centre`: centre of the chunk, m. `begin`: of the chunk.
   ChunkGrid(double voxel, const Eigen::Vector3d& centre, urban_nav_core::StampNs begin);
 
   /// Returns the pose of the map in the frame that points are added in: it has the axes of the map.

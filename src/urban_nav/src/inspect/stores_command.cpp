@@ -37,7 +37,7 @@ void requireFinished(const std::string& store) {
                                       "session " + session.id + " (" + session.name +
                                           ") is not complete: the run of map that writes it has not finished, or was "
                                           "interrupted",
-                                      "the same call of map once more, which goes on from there");
+                                      "the same call of map once more, which continues from there");
   }
 }
 

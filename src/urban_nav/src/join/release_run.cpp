@@ -28,7 +28,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr StampNs kPlaceGap = 1'000'000'000;  // ns between the poses that a place lies between
+constexpr StampNs kPlaceGap = 1'000'000'000;  // ns between the poses before and after a place
 constexpr double kSamePlaceDistance = 3.0;    // m: where one release has a place nearer than that, none is lost
 constexpr double kMoved = 0.1;                // m
 constexpr double kSurfaceCell = 0.25;         // m: surfaces are compared by cells and the ones around them
@@ -175,7 +175,7 @@ ReleaseRun makeRelease(const std::string& path, const std::string& out, const Pa
   ReleaseRun run = writeRelease(path, kept, first, {}, out);
   if (left_out > 0)
     run.warnings.push_back(std::to_string(left_out) +
-                           " sessions are left out: they lie in other maps (urban_nav join makes one of those that "
+                           " sessions are left out: they are in other maps (urban_nav join makes one of those that "
                            "show the same places)");
   return run;
 }

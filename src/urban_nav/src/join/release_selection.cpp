@@ -36,7 +36,7 @@ constexpr double kAnyAngle = 4.0;          // rad: no limit
 constexpr double kSameFeatures = 0.5;      // share of features that agree: the other view adds nothing
 constexpr std::size_t kAppearances = 3;    // sessions that keep views of one place and heading
 constexpr double kCloudDistance = 5.0;     // m between the centres of clouds, as CloudSearch has them
-constexpr StampNs kAround = 500'000'000;   // ns of poses around a view, between which those of panoramas lie
+constexpr StampNs kAround = 500'000'000;   // ns of poses around a view, from which those of panoramas are interpolated
 
 std::pair<int, int> groundCell(const Vector3d& p) {
   return {static_cast<int>(std::floor(p.x() / kGroundCell)), static_cast<int>(std::floor(p.y() / kGroundCell))};

@@ -49,7 +49,7 @@ struct MapContext {
   urban_nav_store::Store* store = nullptr;  ///< session.db of the run; set before the first session
   std::vector<MapSession> sessions;
   PreviousSessions previous;       ///< of the store given by --store, if a stage uses them
-  bool joins = false;              ///< places of the previous sessions are recognised anew, and closures measured anew
+  bool joins = false;              ///< places of the previous sessions are recognised again, closures measured again
   std::vector<std::string> names;  ///< over all sessions, as closures.csv names them
 
   std::vector<urban_nav_core::MetricClosure> closures;  ///< candidates, then with transforms; those of previous runs

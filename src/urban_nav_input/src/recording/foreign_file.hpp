@@ -6,7 +6,7 @@
 
 namespace urban_nav_input {
 
-/// What lies at a path that is not a recording, and what to use in its place.
+/// Kind of a file that is not a recording, and what to use in its place.
 struct ForeignInput {
   std::string found;   ///< follows the path in a sentence: "is compressed by gzip"
   std::string remedy;  ///< a command, or the input that was probably meant

@@ -42,7 +42,7 @@ Edges outlineEdges(const std::set<Cell>& cells) {
   return edges;
 }
 
-/// Removes and returns the edge that goes on from `at`. Where two do, that to the left: cells that share only a corner
+/// Removes and returns the edge that begins at `at`. Where two do, that to the left: cells that share only a corner
 /// have outlines of their own.
 Corner takeNext(Edges& edges, const Corner& before, const Corner& at) {
   const auto [first, last] = edges.equal_range(at);
@@ -101,7 +101,7 @@ double signedArea(const std::vector<Corner>& ring) {
   return sum;
 }
 
-/// Returns whether a point that lies on no edge is inside a ring.
+/// Returns whether a point, not on an edge, is inside a ring.
 bool contains(const std::vector<Corner>& ring, const Eigen::Vector2d& p) {
   bool is_inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {

@@ -247,7 +247,7 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
       mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
     }
     if (mapped.empty()) continue;
-    if (context.joins)  // chunks of earlier runs lie within max_shift of their places, not at them
+    if (context.joins)  // chunks of earlier runs may be off their places by up to max_shift
       for (const laser_mapper::MappedSession& session : mapped) laser_mapper::forgetChunks(*context.store, session.id);
     LaserMap laser_map(parameters, *context.store, mapped);
     const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;

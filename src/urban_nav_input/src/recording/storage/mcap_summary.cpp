@@ -50,7 +50,7 @@ std::optional<McapChunk> findChunk(ByteView file, const mcap::ChunkIndex& index)
   return McapChunk{index.offset, std::move(*chunk), index.indexes};
 }
 
-/// Returns whether the indexes of each chunk lie between it and the next one. Where chunks share them, a small file
+/// Returns whether the indexes of each chunk are between it and the next one. Where chunks share them, a small file
 /// could name the same messages millions of times.
 bool isApart(const std::vector<McapChunk>& chunks, std::uint64_t file_size) {
   for (std::size_t i = 0; i < chunks.size(); ++i) {
