@@ -13,6 +13,7 @@ using urban_nav_core::SharedConstant;
 
 namespace {
 
+constexpr double kNotableSpread = 2.0;  // mean squared distance over its expectation
 constexpr double kDegPerRad = 180.0 / M_PI;
 
 /// A constant in words and in the unit that a user knows it by.
@@ -72,12 +73,16 @@ Section fusionSection(const SessionOdometry& fused) {
 }
 
 std::vector<Verdict> fusionVerdicts(const SessionOdometry& fused) {
-  const std::string spread = "Their differences are " + formatNumber(std::sqrt(fused.fusion->spread), 3) +
-                             " times as large as their covariances allow on average" +
-                             (fused.fusion->spread > 1.0 ? ", by which all covariances were enlarged." : ".");
-  if (fused.fusion->conflicts.empty()) return {{Grade::Good, "Stereo and laser agree on the path.", spread}};
-  return {{Grade::Bad, "Stereo and laser contradict each other in places.",
-           std::to_string(fused.fusion->conflicts.size()) + " stretches of 1 s. " + spread}};
+  const double spread = fused.fusion->spread;
+  const std::string differences = "Their differences are " + formatNumber(std::sqrt(spread), 3) +
+                                  " times as large as their covariances allow on average" +
+                                  (spread > 1.0 ? ", by which all standard deviations were enlarged." : ".");
+  if (!fused.fusion->conflicts.empty())
+    return {{Grade::Bad, "Stereo and laser contradict each other in places.",
+             std::to_string(fused.fusion->conflicts.size()) + " stretches of 1 s. " + differences}};
+  if (spread > kNotableSpread)
+    return {{Grade::Fair, "Stereo and laser differ by more than their covariances allow.", differences}};
+  return {{Grade::Good, "Stereo and laser agree on the path.", differences}};
 }
 
 }  // namespace urban_nav

@@ -114,5 +114,15 @@ TEST(FusedSession, ContradictionsAreNamedWithTheirTime) {
   EXPECT_FALSE(fusionSection(fused).tables.empty());
 }
 
+TEST(FusedSession, NoVerdictIsGoodWhereTheCovariancesAreTooSmall) {
+  SessionOdometry fused =
+      fuseSession(makeDrive(OdometrySource::Stereo, 100, 1.0, 2e-3), makeDrive(OdometrySource::Laser, 100, 1.0, 1e-3));
+  EXPECT_EQ(fusionVerdicts(fused).front().grade, Grade::Good);
+  fused.fusion->spread = 8.0;
+  const Verdict verdict = fusionVerdicts(fused).front();
+  EXPECT_EQ(verdict.grade, Grade::Fair);
+  EXPECT_NE(verdict.sentence.find("2.83 times"), std::string::npos) << verdict.sentence;
+}
+
 }  // namespace
 }  // namespace urban_nav
