@@ -72,7 +72,7 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   urban_nav_ros::TopicOptions options;
   options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
-  subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::MotionTopic::None);
+  subscribeStereo(node, options, nodelet_.compressed, urban_nav_core::MotionChoice());
   if (!nodelet_.gravity) return;
   urban_nav_ros::TopicOptions unmonitored;  // an IMU need not be there
   unmonitored.is_monitored = false;

@@ -65,10 +65,11 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
     publisher_->publish(frame, pair, process_ms);
     node_.monitor().setIncomplete(frame.status.reason == static_cast<int>(Reason::ImageMissing));
   };
+  listener.warning = [this](const std::string& text) { node_.logWarning("motion sensor", text); };
   listener.settled = [this](const Settled& settled) { publisher_->publish(settled); };
   odometry_ = std::make_unique<LiveOdometry>(parameters_, listener);
   StereoSessions::Options sessions = urban_nav_ros::toStereoOptions(nodelet_, node.nh());
-  sessions.motion = nodelet_.motion_input != "none";
+  sessions.motion = urban_nav_core::toMotionChoice(nodelet_.motion_input);
   sessions.wheel_noise = nodelet_.wheel_noise;
   sessions.gyro_noise = nodelet_.gyro_noise;
   sessions_ = std::make_unique<StereoSessions>(
@@ -78,7 +79,7 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   urban_nav_ros::TopicOptions options;
   options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
-  subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::toMotionTopic(nodelet_.motion_input));
+  subscribeStereo(node, options, nodelet_.compressed, sessions.motion);
 }
 
 void SwfVoStage::refuse(const std::string& fault) {

@@ -2,6 +2,7 @@
 #include "swf_vo/frame.hpp"
 
 #include "urban_nav_core/io/archive_types.hpp"
+#include "urban_nav_core/io/format_number.hpp"
 
 namespace swf_vo {
 
@@ -17,6 +18,26 @@ void archive(Archive& archive, RigConstants& rig) {
   archive(rig.roll_rad, rig.roll_sigma_rad, rig.delay_s, rig.delay_sigma_s, rig.scale_sigma);
 }
 
+std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin) {
+  const auto second = [&](urban_nav_core::StampNs stamp) {
+    return urban_nav_core::formatNumber(urban_nav_core::secondsBetween(begin, stamp), 3);
+  };
+  return std::string(fault.is_wheels ? "wheels are" : "IMU: the gyroscope is") + " left out from second " +
+         second(fault.since) + (fault.until > 0 ? " to " + second(fault.until) : " on") + ": " + fault.sentence;
+}
+
+void archive(Archive& archive, MotionSensorFault& fault) {
+  archive(fault.is_wheels, fault.is_named, fault.since, fault.until, fault.sentence);
+}
+
+void archive(Archive& archive, MotionEstimates& motion) {
+  archive(motion.has_gyroscope, motion.uses_gyroscope, motion.gyroscope_left_out);
+  archive(motion.has_wheels, motion.uses_wheels, motion.wheels_left_out);
+  archive(motion.gyroscope_bias, motion.gyroscope_bias_sigma, motion.imu_offset_s, motion.imu_offset_sigma_s);
+  archive(motion.wheel_scale, motion.wheel_scale_sigma, motion.wheel_turn_scale, motion.wheel_turn_scale_sigma);
+  archive(motion.wheel_offset_s, motion.wheel_offset_sigma_s, motion.faults);
+}
+
 void archive(Archive& archive, Statistics& statistics) {
   archive(statistics.corners, statistics.features, statistics.tracked, statistics.track_length_mean);
   archive(statistics.reprojection_px, statistics.iterations, statistics.landmarks, statistics.landmarks_in_prior);
@@ -30,7 +51,7 @@ void archive(Archive& archive, Settled& settled) {
 
 void archive(Archive& archive, Frame& frame) {
   archive(frame.frame, frame.stamp, frame.accepted, frame.T_odom_base, frame.velocity.twist, frame.velocity.covariance);
-  archive(frame.status, frame.statistics, frame.rig, frame.settled, frame.features, frame.landmarks);
+  archive(frame.status, frame.statistics, frame.rig, frame.motion, frame.settled, frame.features, frame.landmarks);
 }
 
 }  // namespace swf_vo

@@ -22,6 +22,8 @@ class Output {
                      const Window& window, const ProcessInput& u, const FrontEndResult* seen,
                      const UpdateReport& update);
   /// A frame that was not accepted because of its stamp: the last pose again.
+  /// Puts what is known of motion sensors into the frame that was written last.
+  void setMotion(const MotionEstimates& motion) { frame_.motion = motion; }
   const Frame& refused(urban_nav_core::StampNs stamp);
   Settled settle(const SettledPose& pose);
   /// `window`: whose frames are to settle.

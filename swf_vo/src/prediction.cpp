@@ -54,6 +54,7 @@ Measured together(const std::vector<MotionInput>& inputs) {
   Measured sum;
   for (const MotionInput& input : inputs) {
     const double span = urban_nav_core::secondsBetween(input.from, input.to);
+    if (input.source != urban_nav_core::MotionSource::Given) continue;
     if (!(span > 0.0) || !input.T_from_to.isFinite() || !input.information.allFinite()) continue;
     ++sum.count;
     sum.seconds += span;
@@ -65,6 +66,15 @@ Measured together(const std::vector<MotionInput>& inputs) {
 }
 
 }  // namespace
+
+ProcessInput fuse(ProcessInput u, const Pose& T_from_to, const Matrix6d& information) {
+  // Two measurements of one step, fused in the tangent at the prediction.
+  const Vector6d offset = boxMinus(T_from_to, u.T_from_to);
+  const Matrix6d sum = u.information + information;
+  u.T_from_to = boxPlus(u.T_from_to, urban_nav_core::solveByLdlt<6, 1>(sum, information * offset));
+  u.information = sum;
+  return u;
+}
 
 Prediction::Prediction(const Parameters& parameters, const Pose& T_base_camera)
     : T_base_camera_(T_base_camera),
@@ -90,12 +100,7 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   const Pose motion = expSe3(logSe3(measured.T_from_to) * (seconds / measured.seconds));
   const Pose camera = T_base_camera_.inverse() * motion * T_base_camera_;
   const Matrix6d information = toCamera(measured.information * (measured.seconds / seconds), T_base_camera_);
-  // Two measurements of one step, fused in the tangent at the prediction.
-  const Vector6d offset = boxMinus(camera, u.T_from_to);
-  const Matrix6d sum = u.information + information;
-  u.T_from_to = boxPlus(u.T_from_to, urban_nav_core::solveByLdlt<6, 1>(sum, information * offset));
-  u.information = sum;
-  return u;
+  return fuse(u, camera, information);
 }
 
 void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured, bool blind, bool smoothed) {

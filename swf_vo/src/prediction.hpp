@@ -15,6 +15,10 @@ namespace swf_vo {
 constexpr double kUnknownSpeed = 10.0;        // m/s
 constexpr double kUnknownAngularSpeed = 1.0;  // rad/s
 
+/// Returns a prediction together with a measurement of the same step, which may leave directions free. Requires
+/// information of full rank in one of the two.
+ProcessInput fuse(ProcessInput u, const urban_nav_core::Pose& T_from_to, const urban_nav_core::Matrix6d& information);
+
 /// The input of the process model (eq. 1) from what is known: constant velocity, and where there is one, a measured u.
 ///
 /// Without u: the motion of the last step continues at the same velocity, with white noise on the acceleration: sigma =
@@ -27,8 +31,8 @@ class Prediction {
  public:
   Prediction(const Parameters& parameters, const urban_nav_core::Pose& T_base_camera);
 
-  /// `seconds`: from the last frame to this one. Inputs follow one another; what they do not cover of the step is
-  /// extrapolated.
+  /// `seconds`: from the last frame to this one. Inputs that are to be taken as they are follow one another; what they
+  /// do not cover of the step is extrapolated. Those of sensors are left to MotionSensors.
   ProcessInput step(double seconds, const std::vector<urban_nav_core::MotionInput>& inputs) const;
 
   /// The motion of the last step as it was estimated, and whether measurements had part in it. `blind`: there were none

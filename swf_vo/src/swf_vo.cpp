@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ablation.hpp"
 #include "front_end/front_end.hpp"
@@ -10,6 +11,7 @@
 #include "health/health.hpp"
 #include "health/image_check.hpp"
 #include "health/row_check.hpp"
+#include "motion/motion_sensors.hpp"
 #include "output.hpp"
 #include "prediction.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
@@ -37,7 +39,7 @@ constexpr double kAstrayPeriods = 3.5;
 constexpr int kLandmarksPerFeature = 4;
 
 constexpr const char* kStateName = "swf_vo";
-constexpr std::uint32_t kStateVersion = 6;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t kStateVersion = 7;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;
@@ -73,6 +75,19 @@ void check(const StereoCamera& camera) {
 /// Returns the standard deviation of a predicted translation, m.
 double translationSigma(const ProcessInput& u) {
   return 1.0 / std::sqrt(std::max(1e-12, u.information.diagonal().head<3>().minCoeff()));
+}
+
+/// Returns whether sensors measured the rotation of a step better than images of other places do.
+bool isTurnKnown(const std::optional<ProcessInput>& reckoned) {
+  constexpr double kKnown = 0.05;  // rad
+  return reckoned && reckoned->information.diagonal().tail<3>().minCoeff() > 1.0 / (kKnown * kKnown);
+}
+
+/// Returns whether a pose is where sensors cannot have brought the camera.
+bool isFarFrom(const ProcessInput& reckoned, const Pose& T_from_to) {
+  constexpr double kFar = 100.0;  // squared standard deviations
+  const urban_nav_core::Vector6d e = urban_nav_core::boxMinus(T_from_to, reckoned.T_from_to);
+  return e.dot(reckoned.information * e) > kFar;
 }
 
 /// Returns the prediction of a frame in which no landmark was found, turned as its image as a whole shows: where only
@@ -135,6 +150,7 @@ class SwfVo::Implementation {
         T_odom_first_camera_(T_base_camera),
         row_repair_(camera.left.width, camera.left.height),
         prediction_(parameters, T_base_camera),
+        sensors_(T_base_camera),
         front_end_(parameters, camera, !ablation.whole_pixels),
         window_(windowOptions(parameters, camera, ablation), camera),
         health_(parameters),
@@ -145,6 +161,7 @@ class SwfVo::Implementation {
 
     Evidence evidence;
     evidence.first = !started_;
+    const urban_nav_core::StampNs before = stamp_;
     const double periods = takeTime(pair.stamp);
     evidence.gap = periods > kGapPeriods;
     const CorruptRowRepair::Repaired repaired = row_repair_.repair(pair);
@@ -154,17 +171,10 @@ class SwfVo::Implementation {
         evidence.image.exchange ? StereoPair{pair.stamp, repaired.pair.right, repaired.pair.left} : repaired.pair;
 
     const Pose last = started_ ? window_.newest().pose : T_odom_first_camera_;
-    ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
-    const FrontEndResult* seen = nullptr;
-    if (evidence.image.usable) {
-      seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
-                                 {periods > kAstrayPeriods, translationSigma(u), seconds_}, evidence.image.edges);
-      evidence.localised = seen->localised;
-      evidence.tracked = static_cast<int>(seen->tracked.size());
-      evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
-      evidence.candidates = seen->candidates;
-      evidence.inlier_share = seen->inlier_share;
-    }
+    const Predicted predicted = predict(before, pair.stamp, last, inputs);
+    const bool is_gap_long = periods > kAstrayPeriods;
+    const FrontEndResult* seen =
+        evidence.image.usable ? &process(usable, last, predicted, is_gap_long, evidence) : nullptr;
 
     evidence.disparity_offset_px = started_ ? window_.disparityOffset() : 0.0;
     evidence.disparity_offset_sigma_px = started_ ? window_.disparityOffsetSigma() : 0.0;
@@ -173,20 +183,31 @@ class SwfVo::Implementation {
     const bool trusted = health_.isTrusted(evidence);
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
-    const bool adrift = started_ && trusted && isAdrift(*seen);
-    if (started_ && !trusted && seen != nullptr && seen->turned) u = turned(u, last, *seen);
+    const bool is_loose = started_ && trusted && isAdrift(*seen);
+    const bool by_images = trusted && !is_loose;
+    // Sensors have no part in a step that images measure, and learn from it.
+    const bool reckons =
+        predicted.reckoned && (!by_images || evidence.gap || evidence.tracked < parameters_.degraded_features);
+    ProcessInput u = reckons ? predicted.with_sensors : predicted.u;
+    if (started_ && !trusted && seen != nullptr && seen->turned && !isTurnKnown(predicted.reckoned))
+      u = turned(u, last, *seen);
     // Too long a time to predict over: from metres away no residual would lead to where the images say.
-    if (started_ && trusted && periods > kAstrayPeriods) u.T_from_start = last.inverse() * seen->T_odom_camera;
-    takeStep(u, adrift && !blurred ? seen : nullptr);
-    if (seen != nullptr && (trusted || !started_) && !(adrift && blurred)) remember(*seen);
+    if (started_ && trusted && is_gap_long) u.T_from_start = last.inverse() * seen->T_odom_camera;
+    takeStep(u, is_loose && !blurred ? seen : nullptr);
+    sensors_.addFrame(frame_, seconds_, by_images, reckons);
+    if (seen != nullptr && (trusted || !started_) && !(is_loose && blurred)) remember(*seen);
     if (seen != nullptr) observe(*seen, trusted);
     const UpdateReport update = window_.update();
+    if (started_ && by_images && !reckons && window_.hasPose(frame_ - 1))
+      sensors_.check(before, pair.stamp, window_.pose(frame_ - 1).inverse() * window_.newest().pose);
 
     if (started_) learn(last, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
     const Frame& frame = output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
+    for (const Settled& settled : frame.settled) sensors_.learn(settled);
+    output_.setMotion(sensors_.estimates());
     giveUp(window_.driftingLandmarks());
     return frame;
   }
@@ -213,12 +234,52 @@ class SwfVo::Implementation {
 
   void archive(urban_nav_core::Archive& archive) {
     archive(started_, doubtful_, frame_, newest_known_, stamp_, seconds_, period_);
-    archive(images_, rows_, prediction_, front_end_, window_, health_);
+    archive(images_, rows_, prediction_, sensors_, front_end_, window_, health_);
     output_.archive(archive, window_);
     archive.require(!started_ || window_.poses() > 0, "the window is empty");
   }
 
  private:
+  /// A step before the images of its end are processed.
+  struct Predicted {
+    ProcessInput u;                        // at constant velocity; its mean by sensors where there are any
+    std::optional<ProcessInput> reckoned;  // by sensors alone
+    ProcessInput with_sensors;             // by both
+  };
+  Predicted predict(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Pose& last,
+                    const std::vector<MotionInput>& inputs) {
+    Predicted predicted;
+    sensors_.add(inputs);
+    if (!started_) return predicted;
+    predicted.u = predicted.with_sensors = prediction_.step(seconds_, inputs);
+    predicted.reckoned = sensors_.predict(from, to, last);
+    if (!predicted.reckoned) return predicted;
+    predicted.with_sensors = fuse(predicted.u, predicted.reckoned->T_from_to, predicted.reckoned->information);
+    predicted.u.T_from_to = predicted.with_sensors.T_from_to;
+    return predicted;
+  }
+
+  const FrontEndResult& process(const StereoPair& pair, const Pose& last, const Predicted& predicted, bool is_gap_long,
+                                Evidence& evidence) {
+    PredictionQuality quality;
+    quality.astray = is_gap_long;
+    quality.sigma_m = translationSigma(is_gap_long ? predicted.with_sensors : predicted.u);
+    quality.seconds = seconds_;
+    quality.is_turn_known = isTurnKnown(predicted.reckoned);
+    const FrontEndResult& seen = front_end_.process(frame_, pair, last, last * predicted.u.T_from_to, window_.map(),
+                                                    window_.disparityOffset(), quality, evidence.image.edges);
+    evidence.localised = seen.localised;
+    evidence.tracked = static_cast<int>(seen.tracked.size());
+    evidence.features = evidence.tracked + static_cast<int>(seen.fresh.size());
+    evidence.candidates = seen.candidates;
+    evidence.inlier_share = seen.inlier_share;
+    // After a pause a few matches agree by chance, somewhere.
+    if (is_gap_long && predicted.reckoned && evidence.tracked < parameters_.degraded_features &&
+        isFarFrom(*predicted.reckoned, last.inverse() * seen.T_odom_camera))
+      evidence.localised = false;
+    return seen;
+  }
+
   // Notes the time step; how many usual ones it is.
   double takeTime(urban_nav_core::StampNs stamp) {
     seconds_ = started_ ? secondsBetween(stamp_, stamp) : 0.0;
@@ -291,6 +352,7 @@ class SwfVo::Implementation {
   ImageCheck images_;
   RowCheck rows_;
   Prediction prediction_;
+  MotionSensors sensors_;
   FrontEnd front_end_;
   Window window_;
   HealthMonitor health_;

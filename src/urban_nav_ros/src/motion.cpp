@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/motion.hpp"
 
+#include <cmath>
+
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -8,6 +10,7 @@ namespace urban_nav_ros {
 
 using urban_nav_core::MotionInput;
 using urban_nav_core::Pose;
+using urban_nav_core::Quaterniond;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector3d;
 
@@ -17,6 +20,14 @@ namespace {
 constexpr double kResolution = 1e-3;
 
 double toInformation(double sigma) { return 1.0 / (sigma * sigma); }
+
+/// Returns the standard deviation of a rate as the message has it, rad/s; 0 where it states none that can be.
+double statedNoise(const sensor_msgs::Imu& message) {
+  constexpr double kLeast = 1e-5, kMost = 10.0;  // rad/s
+  const auto& covariance = message.angular_velocity_covariance;
+  const double variance = (covariance[0] + covariance[4] + covariance[8]) / 3.0;
+  return variance > kLeast * kLeast && variance < kMost * kMost ? std::sqrt(variance) : 0.0;
+}
 
 }  // namespace
 
@@ -29,6 +40,7 @@ std::optional<MotionInput> WheelMotion::add(const nav_msgs::Odometry& message) {
   if (!last) return std::nullopt;
 
   MotionInput input;
+  input.source = urban_nav_core::MotionSource::Wheels;
   input.from = last->stamp;
   input.to = stamp;
   input.T_from_to = last->T_odom_base.inverse() * *pose;
@@ -51,11 +63,14 @@ std::optional<MotionInput> GyroMotion::add(const sensor_msgs::Imu& message) {
   if (!last) return std::nullopt;
 
   MotionInput input;
+  input.source = urban_nav_core::MotionSource::Gyroscope;
+  input.q_base_sensor = Quaterniond(R_base_imu_);
   input.from = last->stamp;
   input.to = stamp;
   const double seconds = urban_nav_core::secondsBetween(input.from, input.to);
   input.T_from_to = Pose(urban_nav_core::expSo3(0.5 * seconds * (last->rate + rate)), Vector3d::Zero());
-  input.information.diagonal().tail<3>().setConstant(toInformation(noise_ * seconds));
+  const double noise = noise_ > 0.0 ? noise_ : statedNoise(message);
+  if (noise > 0.0) input.information.diagonal().tail<3>().setConstant(toInformation(noise * seconds));
   return input;
 }
 

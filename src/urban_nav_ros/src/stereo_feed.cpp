@@ -25,7 +25,9 @@ struct Pixels {
   std::vector<std::uint8_t> rectified;
 };
 
-constexpr int kMotionStream = 0;
+int motionStreams(const urban_nav_core::MotionChoice& motion) {
+  return (motion.gyroscope ? 1 : 0) + (motion.wheels ? 1 : 0);
+}
 
 std::string toSize(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -33,8 +35,10 @@ std::string toSize(int width, int height) { return std::to_string(width) + "x" +
 
 StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration)
     : calibration_(std::move(calibration)),
-      first_image_stream_(options.motion ? kMotionStream + 1 : 0),
-      queue_(first_image_stream_ + 2, options.max_lateness, options.delivery),
+      motion_(options.motion),
+      first_image_stream_(motionStreams(options.motion)),
+      queue_(first_image_stream_ + 2, options.max_lateness, options.delivery,
+             options.motion.is_required ? 0 : first_image_stream_),
       assembler_(options.pairing_tolerance),
       pairing_tolerance_(options.pairing_tolerance) {}
 
@@ -48,8 +52,12 @@ void StereoFeed::add(Side side, const sensor_msgs::CompressedImageConstPtr& imag
   queue_.put(toStream(side), toStampNs(image->header.stamp), image);
 }
 
+int StereoFeed::toStream(urban_nav_core::MotionSource source) const {
+  return source == urban_nav_core::MotionSource::Wheels && motion_.gyroscope && motion_.wheels ? 1 : 0;
+}
+
 void StereoFeed::add(const MotionInput& input) {
-  if (first_image_stream_ > kMotionStream) queue_.put(kMotionStream, input.to, input);
+  if (motion_.any()) queue_.put(toStream(input.source), input.to, input);
 }
 
 void StereoFeed::finish() {

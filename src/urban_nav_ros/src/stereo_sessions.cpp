@@ -78,10 +78,24 @@ void StereoSessions::handleSensor(const Message& message) {
   }
   if (const auto* imu = std::get_if<sensor_msgs::ImuConstPtr>(&message)) imu_frame_ = (*imu)->header.frame_id;
   if (feed_) return feed(message);
+  wait(message);
+}
+
+// Motion sensors are faster than cameras: images alone are counted, and what came before the oldest of them is of no
+// use.
+void StereoSessions::wait(const Message& message) {
+  constexpr std::size_t kMostPerImage = 50;
+  const auto isImage = [](const Message& each) { return std::holds_alternative<ImageInput>(each); };
   waiting_.push_back(message);
-  if (waiting_.size() <= static_cast<std::size_t>(options_.queue_size)) return;
-  waiting_.pop_front();
-  ++finished_.dropped;
+  if (isImage(message)) ++waiting_images_;
+  const auto most = static_cast<std::size_t>(options_.queue_size);
+  while (waiting_images_ > options_.queue_size || waiting_.size() > kMostPerImage * most) {
+    if (isImage(waiting_.front())) {
+      --waiting_images_;
+      ++finished_.dropped;
+    }
+    waiting_.pop_front();
+  }
 }
 
 void StereoSessions::feed(const Message& message) {
@@ -98,7 +112,7 @@ void StereoSessions::tryToBegin() {
   if (!first_image_ || !left_info_ || !right_info_ || !fault_.empty()) return;
   const bool placed = transforms_.lookup(options_.base_frame, left_info_->header.frame_id).has_value();
   if (!placed && Clock::now() - *first_image_ < std::chrono::duration<double>(options_.tf_timeout)) return;
-  const bool must_decide = waiting_.size() + 1 >= static_cast<std::size_t>(options_.queue_size);
+  const bool must_decide = waiting_images_ + 1 >= options_.queue_size;
   try {
     const std::optional<bool> are_rectified =
         judge_.decide(toCameraInfo(*left_info_), toCameraInfo(*right_info_), options_.where, must_decide);
@@ -134,6 +148,7 @@ void StereoSessions::begin(bool are_rectified) {
   gyroscope_.emplace(options_.gyro_noise, T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d::Identity());
   feed_.emplace(options, calibration);
   ++finished_.sessions;
+  waiting_images_ = 0;
   for (const Message& message : std::exchange(waiting_, {})) feed(message);
 }
 
@@ -149,6 +164,7 @@ void StereoSessions::end(const std::string& why, bool deliver) {
   images_.reset();
   first_image_.reset();
   waiting_.clear();
+  waiting_images_ = 0;
   if (!feed_) return;
   if (deliver) {
     feed_->finish();

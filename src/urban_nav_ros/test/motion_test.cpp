@@ -85,6 +85,32 @@ TEST(GyroMotion, IntegratesTheMeanRateInBaseLink) {
   EXPECT_NEAR(input->information(4, 4), 1e6, 1e-3);
 }
 
+TEST(GyroMotion, NoiseIsThatOfTheMessagesWhereNoneIsSet) {
+  GyroMotion gyro(0.0, Matrix3d::Identity());
+  gyro.add(imu(kSecond, Vector3d::Zero()));
+  const auto silent = gyro.add(imu(kSecond + kSecond / 100, Vector3d::Zero()));
+  ASSERT_TRUE(silent);
+  EXPECT_TRUE(silent->information.isZero()) << "they state none";
+  sensor_msgs::Imu stated = imu(kSecond + kSecond / 50, Vector3d::Zero());
+  for (const std::size_t i : {0U, 4U, 8U}) stated.angular_velocity_covariance[i] = 0.04 * 0.04;
+  const auto input = gyro.add(stated);
+  ASSERT_TRUE(input);
+  EXPECT_NEAR(input->information(5, 5), 1.0 / std::pow(0.04 * 0.01, 2), 1e-3);
+}
+
+TEST(GyroMotion, StatesItsKindAndMounting) {
+  const Quaterniond mounted(Eigen::AngleAxisd(0.5, Vector3d::UnitX()));
+  GyroMotion gyro(0.1, mounted.toRotationMatrix());
+  gyro.add(imu(kSecond, Vector3d::Zero()));
+  const auto input = gyro.add(imu(2 * kSecond, Vector3d::Zero()));
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->source, urban_nav_core::MotionSource::Gyroscope);
+  EXPECT_LT(input->q_base_sensor.angularDistance(mounted), 1e-12);
+  WheelMotion wheels(0.05);
+  wheels.add(odometry(kSecond, Pose()));
+  EXPECT_EQ(wheels.add(odometry(2 * kSecond, Pose()))->source, urban_nav_core::MotionSource::Wheels);
+}
+
 TEST(GyroMotion, ADeviceWithoutGyroscopeGivesNothing) {
   GyroMotion gyro(0.1, Matrix3d::Identity());
   gyro.add(imu(kSecond, Vector3d::Zero()));

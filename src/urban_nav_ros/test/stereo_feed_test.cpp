@@ -139,7 +139,7 @@ TEST(StereoFeed, RawImagesAreRectified) {
 
 TEST(StereoFeed, MotionComesWithThePairThatItLeadsTo) {
   StereoFeed::Options options;
-  options.motion = true;
+  options.motion.wheels = true;
   StereoFeed feed(options, calibration());
   for (StampNs t = 0; t < 10; ++t) {
     urban_nav_core::MotionInput input;
@@ -228,7 +228,7 @@ std::string toText(const std::vector<DecodedPair>& pairs) {
 // Cut between any two messages and gone on with in another object: pairs, faults and counts are those of one object.
 TEST(StereoFeed, GoesOnFromItsState) {
   StereoFeed::Options options;
-  options.motion = true;
+  options.motion.wheels = true;
   std::vector<std::function<void(StereoFeed&)>> messages;
   for (StampNs i = 0; i < 30; ++i) {
     const StampNs stamp = (1000 + 20 * i) * kMs;

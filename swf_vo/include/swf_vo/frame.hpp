@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "urban_nav_core/types/pose_with_covariance.hpp"
@@ -61,6 +62,31 @@ struct RigConstants {
   double scale_sigma = 0.0;
 };
 
+/// A motion sensor that contradicted the images and was left out.
+struct MotionSensorFault {
+  bool is_wheels = false;                        ///< else the gyroscope of the IMU
+  bool is_named = false;                         ///< the sentence names the cause, not the difference alone
+  urban_nav_core::StampNs since = 0, until = 0;  ///< `until` 0: to the end
+  std::string sentence;                          ///< what is wrong, with a figure, and the remedy
+};
+
+/// Returns "wheels are left out from second 3.2 on: " and the sentence. `begin`: stamp of the first frame.
+std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin);
+
+/// Motion sensors, and what images have shown of them. Estimates and standard deviations are those of
+/// the priors before anything was seen; they mean nothing for a sensor that is absent or left out.
+struct MotionEstimates {
+  bool has_gyroscope = false, uses_gyroscope = false, gyroscope_left_out = false;
+  bool has_wheels = false, uses_wheels = false, wheels_left_out = false;
+  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();  ///< measured less true, rad/s, in the axes of the IMU
+  Eigen::Vector3d gyroscope_bias_sigma = Eigen::Vector3d::Zero();
+  double imu_offset_s = 0.0, imu_offset_sigma_s = 0.0;          ///< delay of stamps on the clock of the cameras
+  double wheel_scale = 1.0, wheel_scale_sigma = 0.0;            ///< measured speed over true
+  double wheel_turn_scale = 1.0, wheel_turn_scale_sigma = 0.0;  ///< measured yaw rate over true
+  double wheel_offset_s = 0.0, wheel_offset_sigma_s = 0.0;      ///< as imu_offset_s
+  std::vector<MotionSensorFault> faults;                        ///< in order of their beginnings
+};
+
 /// Figures of one frame. Times are measured by the caller: a core reads no clock.
 struct Statistics {
   int corners = 0;                 ///< FAST corners found in the left image, all levels
@@ -106,6 +132,7 @@ struct Frame {
   urban_nav_core::Status status;
   Statistics statistics;
   RigConstants rig;              ///< as known by now
+  MotionEstimates motion;        ///< as known by now
   std::vector<Settled> settled;  ///< those that left the window with this frame: none or one, more after flush
   std::vector<Feature> features;
   std::vector<Landmark> landmarks;
@@ -115,6 +142,8 @@ struct Frame {
 void archive(urban_nav_core::Archive& archive, Feature& feature);
 void archive(urban_nav_core::Archive& archive, Landmark& landmark);
 void archive(urban_nav_core::Archive& archive, RigConstants& rig);
+void archive(urban_nav_core::Archive& archive, MotionSensorFault& fault);
+void archive(urban_nav_core::Archive& archive, MotionEstimates& motion);
 void archive(urban_nav_core::Archive& archive, Statistics& statistics);
 void archive(urban_nav_core::Archive& archive, Settled& settled);
 void archive(urban_nav_core::Archive& archive, Frame& frame);

@@ -116,7 +116,7 @@ class FrontEnd::Implementation {
     if (!next || quality.astray) radius_.setUnknown();
     astray_ = astray_ || quality.astray || !next;
     radius_.setLimit(quality.sigma_m, T_window_odom_, matches_);
-    const Pose T_turned_odom = turn(next ? last : T_odom_localised_, predicted);
+    const Pose T_turned_odom = turn(next ? last : T_odom_localised_, predicted, quality.is_turn_known);
     result_.T_odom_turned = T_turned_odom.inverse();
     locate(T_turned_odom, predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
@@ -182,8 +182,8 @@ class FrontEnd::Implementation {
     return fits(pair.left) && fits(pair.right);
   }
 
-  /// The prediction with the rotation that the images show; odom into the camera.
-  Pose turn(const Pose& last, const Pose& predicted) {
+  /// The prediction with the rotation that the images show, unless it is known better; odom into the camera.
+  Pose turn(const Pose& last, const Pose& predicted, bool is_known) {
     const Pose T_now_last = predicted.inverse() * last;
     parallax_.clear();
     const Pose T_last_odom = last.inverse();
@@ -195,8 +195,8 @@ class FrontEnd::Implementation {
     }
     const RotationEstimate seen =
         rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
-    result_.turned = seen.found;
-    if (!seen.found) return predicted.inverse();
+    result_.turned = seen.found && !(is_known && astray_);
+    if (!result_.turned) return predicted.inverse();
     // The camera stays where it was predicted to be and is turned there.
     const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
     return Pose(correction, Eigen::Vector3d::Zero()) * predicted.inverse();

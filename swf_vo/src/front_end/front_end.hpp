@@ -36,9 +36,10 @@ struct FrontEndResult {
 
 /// What is known of a predicted pose.
 struct PredictionQuality {
-  bool astray = false;   ///< so much time has passed since the frame before that the prediction may be far off
-  double sigma_m = 0.0;  ///< standard deviation of the predicted translation
-  double seconds = 0.0;  ///< since the frame before
+  bool astray = false;         ///< so much time has passed since the frame before that the prediction may be far off
+  double sigma_m = 0.0;        ///< standard deviation of the predicted translation
+  double seconds = 0.0;        ///< since the frame before
+  bool is_turn_known = false;  ///< sensors measured the rotation: better than images of other places do
 };
 
 /// How many landmarks are followed at a time in images of this size, of the parameter `features`.

@@ -8,6 +8,7 @@ namespace swf_vo {
 void LiveOdometry::begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left) {
   filter_ = std::make_unique<SwfVo>(parameters_, camera, T_base_left);
   fault_.clear();
+  motion_ = MotionEstimates();
   ++sessions_;
 }
 
@@ -19,6 +20,10 @@ void LiveOdometry::process(const urban_nav_core::StereoPairWithMotion& pair) {
   ++frames_;
   status_ = frame.status;
   statistics_ = frame.statistics;
+  if (frame.frame == 0) begin_ = frame.stamp;
+  for (std::size_t i = motion_.faults.size(); listener_.warning && i < frame.motion.faults.size(); ++i)
+    listener_.warning(describe(frame.motion.faults[i], begin_));
+  motion_ = frame.motion;
   if (listener_.frame) listener_.frame(frame, pair.pair, process_ms_);
 }
 
@@ -44,6 +49,13 @@ urban_nav_live::StageReport LiveOdometry::report() const {
   report.add("reprojection error (px)", statistics_.reprojection_px);
   report.add("disparity offset (px)", statistics_.disparity_offset_px);
   report.add("row offset (px)", statistics_.row_offset_px);
+  if (motion_.has_gyroscope && !motion_.gyroscope_left_out) {
+    report.add("bias of the gyroscope (rad/s)", motion_.gyroscope_bias.norm());
+    report.add("delay of the IMU (ms)", 1e3 * motion_.imu_offset_s);
+  }
+  if (motion_.has_wheels && !motion_.wheels_left_out)
+    report.add("measured over true speed of the wheels", motion_.wheel_scale);
+  report.add("motion sensors left out", (motion_.gyroscope_left_out ? 1 : 0) + (motion_.wheels_left_out ? 1 : 0));
   report.add("ratio of observed to predicted noise", statistics_.noise_scale);
   report.add("time of the last frame (ms)", process_ms_);
   report.add("frames", frames_);

@@ -19,6 +19,8 @@ class LiveOdometry {
     std::function<void(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms)> frame;
     /// Smoothed poses that leave the window when a session ends.
     std::function<void(const Settled& settled)> settled;
+    /// A motion sensor is left out, for this reason; once for each time.
+    std::function<void(const std::string& text)> warning;
   };
 
   LiveOdometry(const Parameters& parameters, Listener listener)
@@ -47,6 +49,8 @@ class LiveOdometry {
   std::unique_ptr<SwfVo> filter_;
   urban_nav_core::Status status_;
   Statistics statistics_;
+  MotionEstimates motion_;
+  urban_nav_core::StampNs begin_ = 0;  // of the session
   double process_ms_ = 0.0;
   std::int64_t frames_ = 0, sessions_ = 0;
   std::string waiting_ = "no images yet", fault_;

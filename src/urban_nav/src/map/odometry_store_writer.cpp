@@ -46,6 +46,11 @@ void OdometryStoreWriter::writeNodes(const SessionOdometry& run) {
   }
 }
 
+void OdometryStoreWriter::rewrite(const SessionOdometry& run) {
+  nodes_ = 0;
+  write(run);
+}
+
 void OdometryStoreWriter::writeForces(const SessionOdometry& run) {
   if (!run.forces.empty()) store_.states().put(id_, kForcesStage, packForces(run.forces));
 }

@@ -23,6 +23,8 @@ class OdometryStoreWriter {
   /// Writes nodes and edges alone, in place of those of another odometry with the same times, whose edges have the
   /// source `replaced`.
   void replaceNodes(const SessionOdometry& run, const std::string& replaced);
+  /// Writes all poses and steps of the run, in place of those of earlier calls. Does not commit.
+  void rewrite(const SessionOdometry& run);
   /// Writes the specific forces of a finished run.
   void writeForces(const SessionOdometry& run);
 

@@ -22,4 +22,10 @@ urban_nav_core::OdometryChain odometryChain(const SessionOdometry& run) {
   return odometry;
 }
 
+void turnOdometry(const Eigen::Quaterniond& q_level_odom, SessionOdometry& run) {
+  const urban_nav_core::Pose T_level_odom(q_level_odom, Eigen::Vector3d::Zero());
+  for (OdometryFrame& frame : run.frames) frame.T_odom_base = T_level_odom * frame.T_odom_base;
+  for (SmoothedFrame& frame : run.settled) frame.T_odom_base.pose = T_level_odom * frame.T_odom_base.pose;
+}
+
 }  // namespace urban_nav

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -67,5 +68,8 @@ std::string describeCameras(const SessionOdometry& odometry);
 urban_nav_core::Trajectory smoothedTrajectory(const SessionOdometry& odometry);
 /// Returns the smoothed steps between them.
 urban_nav_core::OdometryChain odometryChain(const SessionOdometry& odometry);
+
+/// Turns all poses in `odom`. Steps and covariances, which are in the axes of poses, stay.
+void turnOdometry(const Eigen::Quaterniond& q_level_odom, SessionOdometry& odometry);
 
 }  // namespace urban_nav

@@ -25,7 +25,10 @@ void archive(Archive& archive, RelativePose& value) {
 }
 
 void archive(Archive& archive, MotionInput& input) {
-  archive(input.from, input.to, input.T_from_to, input.information);
+  Pose sensor(input.q_base_sensor, Vector3d::Zero());
+  archive(input.from, input.to, input.T_from_to, input.information, input.source, sensor);
+  archive.require(input.source >= MotionSource::Given && input.source <= MotionSource::Wheels, "no such sensor");
+  input.q_base_sensor = sensor.q();
 }
 
 void archive(Archive& archive, SpecificForce& value) { archive(value.stamp, value.force); }

@@ -112,5 +112,31 @@ TEST(TimeOrderedQueue, OneStampFarAheadHoldsNothingUp) {
   EXPECT_EQ(queue.waiting(), 1U);
 }
 
+TEST(TimeOrderedQueue, AnOptionalStreamThatIsSilentIsNotWaitedFor) {
+  constexpr StampNs kPeriod = 50 * kMillisecond;
+  TestQueue queue(2, 100 * kMillisecond, DeliveryOrder::OrderedStreams, 1);
+  const auto isHeldBack = [&](int k) {
+    queue.put(1, k * kPeriod, 0);
+    return drain(queue).empty() || queue.waiting() > 0;
+  };
+  int k = 0;
+  for (; k < 20; ++k) EXPECT_TRUE(isHeldBack(k)) << "it may still come";
+  for (; k < TestQueue::kPatience + 2; ++k) isHeldBack(k);
+  EXPECT_FALSE(isHeldBack(k++));
+  queue.put(0, k * kPeriod - 1, 0);
+  EXPECT_TRUE(isHeldBack(k)) << "it has come";
+  for (int silent = 0; silent < 25; ++silent) isHeldBack(++k);
+  EXPECT_FALSE(isHeldBack(++k)) << "it has ended";
+}
+
+TEST(TimeOrderedQueue, AnObligatoryStreamIsWaitedForAlways) {
+  TestQueue queue(2, 100 * kMillisecond, DeliveryOrder::OrderedStreams);
+  for (int k = 0; k < 100; ++k) {
+    queue.put(1, k * 50 * kMillisecond, 0);
+    drain(queue);
+  }
+  EXPECT_GT(queue.waiting(), 0U);
+}
+
 }  // namespace
 }  // namespace urban_nav_core

@@ -65,11 +65,25 @@ TEST(Uncertain, PrintsThemselves) {
   EXPECT_NE(out.str().find("information diagonal = (0 0 0 0 0 0)"), std::string::npos);
 }
 
+TEST(MotionInput, ChoiceOfSensorsIsThatOfTheParameter) {
+  const auto isChoice = [](const char* text, bool gyroscope, bool wheels, bool is_required) {
+    const MotionChoice choice = toMotionChoice(text);
+    return choice.gyroscope == gyroscope && choice.wheels == wheels && choice.is_required == is_required;
+  };
+  EXPECT_TRUE(isChoice("auto", true, true, false));
+  EXPECT_TRUE(isChoice("none", false, false, false));
+  EXPECT_TRUE(isChoice("gyroscope", true, false, true));
+  EXPECT_TRUE(isChoice("wheels", false, true, true));
+}
+
 TEST(MotionInput, Compares) {
   const MotionInput a{0, 1, kPose, Matrix6d::Zero()};
   MotionInput b = a;
   EXPECT_TRUE(isApprox(a, b, 0.0));
   b.information(0, 0) = 1.0;
+  EXPECT_FALSE(isApprox(a, b, 0.5));
+  b = a;
+  b.source = MotionSource::Wheels;
   EXPECT_FALSE(isApprox(a, b, 0.5));
 }
 

@@ -39,7 +39,7 @@ class EurocFolder : public Source {
     info_.last = pairs_.back().stamp;
     if (options.motion_input == "wheels")
       throw urban_nav_core::DataError(mav0_, "has no wheel odometry for input.motion_input = wheels", "");
-    if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
+    readMotion(options);
     readForces(options.accelerometer);
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
@@ -83,12 +83,19 @@ class EurocFolder : public Source {
     pairing_findings_ = pairing.findings({{"cam0", "cam1"}}, missing, present);
   }
 
-  void readMotion(double noise) {
-    urban_nav_ros::GyroMotion gyroscope(noise, rig_.T_base_body.R());
-    for (const EurocImu& row : readEurocImu(mav0_)) {
-      if (const auto motion = gyroscope.add(toImuMessage(row))) motion_.push_back(*motion);
+  void readMotion(const SourceOptions& options) {
+    const urban_nav_core::MotionChoice choice = urban_nav_core::toMotionChoice(options.motion_input);
+    if (!choice.gyroscope) return;
+    urban_nav_ros::GyroMotion gyroscope(options.gyro_noise, rig_.T_base_body.R());
+    try {
+      for (const EurocImu& row : readEurocImu(mav0_))
+        if (const auto motion = gyroscope.add(toImuMessage(row))) motion_.push_back(*motion);
+    } catch (const urban_nav_core::Error&) {
+      if (choice.is_required) throw;
+      motion_.clear();  // readForces() notes why
     }
-    if (motion_.empty()) throw urban_nav_core::DataError(mav0_, "has no imu0 for input.motion_input = gyroscope", "");
+    if (choice.is_required && motion_.empty())
+      throw urban_nav_core::DataError(mav0_, "has no imu0 for input.motion_input = gyroscope", "");
   }
 
   /// They level the map; without them it is as the first pose stands, and nothing else is lost.

@@ -94,13 +94,32 @@ EurocRig readEurocRig(const std::string& mav0) {
           T_base_camera * T_camera_raw * left.T_body_camera.inverse()};
 }
 
+namespace {
+
+/// Returns the standard deviation of one rate, rad/s; 0 where the folder does not state it.
+double readRateSigma(const std::string& mav0) {
+  const std::string path = (fs::path(mav0) / "imu0" / "sensor.yaml").string();
+  if (!fs::exists(path)) return 0.0;
+  try {
+    const urban_nav_core::EurocImu imu = urban_nav_core::readEurocImu(path);
+    return imu.gyroscope_noise * std::sqrt(imu.rate_hz);
+  } catch (const urban_nav_core::Error&) {
+    return 0.0;  // then it is found from the rates
+  }
+}
+
+}  // namespace
+
 std::vector<EurocImu> readEurocImu(const std::string& mav0) {
   const std::string path = (fs::path(mav0) / "imu0" / "data.csv").string();
   std::vector<EurocImu> rows;
   if (!fs::exists(path)) return rows;
+  const double rate_sigma = readRateSigma(mav0);
   for (const EurocRow& row : readEurocTable(path, 7, "stamp in ns, three rates, three accelerations").rows)
-    rows.push_back(
-        {row.stamp, {row.number(1), row.number(2), row.number(3)}, {row.number(4), row.number(5), row.number(6)}});
+    rows.push_back({row.stamp,
+                    {row.number(1), row.number(2), row.number(3)},
+                    {row.number(4), row.number(5), row.number(6)},
+                    rate_sigma});
   return rows;
 }
 
@@ -111,6 +130,7 @@ sensor_msgs::Imu toImuMessage(const EurocImu& row) {
   message.angular_velocity.x = row.rate.x();
   message.angular_velocity.y = row.rate.y();
   message.angular_velocity.z = row.rate.z();
+  for (const std::size_t i : {0U, 4U, 8U}) message.angular_velocity_covariance[i] = row.rate_sigma * row.rate_sigma;
   message.linear_acceleration.x = row.acceleration.x();
   message.linear_acceleration.y = row.acceleration.y();
   message.linear_acceleration.z = row.acceleration.z();

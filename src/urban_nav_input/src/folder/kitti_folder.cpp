@@ -42,7 +42,7 @@ class KittiFolder : public Source {
       throw urban_nav_core::DataError(
           folder,
           "has no images, and no sweep that can be used" + (info_.notes.empty() ? "" : ": " + info_.notes.back()), "");
-    if (options.motion_input != "none")
+    if (urban_nav_core::toMotionChoice(options.motion_input).is_required)
       throw urban_nav_core::DataError(
           folder, "holds images alone, nothing for input.motion_input = " + options.motion_input, "");
     if (layout) look(options.calibration);

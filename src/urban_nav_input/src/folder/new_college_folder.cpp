@@ -36,7 +36,8 @@ class NewCollegeFolder : public Source {
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: the data set's counts");
     if (options.motion_input == "gyroscope")
       throw DataError(folder, "has no IMU for input.motion_input = gyroscope", "");
-    if (options.motion_input == "wheels") openLog(folder, options.wheel_noise);
+    const urban_nav_core::MotionChoice motion = urban_nav_core::toMotionChoice(options.motion_input);
+    if (motion.wheels && (motion.is_required || !files_.alog.empty())) openLog(folder, options.wheel_noise);
   }
 
   const SourceInfo& info() const override { return info_; }

@@ -4,7 +4,26 @@
 #include <algorithm>
 #include <optional>
 
+#include "urban_nav_core/types/error.hpp"
+
 namespace urban_nav_input {
+
+std::string listImageTopics(Recording& recording) {
+  std::string text;
+  for (const auto& [topic, type] : recording.topicTypes())
+    if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
+  return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
+}
+
+urban_nav_core::MotionChoice chooseMotion(const BagTopics& topics, const std::string& motion_input,
+                                          const std::string& recording) {
+  urban_nav_core::MotionChoice motion = urban_nav_core::toMotionChoice(motion_input);
+  motion.gyroscope = motion.gyroscope && topics.find(Role::Imu);
+  motion.wheels = motion.wheels && topics.find(Role::Wheels);
+  if (motion.is_required && !motion.any())
+    throw urban_nav_core::DataError(recording, "has no topic for input.motion_input = " + motion_input, "");
+  return motion;
+}
 
 std::string readHeaderFrame(const RecordedMessage& message) {
   constexpr std::size_t kLengthAt = 12, kTextAt = 16;  // after seq (ROS 1) or the encapsulation (CDR), and the stamp

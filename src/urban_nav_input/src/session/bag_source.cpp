@@ -46,7 +46,7 @@ constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, w
 constexpr urban_nav_core::StampNs kClockStep = 1'000'000'000;  // ns
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 6;
+constexpr std::uint32_t kBagStateVersion = 7;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                            // ns: images of a pair are received one after another
 constexpr std::size_t kDepthSamples = 20;  // images at the beginning of each side
@@ -62,7 +62,8 @@ class BagSource : public Source {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
-      throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
+      throw DataError(name_, "has no stereo pair of image topics: " + listImageTopics(recording_), "");
+    if (info_.has_images) motion_ = chooseMotion(topics_, options.motion_input, name_);
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";
     info_.notes = topics_.notes;
@@ -134,13 +135,6 @@ class BagSource : public Source {
     item.panoramas = std::exchange(panoramas_, {});
     item.sweeps = std::exchange(sweeps_, {});
     return item;
-  }
-
-  std::string listing() {
-    std::string text;
-    for (const auto& [topic, type] : recording_.topicTypes())
-      if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
-    return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
   }
 
   void calibrate() {
@@ -238,12 +232,7 @@ class BagSource : public Source {
     const std::vector<std::string> leading = info_.has_images ? imageTopics() : sweeps_in_bag_.topics();
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
-    const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
-    if (options_.motion_input != "none") {
-      if (!topics_.find(motion_role))
-        throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
-      feed.motion = true;
-    }
+    feed.motion = motion_;
     surveyOrder(leading);
     feed.pairing_tolerance = convention_.tolerance;
     if (info_.has_images) feed_.emplace(feed, calibration_);
@@ -289,8 +278,8 @@ class BagSource : public Source {
     const auto leave = [&](Role role, bool is_of_use) {  // it is examined all the same
       if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
     };
-    leave(Role::Wheels, options_.motion_input == "wheels");
-    leave(Role::Imu, R_base_imu_ || options_.motion_input == "gyroscope");
+    leave(Role::Wheels, motion_.wheels);
+    leave(Role::Imu, R_base_imu_ || motion_.gyroscope);
     if (std::string sentence = describeUnusedTopics(recording_, used); !sentence.empty())
       info_.notes.push_back(std::move(sentence));
   }
@@ -415,12 +404,11 @@ class BagSource : public Source {
       }
     } else if (const auto odometry = instance.as<nav_msgs::Odometry>()) {
       sensors_.add(*odometry, topic, instance.receipt());
-      if (options_.motion_input != "wheels") return;
+      if (!motion_.wheels) return;
       if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
     } else if (const auto imu = instance.as<sensor_msgs::Imu>()) {
       sensors_.add(*imu, topic, instance.receipt());
-      if (const auto motion = gyroscope_->add(*imu); motion && options_.motion_input == "gyroscope")
-        feed_->add(*motion);
+      if (const auto motion = gyroscope_->add(*imu); motion && motion_.gyroscope) feed_->add(*motion);
     } else if (const auto scan = instance.as<sensor_msgs::LaserScan>()) {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
@@ -466,6 +454,7 @@ class BagSource : public Source {
   SourceInfo info_;
   std::string camera_frame_;
   std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration_;
+  urban_nav_core::MotionChoice motion_;
   std::optional<urban_nav_ros::WheelMotion> wheels_;
   std::optional<urban_nav_ros::GyroMotion> gyroscope_;
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;

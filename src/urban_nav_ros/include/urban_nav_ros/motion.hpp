@@ -38,7 +38,8 @@ class WheelMotion {
 /// nothing.
 class GyroMotion {
  public:
-  /// `noise`: standard deviation of the rate, bias included, rad/s. `R_base_imu`: rotation of the device in base_link.
+  /// `noise`: standard deviation of one rate, its bias apart, rad/s; 0: as the messages' covariances state, and no
+  /// information where they state none. `R_base_imu`: rotation of the device in base_link.
   GyroMotion(double noise, const urban_nav_core::Matrix3d& R_base_imu) : noise_(noise), R_base_imu_(R_base_imu) {}
   std::optional<urban_nav_core::MotionInput> add(const sensor_msgs::Imu& message);
   void archive(urban_nav_core::Archive& archive) { archive(last_); }

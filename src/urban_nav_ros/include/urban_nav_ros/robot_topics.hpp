@@ -30,7 +30,7 @@ void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool com
   options.queue = queue;
   options.group = topic_groups::kImages;
   if (stereo) {
-    subscribeStereo(node, options, compressed, MotionTopic::None);
+    subscribeStereo(node, options, compressed, urban_nav_core::MotionChoice());
   } else {
     TopicOptions unmonitored;
     unmonitored.is_monitored = unmonitored.is_paused = false;

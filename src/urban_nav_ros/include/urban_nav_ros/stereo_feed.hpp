@@ -38,7 +38,9 @@ class StereoFeed {
     urban_nav_core::StampNs max_lateness = 50'000'000;
     urban_nav_core::DeliveryOrder delivery = urban_nav_core::DeliveryOrder::Shuffled;
     urban_nav_core::StampNs pairing_tolerance = 5'000'000;
-    bool motion = false;  ///< motion inputs will come: in live order the feed waits for them as for an image
+    /// Motion inputs that may come: in live order the feed waits for them as for an image, unless they are optional and
+    /// silent. Inputs of no sensor come with the first of them.
+    urban_nav_core::MotionChoice motion;
   };
   StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration);
 
@@ -71,11 +73,13 @@ class StereoFeed {
   using Input =
       std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr, urban_nav_core::MotionInput>;
   int toStream(Side side) const;
+  int toStream(urban_nav_core::MotionSource source) const;
   void widen(const Input& input);
   void widenByPair(urban_nav_core::StampNs stamp, const Input& input);
   urban_nav_core::OwnedImage decode(Side side, urban_nav_core::StampNs stamp, const Input& input);
 
   std::shared_ptr<const StereoCalibration> calibration_;
+  urban_nav_core::MotionChoice motion_;
   int first_image_stream_;
   urban_nav_core::TimeOrderedQueue<Input> queue_;
   urban_nav_core::StereoAssembler assembler_;

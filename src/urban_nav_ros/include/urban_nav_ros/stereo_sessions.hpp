@@ -36,16 +36,16 @@ class StereoSessions {
 
   struct Options {
     std::string base_frame = urban_nav_core::frames::kBaseLink;
-    bool rectified = false;         ///< the images are rectified already
-    bool judges_images = false;     ///< `rectified` is a guess: the first pairs decide, where they can
-    int queue_size = 200;           ///< messages kept before a session begins
-    double max_lateness = 0.1;      ///< s, by stamps, that an image waits for its partner and for motion inputs
-    double sync_tolerance = 0.005;  ///< s between the stamps of left and right image
-    double tf_timeout = 1.0;        ///< s
-    bool motion = false;            ///< nav_msgs/Odometry or sensor_msgs/Imu are motion inputs
-    double wheel_noise = 0.0;       ///< of WheelMotion
-    double gyro_noise = 0.0;        ///< of GyroMotion, rad/s
-    std::string where = "stereo";   ///< what an error of the calibration begins with
+    bool rectified = false;               ///< the images are rectified already
+    bool judges_images = false;           ///< `rectified` is a guess: the first pairs decide, where they can
+    int queue_size = 200;                 ///< images kept before a session begins, with the messages between them
+    double max_lateness = 0.1;            ///< s, by stamps, that an image waits for its partner and for motion inputs
+    double sync_tolerance = 0.005;        ///< s between the stamps of left and right image
+    double tf_timeout = 1.0;              ///< s
+    urban_nav_core::MotionChoice motion;  ///< sensor_msgs/Imu and nav_msgs/Odometry that are motion inputs
+    double wheel_noise = 0.0;             ///< of WheelMotion
+    double gyro_noise = 0.0;              ///< of GyroMotion, rad/s; 0: as messages state
+    std::string where = "stereo";         ///< what an error of the calibration begins with
   };
   struct Camera {
     urban_nav_core::StereoCamera camera;
@@ -99,6 +99,7 @@ class StereoSessions {
   void handleInfo(const InfoInput& info);
   void handleSensor(const Message& message);
   void feed(const Message& message);
+  void wait(const Message& message);
   void setFault(const std::string& fault);
   void tryToBegin();
   void begin(bool are_rectified);
@@ -110,6 +111,7 @@ class StereoSessions {
   sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
   std::string imu_frame_ = urban_nav_core::frames::kImu;
   std::deque<Message> waiting_;  // for a session
+  int waiting_images_ = 0;       // of these
   RectificationJudge judge_;
   std::optional<Clock::time_point> first_image_;
   urban_nav_live::TimeJumpDetector images_;

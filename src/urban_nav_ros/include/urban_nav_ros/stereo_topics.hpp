@@ -11,15 +11,6 @@
 
 namespace urban_nav_ros {
 
-/// Motion sensor that a stage listens to beside the stereo camera.
-enum class MotionTopic { None, Wheels, Imu };
-
-/// Returns the motion sensor of a parameter `motion_input`: none, wheels, gyroscope.
-inline MotionTopic toMotionTopic(const std::string& motion_input) {
-  if (motion_input == "wheels") return MotionTopic::Wheels;
-  return motion_input == "gyroscope" ? MotionTopic::Imu : MotionTopic::None;
-}
-
 /// Returns the options of a stage with these parameters.
 inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInputParameters& parameters,
                                                const ros::NodeHandle& nh) {
@@ -58,21 +49,23 @@ void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bo
   node.monitor().expectPairs(node.nh().resolveName(topics::kLeftImage), node.nh().resolveName(topics::kRightImage));
 }
 
-/// Subscribes to images, camera_info, /tf_static and the motion sensor as inputs of a stage. Requires that Input can be
-/// made from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion sensor if there
-/// is one. `options` apply to images and motion.
+/// Subscribes to images, camera_info, /tf_static and motion sensors as inputs of a stage. Requires that Input can be
+/// made from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion sensors if
+/// there are any. `options` apply to images and motion; the absence of a sensor that is not required is no fault.
 template <typename Input>
-void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed, MotionTopic motion) {
+void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed,
+                     const urban_nav_core::MotionChoice& motion) {
   const auto forward = [](const auto& message) { return Input(message); };
   TopicOptions unmonitored;
   unmonitored.is_monitored = unmonitored.is_paused = false;
   node.template subscribeInput<tf2_msgs::TFMessage>(topics::kStaticTransforms, unmonitored, forward);
   subscribeImages(node, options, compressed);
+  TopicOptions moving = options;
+  moving.is_monitored = motion.is_required;
   if constexpr (std::is_constructible_v<Input, nav_msgs::OdometryConstPtr>)
-    if (motion == MotionTopic::Wheels)
-      node.template subscribeInput<nav_msgs::Odometry>(topics::kWheelOdometry, options, forward);
+    if (motion.wheels) node.template subscribeInput<nav_msgs::Odometry>(topics::kWheelOdometry, moving, forward);
   if constexpr (std::is_constructible_v<Input, sensor_msgs::ImuConstPtr>)
-    if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::kImu, options, forward);
+    if (motion.gyroscope) node.template subscribeInput<sensor_msgs::Imu>(topics::kImu, moving, forward);
 }
 
 }  // namespace urban_nav_ros

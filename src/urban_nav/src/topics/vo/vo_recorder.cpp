@@ -12,6 +12,8 @@
 #include "topics/vo/vo_run_state.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/motion_input.hpp"
+#include "urban_nav_input/session/input_parameters.hpp"
 
 namespace urban_nav {
 
@@ -51,6 +53,16 @@ std::string caption(const OdometryFrame& frame, const swf_vo::Statistics& statis
 
 SmoothedFrame toSmoothedFrame(const swf_vo::Settled& settled) {
   return {settled.frame, settled.stamp, settled.T_odom_base, settled.from_previous, settled.status};
+}
+
+/// Returns the rotation after which `odom` has z opposite to gravity, and the first pose heading zero; nullopt where
+/// the specific forces of the session do not show it.
+std::optional<Eigen::Quaterniond> findOdometryLevel(const VoRun& run) {
+  if (run.settled.empty() || run.forces.empty()) return std::nullopt;
+  const pose_graph::Level level = pose_graph::estimateLevel(smoothedTrajectory(run), run.forces);
+  if (!level.known()) return std::nullopt;
+  const Eigen::Quaterniond q_odom_first = run.settled.front().T_odom_base.pose.q();
+  return (Eigen::Quaterniond(level.R_map_first) * q_odom_first.conjugate()).normalized();
 }
 
 }  // namespace
@@ -120,7 +132,10 @@ const OdometryFrame& VoRecorder::process(const urban_nav_input::SourceItem& inpu
   row.accepted = frame.accepted;
   row.status = frame.status;
   row.T_odom_base = frame.T_odom_base.pose;
-  if (frame.accepted) run_.rig = frame.rig;
+  if (frame.accepted) {
+    run_.rig = frame.rig;
+    run_.motion = frame.motion;
+  }
   run_.faults_total += static_cast<std::int64_t>(input.faults.size());
   for (const std::string& fault : input.faults) {
     if (run_.faults.size() < kMaxFaults) run_.faults.push_back(fault);
@@ -146,13 +161,20 @@ std::string VoRecorder::state() const {
   return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
 }
 
-void VoRecorder::finish(const PassEnd& end) {
+bool VoRecorder::finish(const PassEnd& end, bool is_levelled) {
   run_.faults.insert(run_.faults.begin(), end.faults.begin(), end.faults.end());
   run_.faults_total += static_cast<std::int64_t>(end.faults.size());
   for (const swf_vo::Settled& settled : filter_->flush()) run_.settled.push_back(toSmoothedFrame(settled));
   std::vector<urban_nav_core::StampNs> stamps;
   for (const SmoothedFrame& settled : run_.settled) stamps.push_back(settled.stamp);
   run_.forces = pose_graph::forcesAt(stamps, end.forces);
+  // An IMU whose gyroscope is wrong has the same axes, units and stamps for its accelerometer.
+  const std::optional<Eigen::Quaterniond> q_level_odom =
+      is_levelled && !run_.motion.gyroscope_left_out ? findOdometryLevel(run_) : std::nullopt;
+  if (!q_level_odom) return false;
+  turnOdometry(*q_level_odom, run_);
+  for (auto& [id, landmark] : run_.landmarks) landmark.landmark.p_odom = *q_level_odom * landmark.landmark.p_odom;
+  return true;
 }
 
 urban_nav_core::Trajectory runOdometry(urban_nav_input::Source& source, const ParameterSet& parameters,
@@ -169,7 +191,9 @@ urban_nav_core::Trajectory runOdometry(urban_nav_input::Source& source, const Pa
   for (const urban_nav_input::Finding& finding : source.sensorFindings())
     faults.push_back(source.info().name + ": " + finding.text + " (" + finding.remedy + ")");
   for (const std::string& fault : faults) console.warn(fault);
-  recorder.finish({faults, source.forces()});
+  const bool uses_imu =
+      urban_nav_core::toMotionChoice(parameters.get(urban_nav_input::inputTable()).motion_input).gyroscope;
+  recorder.finish({faults, source.forces()}, uses_imu);
   return smoothedTrajectory(run);
 }
 

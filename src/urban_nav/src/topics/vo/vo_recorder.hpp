@@ -25,8 +25,9 @@ class VoRecorder {
 
   /// Returns the frame that it has added to the run.
   const OdometryFrame& process(const urban_nav_input::SourceItem& input);
-  /// Empties the window. No process() after it.
-  void finish(const PassEnd& end);
+  /// Empties the window, and turns `odom` so that z is opposite to gravity if `is_levelled` and the input's specific
+  /// forces show it. Returns whether it was turned. No process() after it.
+  bool finish(const PassEnd& end, bool is_levelled);
   /// Returns the state of run and filter. Not after finish().
   std::string state() const;
 

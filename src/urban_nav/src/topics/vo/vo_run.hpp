@@ -37,6 +37,7 @@ struct VoRun : SessionOdometry {
   std::vector<VoFigures> figures;  ///< one per element of `frames`
   std::map<swf_vo::LandmarkId, VoLandmark> landmarks;
   swf_vo::RigConstants rig;         ///< as known at the end
+  swf_vo::MotionEstimates motion;   ///< as known at the end
   std::vector<VoPicture> pictures;  ///< evenly spread over the session
 };
 

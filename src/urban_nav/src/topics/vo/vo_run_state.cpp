@@ -16,7 +16,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr const char* kVoRunName = "visual odometry of a session";
-constexpr std::uint32_t kVoRunVersion = 5;
+constexpr std::uint32_t kVoRunVersion = 6;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
@@ -115,6 +115,7 @@ void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& sto
   archive(stored.rows, stored.settled, run.pictures, run.faults, run.faults_total, run.forces, stored.landmarks);
   if (version > 3) archive(run.rig);
   if (version > 4) archive(stored.constants);
+  if (version > 5) archive(run.motion);
   archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
                   "constants of the rig are not those of the steps");
 }

@@ -15,6 +15,8 @@
 #include "topics/vo/vo_summary.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/motion_input.hpp"
+#include "urban_nav_input/session/input_parameters.hpp"
 
 namespace urban_nav {
 
@@ -40,6 +42,9 @@ class VoPass final : public SessionPass {
   VoPass(MapContext& context, const Stage::SessionStart& start, VoRun& run)
       : console_(context.console),
         run_(run),
+        is_levelled_(
+            urban_nav_core::toMotionChoice(context.options.parameters.get(urban_nav_input::inputTable()).motion_input)
+                .gyroscope),
         recorder_(makeRecorder(context, start)),
         writer_(*context.store, context.sessions[start.session].id, kVoStage, kVoStream),
         faults_reported_(run_.faults.size()) {}
@@ -52,9 +57,10 @@ class VoPass final : public SessionPass {
   void flush() override { writer_.write(run_); }
   std::string checkpoint() override { return recorder_.state(); }
   void finish(const PassEnd& end) override {
-    recorder_.finish(end);
+    const bool was_turned = recorder_.finish(end, is_levelled_);
     checkUsable(run_);
-    writer_.write(run_);
+    if (was_turned) writer_.rewrite(run_);
+    else writer_.write(run_);
     writer_.writeForces(run_);
     for (const std::string& fault : end.faults) console_.warn(fault);
   }
@@ -70,6 +76,7 @@ class VoPass final : public SessionPass {
 
   Console& console_;
   VoRun& run_;
+  bool is_levelled_;
   VoRecorder recorder_;
   OdometryStoreWriter writer_;
   std::size_t faults_reported_;

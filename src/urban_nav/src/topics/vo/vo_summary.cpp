@@ -73,6 +73,36 @@ void addRig(const VoRun& run, const swf_vo::Parameters& parameters, std::vector<
         " ms is allowed for: trigger both cameras by one signal");
 }
 
+/// Appends the motion sensors that the images contradict.
+void addMotionSensors(const VoRun& run, std::vector<std::string>& warnings) {
+  for (const swf_vo::MotionSensorFault& fault : run.motion.faults)
+    warnings.push_back(run.input + ": " + describe(fault, run.frames.front().stamp));
+}
+
+/// Adds the states of motion sensors that are there and in use. Lengths of images are as uncertain as the rig's scale.
+void addMotion(const VoSummary& summary, Json& json) {
+  const swf_vo::MotionEstimates& motion = summary.motion;
+  const auto list = [](const Eigen::Vector3d& values) {
+    Json numbers = Json::array();
+    for (Eigen::Index i = 0; i < 3; ++i) numbers.append(values[i]);
+    return numbers;
+  };
+  if (motion.has_gyroscope && !motion.gyroscope_left_out) {
+    json["gyroscope_bias_radps"] = list(motion.gyroscope_bias);
+    json["gyroscope_bias_sigma_radps"] = list(motion.gyroscope_bias_sigma);
+    json["imu_offset_s"] = motion.imu_offset_s;
+    json["imu_offset_sigma_s"] = motion.imu_offset_sigma_s;
+  }
+  if (motion.has_wheels && !motion.wheels_left_out) {
+    json["wheel_scale"] = motion.wheel_scale;
+    json["wheel_scale_sigma"] = std::hypot(motion.wheel_scale_sigma, motion.wheel_scale * summary.rig.scale_sigma);
+    json["wheel_turn_scale"] = motion.wheel_turn_scale;
+    json["wheel_turn_scale_sigma"] = motion.wheel_turn_scale_sigma;
+    json["wheel_offset_s"] = motion.wheel_offset_s;
+    json["wheel_offset_sigma_s"] = motion.wheel_offset_sigma_s;
+  }
+}
+
 void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string>& warnings) {
   const std::string where = run.input + ": ";
   if (dropped > 0)
@@ -122,9 +152,11 @@ VoSummary summarise(const std::vector<const VoRun*>& runs, const swf_vo::Paramet
     }
     summary.dropped += dropped;
     summary.rig = run->rig;
+    summary.motion = run->motion;
     addWarnings(*run, dropped, summary.warnings);
     addLosses(*run, summary.warnings);
     addRig(*run, parameters, summary.warnings);
+    addMotionSensors(*run, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
   summary.features_mean = mean(features, accepted);
@@ -152,6 +184,7 @@ Json toJson(const VoSummary& summary) {
   json["right_roll_sigma_deg"] = summary.rig.roll_sigma_rad * kRigDegrees;
   json["shutter_delay_ms"] = 1e3 * summary.rig.delay_s;
   json["shutter_delay_sigma_ms"] = 1e3 * summary.rig.delay_sigma_s;
+  addMotion(summary, json);
   Json& statuses = json["status_counts"] = Json::object();
   for (const char* name : {"OK", "DEGRADED", "LOST", "RECOVERED"}) statuses[name] = summary.status_counts.at(name);
   Json& reasons = json["reason_counts"] = Json::object();

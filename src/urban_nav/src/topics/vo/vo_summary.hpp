@@ -19,10 +19,11 @@ struct VoSummary {
   double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
   double row_offset_px = 0.0;                                         ///< likewise
   swf_vo::RigConstants rig;                                           ///< likewise
+  swf_vo::MotionEstimates motion;                                     ///< of the last session, at its end
   std::map<std::string, std::int64_t> status_counts;                  ///< OK, DEGRADED, LOST, RECOVERED: all four
   std::map<std::string, std::int64_t> reason_counts;                  ///< of frames that have one
-  /// Faults of the data; frames that were LOST, by reason; constants of the rig that the images contradict. Each begins
-  /// with its input.
+  /// Faults of the data; frames that were LOST, by reason; constants of the rig and motion sensors that the images
+  /// contradict. Each begins with its input.
   std::vector<std::string> warnings;
 };
 

@@ -12,7 +12,7 @@ namespace urban_nav_core {
 /// Which motion sensor accompanies the images, and its noise: parameters of readers and nodelets, which turn its
 /// messages into MotionInput. Base of their parameters; the rows are those of withMotionInput().
 struct MotionInputParameters {
-  std::string motion_input;  // none, wheels, gyroscope
+  std::string motion_input;  // auto, none, wheels, gyroscope
   double wheel_noise;        // m/m and rad/rad
   double gyro_noise;         // rad/s
 };
@@ -20,37 +20,42 @@ struct MotionInputParameters {
 /// Returns `own` rows followed by those of MotionInputParameters.
 template <typename P>
 std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
-  const std::vector<Row<P>> rows = {
-      {"motion_input",
-       &P::motion_input,
-       "",
-       "none",
-       false,
-       false,
-       {"none", "wheels", "gyroscope"},
-       "Input u of the process model: constant velocity, wheel odometry, or the rates of an IMU.",
-       "paper 2.1, eq. 1",
-       {"swf_vo.motion_input"}},
-      {"wheel_noise",
-       &P::wheel_noise,
-       "m/m, rad/rad",
-       0.05,
-       0.0001,
-       10.0,
-       {},
-       "Standard deviation of wheel odometry, in proportion to distance and angle.",
-       "paper 2.1, eq. 1",
-       {"swf_vo.wheel_noise"}},
-      {"gyro_noise",
-       &P::gyro_noise,
-       "rad/s",
-       0.1,
-       0.00001,
-       10.0,
-       {},
-       "Standard deviation of the rates of the IMU, its bias included, since no bias is estimated.",
-       "paper 2.1, eq. 1",
-       {"swf_vo.gyro_noise"}}};
+  const std::vector<Row<P>> rows = {{"motion_input",
+                                     &P::motion_input,
+                                     "",
+                                     "auto",
+                                     false,
+                                     false,
+                                     {"auto", "none", "wheels", "gyroscope"},
+                                     "Sensors of motion that accompany the images: the gyroscope of an IMU and wheel "
+                                     "odometry where they are there, one of "
+                                     "them, or none.",
+                                     "paper 2.1, eq. 1",
+                                     {"swf_vo.motion_input"}},
+                                    {"wheel_noise",
+                                     &P::wheel_noise,
+                                     "m/m, rad/rad",
+                                     0.05,
+                                     0.0001,
+                                     10.0,
+                                     {},
+                                     "Standard deviation of wheel odometry from message to message, in proportion to "
+                                     "distance and angle; corrected by "
+                                     "what images show.",
+                                     "paper 2.1, eq. 1",
+                                     {"swf_vo.wheel_noise"}},
+                                    {"gyro_noise",
+                                     &P::gyro_noise,
+                                     "rad/s",
+                                     0.0,
+                                     0.0,
+                                     10.0,
+                                     {},
+                                     "Standard deviation of one rate of the IMU, its bias apart, which is estimated; "
+                                     "0: as its messages state, else as "
+                                     "found from their scatter.",
+                                     "paper 2.1, eq. 1",
+                                     {"swf_vo.gyro_noise"}}};
   own.insert(own.end(), rows.begin(), rows.end());
   return own;
 }

@@ -31,7 +31,8 @@ enum class DeliveryOrder {
 /// An input may arrive up to `max_lateness` after one with a later stamp; an input that is later still is dropped and
 /// counted. An input is held until the newest stamp exceeds its own by max_lateness, or, with
 /// DeliveryOrder::OrderedStreams, until every stream has reached its stamp. The latter suits live streams: it minimises
-/// delay, and drops a message that another of its own stream has overtaken. Not thread-safe.
+/// delay, and drops a message that another of its own stream has overtaken. Streams may be optional: one that has sent
+/// nothing while another sent kPatience inputs, or nothing for a second of stamps, is not waited for. Not thread-safe.
 template <typename Item>
 class TimeOrderedQueue {
  public:
@@ -41,8 +42,14 @@ class TimeOrderedQueue {
     Item item;
   };
 
-  TimeOrderedQueue(int streams, StampNs max_lateness, DeliveryOrder delivery = DeliveryOrder::Shuffled)
+  static constexpr std::int64_t kPatience = 30;
+  static constexpr StampNs kSilence = 1'000'000'000;
+
+  /// `optional`: so many of the first streams are optional.
+  TimeOrderedQueue(int streams, StampNs max_lateness, DeliveryOrder delivery = DeliveryOrder::Shuffled,
+                   int optional = 0)
       : counts_(static_cast<std::size_t>(streams)),
+        optional_(static_cast<std::size_t>(optional)),
         reached_(counts_.size()),
         max_lateness_(max_lateness),
         delivery_(delivery) {}
@@ -123,12 +130,22 @@ class TimeOrderedQueue {
   bool mayLeave(const Entry& entry) const {
     if (finished_ || *newest_ - entry.stamp >= max_lateness_) return true;
     if (delivery_ == DeliveryOrder::Shuffled) return false;
-    return std::all_of(reached_.begin(), reached_.end(),
-                       [&](const std::optional<StampNs>& reached) { return reached && *reached >= entry.stamp; });
+    for (std::size_t stream = 0; stream < reached_.size(); ++stream) {
+      const std::optional<StampNs>& reached = reached_[stream];
+      if ((!reached || *reached < entry.stamp) && !(stream < optional_ && isSilent(stream))) return false;
+    }
+    return true;
+  }
+
+  bool isSilent(std::size_t stream) const {
+    if (reached_[stream]) return *newest_ - *reached_[stream] > kSilence;
+    return std::any_of(counts_.begin(), counts_.end(),
+                       [](const TimeOrderedQueueCounts& counts) { return counts.received > kPatience; });
   }
 
   std::vector<Entry> waiting_;  // sorted; short: what comes in max_lateness
   std::vector<TimeOrderedQueueCounts> counts_;
+  std::size_t optional_ = 0;
   std::vector<std::optional<StampNs>> reached_;
   std::optional<StampNs> newest_;
   std::optional<Place> handed_on_;

@@ -27,6 +27,7 @@ struct EurocImu {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Vector3d rate = urban_nav_core::Vector3d::Zero();          ///< rad/s, in the body frame
   urban_nav_core::Vector3d acceleration = urban_nav_core::Vector3d::Zero();  ///< m/s^2
+  double rate_sigma = 0.0;  ///< rad/s, of one rate as sensor.yaml states; 0: it does not
 };
 
 /// The two cameras of a EuRoC folder, and the rectified pair made of them. base_link is at the rectified left camera,
@@ -49,7 +50,7 @@ std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::
 /// Returns the depth of 16-bit images, 8...16, from the first ones of both cameras; 8 for 8-bit images.
 urban_nav_ros::GreyScale eurocScale(const std::vector<EurocPair>& pairs);
 EurocRig readEurocRig(const std::string& mav0);
-/// Empty where the folder has none.
+/// Empty where the folder has none. Their noise is that of imu0/sensor.yaml, if it can be read.
 std::vector<EurocImu> readEurocImu(const std::string& mav0);
 /// As a message in the frame imu_link.
 sensor_msgs::Imu toImuMessage(const EurocImu& row);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swf_vo {
+
+namespace {
+
+constexpr double kBlock = 0.25;  // s
+// Beyond so many standard deviations something is there; of a motion, a difference of this share contradicts.
+constexpr double kFar = 4.0, kLargeShare = 0.5;
+// Blocks older by n count for the n-th power; so many contradictions are no chance.
+constexpr double kKept = 0.8, kContradictions = 2.2, kConfirmations = 1.0;
+// A sound sensor's scale is off by less; the share of sums over blocks that is left after one more of them.
+constexpr double kScaleError = 0.1, kSumsKept = 0.98;
+// Before a sensor is trusted: s at the start, and after its first contradiction.
+constexpr double kFirstWait = 1.0, kLaterWait = 5.0, kLongestWait = 60.0;
+// Until bias and delay are known, errors along the motion may be theirs, s.
+constexpr double kScaleWait = 3.0;
+constexpr std::size_t kMostSteps = 240;
+
+}  // namespace
+
+void Agreement::add(const ComparedStep& step, const urban_nav_core::Vector3d& error, double variance) {
+  if (steps_.size() >= kMostSteps) steps_.erase(steps_.begin());
+  steps_.push_back(step);
+  block_.seconds += step.seconds;
+  block_.variance += variance;
+  block_.error += error;
+  block_.by_images += step.by_images;
+  block_.by_sensor += step.by_sensor;
+  if (block_.seconds >= kBlock) closeBlock();
+}
+
+void Agreement::closeBlock() {
+  const double least = kFar * kFar * (block_.variance + floor_ * floor_), error = block_.error.squaredNorm(),
+               motion = std::max(block_.by_images.squaredNorm(), block_.by_sensor.squaredNorm());
+  const bool differs = error > kLargeShare * kLargeShare * motion;
+  if (differs && error > least) {
+    contradicted_ = kKept * contradicted_ + 1.0;
+    confirmed_ *= kKept;
+  } else if (!differs && block_.by_images.squaredNorm() > least) {
+    confirmed_ = kKept * confirmed_ + 1.0;
+    contradicted_ *= kKept;
+  }
+  const double images = block_.by_images.squaredNorm();
+  motion_ = kSumsKept * motion_ + images;
+  along_ = kSumsKept * along_ + block_.by_images.dot(block_.error);
+  along_variance_ = kSumsKept * kSumsKept * along_variance_ + images * (block_.variance + floor_ * floor_);
+  compared_ += block_.seconds;
+  block_ = Block();
+}
+
+bool Agreement::isOffScale() const {
+  const double along = std::abs(along_);
+  return along > kScaleError * motion_ && along * along > kFar * kFar * along_variance_;
+}
+
+void Agreement::interrupt() { block_ = Block(); }
+
+void Agreement::restart(bool was_trusted) {
+  ++restarts_;
+  if (!(wanted_ > 0.0)) wanted_ = kLaterWait;
+  else if (was_trusted) wanted_ = std::min(2.0 * wanted_, kLongestWait);
+  contradicted_ = confirmed_ = compared_ = 0.0;
+  motion_ = along_ = along_variance_ = 0.0;
+  block_ = Block();
+}
+
+Agreement::Verdict Agreement::verdict() const {
+  if (contradicted_ > kContradictions && contradicted_ > confirmed_) return Verdict::Contradicts;
+  if (isOffScale() && compared_ > kScaleWait) return Verdict::Contradicts;
+  if (compared_ < std::max(kFirstWait, wanted_)) return Verdict::Unknown;
+  if (confirmed_ < kConfirmations) return Verdict::Unknown;  // rest proves nothing
+  return Verdict::Agrees;
+}
+
+void Agreement::archive(urban_nav_core::Archive& archive) {
+  archive(block_.seconds, block_.variance, block_.error, block_.by_images, block_.by_sensor);
+  archive(contradicted_, confirmed_, motion_, along_, along_variance_);
+  archive(compared_, wanted_, restarts_, steps_);
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/dead_reckoning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swf_vo {
+
+using urban_nav_core::expSo3;
+using urban_nav_core::leftJacobianSo3;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Quaterniond;
+using urban_nav_core::skew;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+
+namespace {
+
+// Sliding and climbing of wheels, m per root of a metre: 2 % of a metre.
+constexpr double kSlip = 0.02;
+// Roll and pitch of a vehicle whose rates nothing measures, rad per root of a second.
+constexpr double kTilt = 0.05;
+// Place of base_link against the wheels that roll: tyres and a body that pitches, m.
+constexpr double kPlay = 2e-3;
+// The ground: slope changes by so much per root of a metre; bumps are so high per metre.
+constexpr double kSlopeWalk = 0.01, kBumps = 0.02;
+// Rate noise of the best sensors of this kind, rad/s/sqrt(Hz): none is taken to be better.
+constexpr double kLeastRateNoise = 2e-5;
+
+/// Integrates the state (position, rotation) with its covariance and its Jacobians by what all steps share.
+class Integration {
+ public:
+  static constexpr int kShared = MotionStates::kSize + 2;  // and the slope of the ground
+  using Jacobian = Eigen::Matrix<double, 6, kShared>;
+
+  Integration(const MotionEvidence& evidence, const Quaterniond& q_odom_base)
+      : evidence_(evidence),
+        R_base_odom_(q_odom_base.conjugate().toRotationMatrix()),
+        normal_(R_base_odom_ * evidence.ground->normal()) {}
+
+  /// Turns by the gyroscope, between two times on the clock of the cameras.
+  Coverage turn(StampNs from, StampNs to) {
+    const MotionStates& states = *evidence_.states;
+    const TwistStream& stream = *evidence_.gyroscope;
+    const double offset = states.mean[MotionStates::kImuOffset];
+    return stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
+      const Vector3d rate = span.twist.tail<3>() - states.bias();
+      if (!begun_) first_rate_ = rate;
+      begun_ = true;
+      last_rate_ = rate;
+      const Matrix3d J = q_.toRotationMatrix() * leftJacobianSo3(rate * seconds);
+      shared_.block<3, 3>(3, MotionStates::kBias) -= seconds * J;
+      rotate(rate * seconds, evidence_.gyroscope_noise * rateDensity(stream, span) * seconds * Matrix3d::Identity());
+    });
+  }
+
+  /// Turns by a piece of the wheels' motion, before its half and after it, about the axis of the base.
+  void turnByWheels(const TwistSpan& span, double seconds) {
+    const double scale = 1.0 + evidence_.states->mean[MotionStates::kTurnScale], turn = span.twist[5] / scale * seconds;
+    shared_.block<3, 1>(3, MotionStates::kTurnScale) -= turn / scale * q_.toRotationMatrix().col(2);
+    Vector3d variance = Vector3d::Constant(kTilt * kTilt * seconds);
+    variance.z() = evidence_.wheel_noise * span.density[5] * seconds / (scale * scale);
+    const Matrix3d R = q_.toRotationMatrix();
+    rotate({0.0, 0.0, turn}, R * variance.asDiagonal() * R.transpose());
+  }
+
+  /// Moves along the ground at the speed of the wheels.
+  void move(const TwistSpan& span, double seconds) {
+    const double scale = 1.0 + evidence_.states->mean[MotionStates::kSpeedScale],
+                 distance = span.twist[0] / scale * seconds;
+    const Vector3d forward = q_.toRotationMatrix().col(0), level = forward - normal_ * normal_.dot(forward);
+    const Vector3d along = level.norm() > 0.1 ? level.normalized() : forward;
+    const Vector3d step = distance * along;
+    // A turn about the normal of the ground turns the step; other turns leave it on the ground.
+    Matrix6d A = Matrix6d::Identity();
+    A.topRightCorner<3, 3>() = normal_.cross(step) * normal_.transpose();
+    covariance_ = (A * covariance_ * A.transpose()).eval();
+    shared_ = (A * shared_).eval();
+    shared_.block<3, 1>(0, MotionStates::kSpeedScale) -= step / scale;
+    const Vector3d in_odom = R_base_odom_.transpose() * step;
+    shared_.block<3, 2>(0, MotionStates::kSize) += normal_ * in_odom.head<2>().transpose();
+    const double across = kSlip * kSlip * std::abs(distance);
+    covariance_.topLeftCorner<3, 3>() +=
+        across * (Matrix3d::Identity() - along * along.transpose()) +
+        evidence_.wheel_noise * span.density[0] * seconds / (scale * scale) * along * along.transpose();
+    const Vector3d velocity = span.twist[0] / scale * along;
+    if (!moved_) first_velocity_ = velocity;
+    moved_ = true;
+    last_velocity_ = velocity;
+    t_ += step;
+  }
+
+  /// Ends a step for which a sensor's last statement had to do for so long, s.
+  void extrapolate(double gyroscope, double wheels) {
+    const auto change = [](double walk, double seconds) { return walk * seconds * seconds * seconds / 3.0; };
+    if (evidence_.gyroscope != nullptr)
+      for (int i = 0; i < 3; ++i) covariance_(3 + i, 3 + i) += change(evidence_.gyroscope->walk()[3 + i], gyroscope);
+    if (evidence_.wheels != nullptr) {
+      covariance_(0, 0) += change(evidence_.wheels->walk()[0], wheels);
+      covariance_.topLeftCorner<3, 3>() += kPlay * kPlay * Matrix3d::Identity();
+    }
+  }
+
+  Reckoned finish(double seconds) {
+    if (begun_) shared_.block<3, 1>(3, MotionStates::kImuOffset) = q_.toRotationMatrix() * last_rate_ - first_rate_;
+    if (moved_) shared_.block<3, 1>(0, MotionStates::kWheelOffset) = last_velocity_ - first_velocity_;
+    Eigen::Matrix<double, kShared, kShared> P = Eigen::Matrix<double, kShared, kShared>::Zero();
+    P.topLeftCorner<MotionStates::kSize, MotionStates::kSize>() = evidence_.states->covariance;
+    P.bottomRightCorner<2, 2>() = evidence_.ground->covariance;
+    // An error that steps share grows with the time, its variance with the square: this is the increment of that.
+    // Delays concern the ends of the chain alone.
+    const double share = (2.0 * evidence_.since_measured + seconds) / seconds;
+    for (int i = 0; i < kShared; ++i)
+      if (i != MotionStates::kImuOffset && i != MotionStates::kWheelOffset) shared_.col(i) *= std::sqrt(share);
+    Reckoned result;
+    result.T_from_to = urban_nav_core::Pose(q_, t_);
+    result.covariance = covariance_ + shared_ * P * shared_.transpose();
+    result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();
+    result.has_translation = evidence_.wheels != nullptr;
+    return result;
+  }
+
+ private:
+  void rotate(const Vector3d& turn, const Matrix3d& variance) {
+    q_ = (q_ * expSo3(turn)).normalized();
+    covariance_.bottomRightCorner<3, 3>() += variance;
+  }
+
+  const MotionEvidence& evidence_;
+  Matrix3d R_base_odom_;
+  Vector3d normal_;  // of the ground, in base_link at `from`
+  Quaterniond q_ = Quaterniond::Identity();
+  Vector3d t_ = Vector3d::Zero();
+  Matrix6d covariance_ = Matrix6d::Zero();
+  Jacobian shared_ = Jacobian::Zero();
+  bool begun_ = false, moved_ = false;
+  Vector3d first_rate_ = Vector3d::Zero(), last_rate_ = Vector3d::Zero();
+  Vector3d first_velocity_ = Vector3d::Zero(), last_velocity_ = Vector3d::Zero();
+};
+
+StampNs toNs(double seconds) { return static_cast<StampNs>(std::llround(1e9 * seconds)); }
+
+}  // namespace
+
+void GroundSlope::learn(const Vector3d& step, double variance) {
+  const Eigen::Vector2d step_in_plane = step.head<2>();
+  const double length = step_in_plane.norm(), bumps = kBumps * length;
+  covariance.diagonal().array() += kSlopeWalk * kSlopeWalk * length;
+  const Eigen::Vector2d gain = covariance * step_in_plane;
+  const double of_innovation = step_in_plane.dot(gain) + variance + bumps * bumps;
+  mean += gain * ((step.z() - mean.dot(step_in_plane)) / of_innovation);
+  covariance -= gain * gain.transpose() / of_innovation;
+}
+
+StampNs delayed(StampNs stamp, double offset_s) { return stamp + toNs(offset_s); }
+
+double rateDensity(const TwistStream& gyroscope, const TwistSpan& span) {
+  const double stated = span.density.tail<3>().mean();
+  return std::max(stated > 0.0 ? stated : gyroscope.scatterDensity(), kLeastRateNoise * kLeastRateNoise);
+}
+
+std::optional<Reckoned> reckon(const MotionEvidence& evidence, StampNs from, StampNs to,
+                               const Quaterniond& q_odom_base) {
+  const double seconds = urban_nav_core::secondsBetween(from, to);
+  const bool turns = evidence.gyroscope != nullptr && !evidence.gyroscope->isEmpty(),
+             drives = evidence.wheels != nullptr && !evidence.wheels->isEmpty();
+  if (!(seconds > 0.0) || (!turns && !drives)) return std::nullopt;
+  Integration integration(evidence, q_odom_base);
+  Coverage rates, speeds;
+  if (drives) {
+    const double offset = evidence.states->mean[MotionStates::kWheelOffset];
+    double passed = 0.0;
+    const auto turn = [&](const TwistSpan& span, double half) {
+      const StampNs begin = from + toNs(passed);
+      passed += half;
+      if (!turns) return integration.turnByWheels(span, half);
+      const Coverage part = integration.turn(begin, std::min(to, from + toNs(passed)));
+      rates.measured += part.measured;
+      rates.extrapolated += part.extrapolated;
+      rates.bridged += part.bridged;
+    };
+    speeds =
+        evidence.wheels->cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double piece) {
+          turn(span, 0.5 * piece);
+          integration.move(span, piece);
+          turn(span, 0.5 * piece);
+        });
+  } else {
+    rates = integration.turn(from, to);
+  }
+  if ((turns && !rates.suffices()) || (drives && !speeds.suffices())) return std::nullopt;
+  integration.extrapolate(rates.extrapolated, speeds.extrapolated);
+  return integration.finish(seconds);
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/motion_sensors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_core/inertial/rotation_preintegration.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::Health;
+using urban_nav_core::logSo3;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::MotionInput;
+using urban_nav_core::MotionSource;
+using urban_nav_core::Pose;
+using urban_nav_core::Quaterniond;
+using urban_nav_core::secondsBetween;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+// Differences over a quarter of a second that are never held against a sensor: rad, m.
+constexpr double kTurnFloor = 2e-3, kForwardFloor = 0.01;
+// The newest step is not final: so many floors, and this share of the motion, are held against a sensor.
+constexpr double kFarInOneStep = 4.0, kLargeShareOfStep = 0.5;
+// A bias beyond so many standard deviations of its prior belongs to no sound sensor, once it is known that well.
+constexpr double kBeyond = 2.0, kWellKnown = 0.02;
+// Half of the time over which rates at the ends of a step are averaged, s.
+constexpr double kRateWindow = 0.1;
+// Offsets of clocks reach so far before the oldest step that is still to come.
+constexpr StampNs kHistory = 1'000'000'000;
+constexpr std::size_t kMostFaults = 20;
+
+double meanDiagonal(const Matrix6d& covariance, int first, int count) {
+  return std::max(0.0, covariance.diagonal().segment(first, count).mean());
+}
+
+ImageStep toImageStep(const urban_nav_core::RelativePose& step) {
+  ImageStep images;
+  images.seconds = secondsBetween(step.from, step.to);
+  images.rotation = logSo3(step.T_from_to.q());
+  images.forward = step.T_from_to.t().x();
+  images.rotation_drift = meanDiagonal(step.drift_covariance, 3, 3);
+  images.rotation_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 3, 3) - images.rotation_drift);
+  images.forward_drift = meanDiagonal(step.drift_covariance, 0, 1);
+  images.forward_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 0, 1) - images.forward_drift);
+  return images;
+}
+
+/// Returns the mean twist around a stamp of the sensor.
+Vector6d smoothTwist(const TwistStream& stream, StampNs stamp) {
+  Vector6d sum = Vector6d::Zero();
+  double seconds = 0.0;
+  stream.cover(delayed(stamp, -kRateWindow), delayed(stamp, kRateWindow), [&](const TwistSpan& span, double piece) {
+    sum += piece * span.twist;
+    seconds += piece;
+  });
+  return sum / seconds;
+}
+
+/// Returns what is known of the camera's motion, of that of base_link: (rho, phi) of boxPlus, in `from`.
+ProcessInput inCamera(const Reckoned& base, const Pose& T_base_camera) {
+  // With X = T_base_camera, T_camera = X^-1 T X: phi turns into the axes of the camera, and t moves by phi x (R t_X).
+  ProcessInput u;
+  u.T_from_to = T_base_camera.inverse() * base.T_from_to * T_base_camera;
+  const Matrix3d Rt = T_base_camera.R().transpose();
+  if (!base.has_translation) {
+    const Matrix3d rotation = Rt * base.covariance.bottomRightCorner<3, 3>() * Rt.transpose();
+    u.T_from_to = Pose(u.T_from_to.q(), Vector3d::Zero());
+    u.information.bottomRightCorner<3, 3>() = urban_nav_core::SmallCholesky<3>(rotation).inverse();
+    return u;
+  }
+  Matrix6d M = Matrix6d::Zero();
+  M.topLeftCorner<3, 3>() = M.bottomRightCorner<3, 3>() = Rt;
+  M.topRightCorner<3, 3>() = -Rt * urban_nav_core::skew(base.T_from_to.q() * T_base_camera.t());
+  u.information = urban_nav_core::SmallCholesky<6>(M * base.covariance * M.transpose()).inverse();
+  return u;
+}
+
+}  // namespace
+
+MotionSensors::MotionSensors(const Pose& T_base_camera)
+    : T_base_camera_(T_base_camera), gyroscope_(kTurnFloor), wheels_(kForwardFloor) {
+  notes_.reserve(64);
+}
+
+void MotionSensors::add(const std::vector<MotionInput>& inputs) {
+  for (const MotionInput& input : inputs) {
+    if (input.source == MotionSource::Gyroscope) {
+      gyroscope_.stream.add(input);
+      q_base_imu_ = input.q_base_sensor;
+    } else if (input.source == MotionSource::Wheels) {
+      wheels_.stream.add(input);
+    }
+  }
+}
+
+std::optional<Reckoned> MotionSensors::reckonBy(bool gyroscope, bool wheels, StampNs from, StampNs to,
+                                                const Pose& T_odom_base) const {
+  MotionEvidence evidence;
+  if (gyroscope && gyroscope_.mayPredict()) evidence.gyroscope = &gyroscope_.stream;
+  if (wheels && wheels_.mayPredict()) evidence.wheels = &wheels_.stream;
+  evidence.states = &calibration_.states();
+  evidence.ground = &ground_;
+  evidence.gyroscope_noise = calibration_.gyroscopeNoise();
+  evidence.wheel_noise = calibration_.wheelNoise();
+  evidence.since_measured = since_measured_;
+  return reckon(evidence, from, to, T_odom_base.q());
+}
+
+std::optional<ProcessInput> MotionSensors::predict(StampNs from, StampNs to, const Pose& T_odom_camera) const {
+  const Pose T_odom_base = T_odom_camera * T_base_camera_.inverse();
+  std::optional<Reckoned> reckoned = reckonBy(true, true, from, to, T_odom_base);
+  if (!reckoned) reckoned = reckonBy(true, false, from, to, T_odom_base);
+  if (!reckoned) reckoned = reckonBy(false, true, from, to, T_odom_base);
+  if (!reckoned || !reckoned->covariance.allFinite()) return std::nullopt;
+  const ProcessInput u = inCamera(*reckoned, T_base_camera_);
+  if (!u.T_from_to.isFinite() || !u.information.allFinite()) return std::nullopt;
+  return u;
+}
+
+void MotionSensors::addFrame(FrameId frame, double seconds, bool by_images, bool reckoned) {
+  since_measured_ = by_images ? 0.0 : since_measured_ + seconds;
+  if (gyroscope_.stream.isEmpty() && wheels_.stream.isEmpty()) return;
+  notes_.push_back({frame, reckoned});
+}
+
+void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
+  const Pose base = T_base_camera_ * T_from_to * T_base_camera_.inverse();
+  const MotionStates& states = calibration_.states();
+  const auto contradicts = [](double error, double motion, double floor) {
+    return error > kFarInOneStep * floor && error > kLargeShareOfStep * motion;
+  };
+  if (!gyroscope_.stream.isEmpty()) {
+    const double offset = states.mean[MotionStates::kImuOffset];
+    urban_nav_core::RotationPreintegration turned(states.bias());
+    const Coverage coverage =
+        gyroscope_.stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
+          turned.add(span.twist.tail<3>(), seconds, 0.0);
+        });
+    const Quaterniond by_gyroscope = turned.rotation();
+    const double motion = std::max(logSo3(base.q()).norm(), logSo3(by_gyroscope).norm());
+    if (coverage.isComplete())
+      gyroscope_.is_contradicted = contradicts(by_gyroscope.angularDistance(base.q()), motion, kTurnFloor);
+  }
+  if (!wheels_.stream.isEmpty()) {
+    const double offset = states.mean[MotionStates::kWheelOffset], scale = 1.0 + states.mean[MotionStates::kSpeedScale];
+    double distance = 0.0;
+    const Coverage coverage =
+        wheels_.stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
+          distance += span.twist[0] / scale * seconds;
+        });
+    const double motion = std::max(std::abs(base.t().x()), std::abs(distance));
+    if (coverage.isComplete())
+      wheels_.is_contradicted = contradicts(std::abs(distance - base.t().x()), motion, kForwardFloor);
+  }
+}
+
+void MotionSensors::learn(const Settled& settled) {
+  const auto note =
+      std::find_if(notes_.begin(), notes_.end(), [&](const FrameNote& each) { return each.frame == settled.frame; });
+  const bool known = note != notes_.end(), reckoned = known && note->reckoned;
+  if (known) notes_.erase(notes_.begin(), note + 1);
+  const Health health = settled.status.health;
+  const bool measured = any_settled_ && known && start_is_sound_ && health == Health::Ok && !reckoned;
+  any_settled_ = true;
+  start_is_sound_ = health == Health::Ok || health == Health::Recovered;
+  for (Sensor* sensor : {&gyroscope_, &wheels_}) {
+    if (!measured) sensor->agreement.interrupt();
+    sensor->stream.forget(settled.stamp - kHistory);
+  }
+  if (measured) learnStep(settled);
+  else if (known) calibration_.advance(secondsBetween(settled.from_previous.from, settled.from_previous.to));
+  follows_ = measured;
+  if (known) write();
+}
+
+void MotionSensors::learnStep(const Settled& settled) {
+  const urban_nav_core::RelativePose& step = settled.from_previous;
+  const ImageStep images = toImageStep(step);
+  if (!(images.seconds > 0.0)) return;
+  calibration_.advance(images.seconds);
+  std::optional<Compared> turned, moved;
+  const std::optional<GyroscopeStep> gyroscope = compareGyroscope(settled, images, turned);
+  const std::optional<WheelStep> wheels = compareWheels(settled, images, moved);
+  calibration_.update(images, follows_, gyroscope, wheels);
+  if (turned) gyroscope_.agreement.add(turned->step, turned->error, turned->variance);
+  else gyroscope_.agreement.interrupt();
+  if (moved) wheels_.agreement.add(moved->step, moved->error, moved->variance);
+  else wheels_.agreement.interrupt();
+  if (!gyroscope_.stream.isEmpty()) decide(gyroscope_, false, settled.stamp);
+  if (wheels_.stream.isEmpty()) return;
+  decide(wheels_, true, settled.stamp);
+  const Vector3d moved_in_odom = settled.T_odom_base.pose.q() * (step.T_from_to.q().conjugate() * step.T_from_to.t());
+  ground_.learn(moved_in_odom, step.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+}
+
+std::optional<GyroscopeStep> MotionSensors::compareGyroscope(const Settled& settled, const ImageStep& images,
+                                                             std::optional<Compared>& compared) const {
+  const TwistStream& stream = gyroscope_.stream;
+  if (stream.isEmpty()) return std::nullopt;
+  const urban_nav_core::RelativePose& step = settled.from_previous;
+  const MotionStates& states = calibration_.states();
+  const double offset = states.mean[MotionStates::kImuOffset];
+  urban_nav_core::RotationPreintegration corrected(states.bias()), stated;
+  const StampNs from = delayed(step.from, offset), to = delayed(step.to, offset);
+  const Coverage coverage = stream.cover(from, to, [&](const TwistSpan& span, double seconds) {
+    corrected.add(span.twist.tail<3>(), seconds, rateDensity(stream, span));
+  });
+  if (!coverage.isComplete()) return std::nullopt;
+  stream.cover(step.from, step.to,
+               [&](const TwistSpan& span, double seconds) { stated.add(span.twist.tail<3>(), seconds, 0.0); });
+  const urban_nav_core::RotationResidual residual =
+      rotationResidual(corrected, Quaterniond::Identity(), step.T_from_to.q(), states.bias());
+  GyroscopeStep result;
+  result.error = residual.e;
+  result.bias = -residual.bias;
+  result.offset = smoothTwist(stream, to).tail<3>() - states.bias() -
+                  corrected.rotation().conjugate() * Vector3d(smoothTwist(stream, from).tail<3>() - states.bias());
+  result.variance = corrected.covariance().trace() / 3.0;
+  Eigen::Matrix<double, 3, 4> J;
+  J << result.bias, result.offset;
+  Compared checked;
+  checked.step = {step.to, images.seconds, images.rotation, logSo3(stated.rotation())};
+  checked.error = result.error;
+  checked.variance = 3.0 * (result.variance + images.rotation_drift + 2.0 * images.rotation_end) +
+                     (J * states.covariance.topLeftCorner<4, 4>() * J.transpose()).trace();
+  compared = checked;
+  return result;
+}
+
+std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, const ImageStep& images,
+                                                      std::optional<Compared>& compared) const {
+  const TwistStream& stream = wheels_.stream;
+  if (stream.isEmpty()) return std::nullopt;
+  const urban_nav_core::RelativePose& step = settled.from_previous;
+  const MotionStates& states = calibration_.states();
+  const double offset = states.mean[MotionStates::kWheelOffset],
+               speed_scale = 1.0 + states.mean[MotionStates::kSpeedScale],
+               turn_scale = 1.0 + states.mean[MotionStates::kTurnScale];
+  const StampNs from = delayed(step.from, offset), to = delayed(step.to, offset);
+  Pose corrected, stated;
+  WheelStep result;
+  const Coverage coverage = stream.cover(from, to, [&](const TwistSpan& span, double seconds) {
+    corrected = corrected * urban_nav_core::expSe3(span.twist * seconds);
+    result.forward.variance += span.density[0] * seconds;
+    result.turn.variance += span.density[5] * seconds;
+  });
+  if (!coverage.isComplete()) return std::nullopt;
+  stream.cover(step.from, step.to, [&](const TwistSpan& span, double seconds) {
+    stated = stated * urban_nav_core::expSe3(span.twist * seconds);
+  });
+  const Vector6d change = smoothTwist(stream, to) - smoothTwist(stream, from);
+  const double forward = corrected.t().x() / speed_scale, turn = logSo3(corrected.q()).z() / turn_scale;
+  result.forward.error = images.forward - forward;
+  result.forward.scale = -images.forward / speed_scale;
+  result.forward.offset = change[0] / speed_scale;
+  result.forward.variance /= speed_scale * speed_scale;
+  result.turn.error = images.rotation.z() - turn;
+  result.turn.scale = -images.rotation.z() / turn_scale;
+  result.turn.offset = change[5] / turn_scale;
+  result.turn.variance /= turn_scale * turn_scale;
+  const Eigen::Vector2d J(result.forward.scale, result.forward.offset);
+  Eigen::Matrix2d P;
+  P << states.covariance(MotionStates::kSpeedScale, MotionStates::kSpeedScale),
+      states.covariance(MotionStates::kSpeedScale, MotionStates::kWheelOffset),
+      states.covariance(MotionStates::kSpeedScale, MotionStates::kWheelOffset),
+      states.covariance(MotionStates::kWheelOffset, MotionStates::kWheelOffset);
+  Compared checked;
+  checked.step = {step.to, images.seconds, {images.forward, 0.0, 0.0}, {stated.t().x(), 0.0, 0.0}};
+  checked.error = {result.forward.error, 0.0, 0.0};
+  checked.variance = result.forward.variance + images.forward_drift + 2.0 * images.forward_end + J.dot(P * J);
+  compared = checked;
+  return result;
+}
+
+bool MotionSensors::isBiasBeyondPrior() const {
+  const MotionStates& states = calibration_.states();
+  const double known = std::sqrt(states.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+  return known < kWellKnown && states.bias().cwiseAbs().maxCoeff() > kBeyond * kBiasPrior;
+}
+
+void MotionSensors::decide(Sensor& sensor, bool is_wheels, StampNs stamp) {
+  const MotionStates& states = calibration_.states();
+  const bool beyond =
+      is_wheels ? std::abs(states.mean[MotionStates::kSpeedScale]) > kBeyond * kSpeedScalePrior &&
+                      states.covariance(MotionStates::kSpeedScale, MotionStates::kSpeedScale) < kWellKnown * kWellKnown
+                : isBiasBeyondPrior();
+  const Agreement::Verdict verdict = sensor.agreement.verdict();
+  if (verdict == Agreement::Verdict::Contradicts || beyond) {
+    const bool was_used = sensor.is_used;
+    leaveOut(sensor, is_wheels, stamp);
+    if (verdict != Agreement::Verdict::Contradicts) return;
+    sensor.agreement.restart(was_used);
+    if (is_wheels) calibration_.forgetWheels();
+    else calibration_.forgetGyroscope();
+    return;
+  }
+  if (verdict != Agreement::Verdict::Agrees) return;
+  if (sensor.is_left_out)
+    for (auto fault = estimates_.faults.rbegin(); fault != estimates_.faults.rend(); ++fault)
+      if (fault->is_wheels == is_wheels && fault->until == 0) fault->until = stamp;
+  sensor.is_left_out = false;
+  sensor.is_used = true;
+}
+
+void MotionSensors::leaveOut(Sensor& sensor, bool is_wheels, StampNs stamp) {
+  std::vector<MotionSensorFault>& faults = estimates_.faults;
+  const auto open = std::find_if(faults.begin(), faults.end(), [&](const MotionSensorFault& each) {
+    return each.is_wheels == is_wheels && each.until == 0;
+  });
+  const bool goes_on = sensor.is_left_out && open != faults.end();
+  sensor.is_used = false;
+  sensor.is_left_out = true;
+  if (goes_on && open->is_named) return;
+  DiagnosisInput input;
+  input.repeated_s = sensor.stream.repeatedSeconds();
+  input.q_base_sensor = is_wheels ? Quaterniond::Identity() : q_base_imu_;
+  if (!is_wheels && isBiasBeyondPrior()) input.bias = calibration_.states().bias();
+  const MotionFault fault =
+      is_wheels ? diagnoseWheels(sensor.agreement.steps(), input) : diagnoseGyroscope(sensor.agreement.steps(), input);
+  const bool is_named = fault.kind != MotionFault::Kind::Unknown;
+  if (goes_on && is_named) {  // known better now than when too little had been seen
+    open->sentence = fault.sentence;
+    open->is_named = true;
+  } else if (!goes_on && faults.size() < kMostFaults) {
+    faults.push_back({is_wheels, is_named, stamp, 0, fault.sentence});
+  }
+}
+
+void MotionSensors::write() {
+  const MotionStates& states = calibration_.states();
+  const auto sigma = [&](int state) { return std::sqrt(states.covariance(state, state)); };
+  estimates_.has_gyroscope = !gyroscope_.stream.isEmpty();
+  estimates_.uses_gyroscope = gyroscope_.is_used;
+  estimates_.gyroscope_left_out = gyroscope_.is_left_out;
+  estimates_.has_wheels = !wheels_.stream.isEmpty();
+  estimates_.uses_wheels = wheels_.is_used;
+  estimates_.wheels_left_out = wheels_.is_left_out;
+  const Matrix3d R = q_base_imu_.toRotationMatrix();
+  estimates_.gyroscope_bias = R.transpose() * states.bias();
+  estimates_.gyroscope_bias_sigma =
+      (R.transpose() * states.covariance.topLeftCorner<3, 3>() * R).diagonal().cwiseMax(0.0).cwiseSqrt();
+  estimates_.imu_offset_s = states.mean[MotionStates::kImuOffset];
+  estimates_.imu_offset_sigma_s = sigma(MotionStates::kImuOffset);
+  estimates_.wheel_scale = 1.0 + states.mean[MotionStates::kSpeedScale];
+  estimates_.wheel_scale_sigma = sigma(MotionStates::kSpeedScale);
+  estimates_.wheel_turn_scale = 1.0 + states.mean[MotionStates::kTurnScale];
+  estimates_.wheel_turn_scale_sigma = sigma(MotionStates::kTurnScale);
+  estimates_.wheel_offset_s = states.mean[MotionStates::kWheelOffset];
+  estimates_.wheel_offset_sigma_s = sigma(MotionStates::kWheelOffset);
+}
+
+void MotionSensors::archive(urban_nav_core::Archive& archive) {
+  Pose imu(q_base_imu_, Vector3d::Zero());
+  archive(imu);
+  q_base_imu_ = imu.q();
+  archive(gyroscope_, wheels_, calibration_, ground_, notes_, estimates_);
+  archive(since_measured_, any_settled_, follows_, start_is_sound_);
+}
+
+}  // namespace swf_vo

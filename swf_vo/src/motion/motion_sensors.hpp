@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "motion/agreement.hpp"
+#include "motion/dead_reckoning.hpp"
+#include "motion/fault_diagnosis.hpp"
+#include "motion/motion_calibration.hpp"
+#include "motion/twist_stream.hpp"
+#include "swf_vo/frame.hpp"
+#include "window/process_model.hpp"
+
+namespace swf_vo {
+
+/// A gyroscope and wheels: learns their bias, scales and time offsets from steps that images alone
+/// have measured, leaves out a sensor that contradicts them, and predicts the motion with the covariance of that
+/// prediction. Nothing here changes a step that images measure. Method: docs/derivations/motion_sensors.md. Without
+/// statements of sensors it does nothing. Not thread-safe.
+class MotionSensors {
+ public:
+  explicit MotionSensors(const urban_nav_core::Pose& T_base_camera);
+
+  /// Takes what sensors stated; inputs of no sensor are left aside.
+  void add(const std::vector<urban_nav_core::MotionInput>& inputs);
+  /// Returns the motion of the left camera between two stamps by sensors that are to be used, with zero information on
+  /// the rest; nullopt without any. `T_odom_camera`: at `from`.
+  std::optional<ProcessInput> predict(urban_nav_core::StampNs from, urban_nav_core::StampNs to,
+                                      const urban_nav_core::Pose& T_odom_camera) const;
+  /// A frame went into the window. `by_images`: images measure where it is; `reckoned`: the prediction had part in it.
+  void addFrame(FrameId frame, double seconds, bool by_images, bool reckoned);
+  /// Takes the newest step of the left camera, measured by images alone, before it is final: a sensor that contradicts
+  /// it predicts nothing until one agrees.
+  void check(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const urban_nav_core::Pose& T_from_to);
+  /// A frame is final. Frames come in order.
+  void learn(const Settled& settled);
+
+  const MotionEstimates& estimates() const { return estimates_; }
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  struct Sensor {
+    explicit Sensor(double floor) : agreement(floor) {}
+    TwistStream stream;
+    Agreement agreement;
+    bool is_used = false, is_left_out = false;
+    bool is_contradicted = false;  // the newest step contradicts it
+    bool mayPredict() const { return is_used && !is_contradicted && !stream.isEmpty() && !stream.isStuck(); }
+    void archive(urban_nav_core::Archive& archive) {
+      archive(stream, agreement, is_used, is_left_out, is_contradicted);
+    }
+  };
+  struct FrameNote {
+    FrameId frame = 0;
+    bool reckoned = false;
+    void archive(urban_nav_core::Archive& archive) { archive(frame, reckoned); }
+  };
+  struct Compared {
+    ComparedStep step;
+    urban_nav_core::Vector3d error = urban_nav_core::Vector3d::Zero();
+    double variance = 0.0;
+  };
+
+  std::optional<Reckoned> reckonBy(bool gyroscope, bool wheels, urban_nav_core::StampNs from,
+                                   urban_nav_core::StampNs to, const urban_nav_core::Pose& T_odom_base) const;
+  void learnStep(const Settled& settled);
+  std::optional<GyroscopeStep> compareGyroscope(const Settled& settled, const ImageStep& images,
+                                                std::optional<Compared>& compared) const;
+  std::optional<WheelStep> compareWheels(const Settled& settled, const ImageStep& images,
+                                         std::optional<Compared>& compared) const;
+  bool isBiasBeyondPrior() const;
+  void decide(Sensor& sensor, bool is_wheels, urban_nav_core::StampNs stamp);
+  void leaveOut(Sensor& sensor, bool is_wheels, urban_nav_core::StampNs stamp);
+  void write();
+
+  urban_nav_core::Pose T_base_camera_;
+  urban_nav_core::Quaterniond q_base_imu_ = urban_nav_core::Quaterniond::Identity();
+  Sensor gyroscope_, wheels_;
+  MotionCalibration calibration_;
+  GroundSlope ground_;
+  std::vector<FrameNote> notes_;  // frames of the window
+  MotionEstimates estimates_;
+  double since_measured_ = 0.0;  // s
+  bool any_settled_ = false, follows_ = false, start_is_sound_ = false;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/twist_stream.hpp"
+
+#include <cmath>
+#include <iterator>
+
+namespace swf_vo {
+
+using urban_nav_core::MotionInput;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+// A sensor may be so late against the images, and miss so much of a span.
+constexpr double kLongestExtrapolation = 0.12;  // s
+constexpr double kExtrapolatedShare = 0.1, kBridgedShare = 0.2;
+// Numbers that differ by less, relatively, are the same to all digits of a message: stamps do not divide evenly.
+constexpr double kSameDigits = 1e-9;
+// A device that moves does not repeat itself for so long, s.
+constexpr double kStuck = 0.25;
+// Statements over which scatter and changes are averaged.
+constexpr double kAveraged = 200.0;
+// Variance of second differences of white noise, and share of the mean at which one difference is cut off: a jolt is no
+// noise.
+constexpr double kSecondDifference = 6.0, kCutOff = 9.0;
+
+double averaged(double before, double value) {
+  if (!(before > 0.0)) return value;
+  return before + (std::min(value, kCutOff * before) - before) / kAveraged;
+}
+
+}  // namespace
+
+bool Coverage::suffices() const {
+  const double whole = measured + extrapolated + bridged;
+  return extrapolated <= std::max(kLongestExtrapolation, kExtrapolatedShare * whole) &&
+         bridged <= kBridgedShare * whole;
+}
+
+void TwistStream::add(const MotionInput& input) {
+  const double seconds = urban_nav_core::secondsBetween(input.from, input.to);
+  if (!(seconds > 0.0) || !input.T_from_to.isFinite() || !input.information.allFinite()) return;
+  if (!spans_.empty() && input.from < spans_.back().to) return;
+  TwistSpan span;
+  span.from = input.from;
+  span.to = input.to;
+  span.twist = urban_nav_core::logSe3(input.T_from_to) / seconds;
+  for (int i = 0; i < 6; ++i)
+    if (input.information(i, i) > 0.0) span.density[i] = 1.0 / (input.information(i, i) * seconds);
+  if (!spans_.empty()) {
+    const Vector6d change = span.twist - spans_.back().twist;
+    repeated_ = change.norm() <= kSameDigits * span.twist.norm() ? repeated_ + seconds : 0.0;
+    for (int i = 0; i < 6; ++i) walk_[i] = averaged(walk_[i], change[i] * change[i] / seconds);
+    if (spans_.size() > 1) {
+      const Vector3d second = (change - (spans_.back().twist - spans_[spans_.size() - 2].twist)).tail<3>();
+      scatter_ = averaged(scatter_, second.squaredNorm() / (3.0 * kSecondDifference) * seconds);
+    }
+  }
+  spans_.push_back(span);
+}
+
+void TwistStream::forget(StampNs before) {
+  if (spans_.empty()) return;
+  const auto first = std::partition_point(spans_.begin(), std::prev(spans_.end()),
+                                          [&](const TwistSpan& span) { return span.to < before; });
+  spans_.erase(spans_.begin(), first);
+}
+
+bool TwistStream::isStuck() const {
+  return repeated_ > kStuck && !spans_.empty() && !spans_.back().twist.isZero(0.0);
+}
+
+const TwistSpan& TwistStream::at(StampNs stamp) const {
+  const auto found =
+      std::partition_point(spans_.begin(), spans_.end(), [&](const TwistSpan& span) { return span.to <= stamp; });
+  return found == spans_.end() ? spans_.back() : *found;
+}
+
+void TwistStream::archive(urban_nav_core::Archive& archive) {
+  archive(spans_, repeated_, scatter_, walk_);
+  for (std::size_t i = 0; i < spans_.size(); ++i)
+    archive.require(spans_[i].from < spans_[i].to && (i == 0 || spans_[i - 1].to <= spans_[i].from),
+                    "statements of a motion sensor are out of order");
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/motion_input.hpp"
+
+namespace swf_vo {
+
+/// Motion at a constant twist between two stamps, as a sensor states it.
+struct TwistSpan {
+  urban_nav_core::StampNs from = 0, to = 0;
+  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();  ///< of base_link in its axes: m/s, then rad/s
+  /// Variances of the increments of forward, sideways, height, roll, pitch and yaw per second, m^2/s and rad^2/s; 0:
+  /// not stated.
+  urban_nav_core::Vector6d density = urban_nav_core::Vector6d::Zero();
+  double seconds() const { return urban_nav_core::secondsBetween(from, to); }
+  void archive(urban_nav_core::Archive& archive) { archive(from, to, twist, density); }
+};
+
+/// Share of a span of time that a sensor stated.
+struct Coverage {
+  double measured = 0.0;      ///< s
+  double extrapolated = 0.0;  ///< s, after the last that was stated: at the last twist
+  double bridged = 0.0;       ///< s without a statement elsewhere: at the twist of the neighbour
+  /// Returns whether the motion over the span is known well enough for a prediction.
+  bool suffices() const;
+  /// Returns whether it was measured throughout.
+  bool isComplete() const { return measured > 0.0 && extrapolated + bridged < 0.05 * measured; }
+};
+
+/// The newest statements of one motion sensor, in order of time. Not thread-safe.
+class TwistStream {
+ public:
+  /// Takes a statement. One that does not begin at or after the end of the one before, or holds numbers that are not
+  /// finite, is left out.
+  void add(const urban_nav_core::MotionInput& input);
+  /// Forgets what ends before a stamp, but for the last statement.
+  void forget(urban_nav_core::StampNs before);
+
+  bool isEmpty() const { return spans_.empty(); }
+  const TwistSpan& newest() const { return spans_.back(); }
+  /// Returns the twist at a stamp: that of the span around it, or of the nearest. Requires a statement.
+  const TwistSpan& at(urban_nav_core::StampNs stamp) const;
+  /// Returns for how long every number of the statements has been the same, s.
+  double repeatedSeconds() const { return repeated_; }
+  /// Returns whether it states the same motion, to all digits, for longer than a device does. Rest is no such motion.
+  bool isStuck() const;
+  /// Returns the variance per second of an integrated rate of rotation, rad^2/s, by the second differences of
+  /// successive rates; 0 before there are some.
+  double scatterDensity() const { return scatter_; }
+  /// Returns the variance by which a twist changes in a second, by component.
+  const urban_nav_core::Vector6d& walk() const { return walk_; }
+
+  /// Calls visit(span, seconds) for pieces that together cover [from, to], in order. Requires a statement.
+  template <typename Visit>
+  Coverage cover(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Visit& visit) const;
+
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  std::vector<TwistSpan> spans_;  // oldest first
+  double repeated_ = 0.0, scatter_ = 0.0;
+  urban_nav_core::Vector6d walk_ = urban_nav_core::Vector6d::Zero();
+};
+
+template <typename Visit>
+Coverage TwistStream::cover(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Visit& visit) const {
+  using urban_nav_core::secondsBetween;
+  Coverage coverage;
+  urban_nav_core::StampNs at = from;
+  auto next =
+      std::partition_point(spans_.begin(), spans_.end(), [&](const TwistSpan& span) { return span.to <= from; });
+  for (; next != spans_.end() && at < to; ++next) {
+    if (next->from > at) {  // nothing was stated in between
+      const urban_nav_core::StampNs end = std::min(next->from, to);
+      const double bridged = secondsBetween(at, end);
+      visit(next == spans_.begin() ? *next : *std::prev(next), bridged);
+      coverage.bridged += bridged;
+      at = end;
+    }
+    const urban_nav_core::StampNs end = std::min(next->to, to);
+    if (end <= at) continue;
+    const double measured = secondsBetween(at, end);
+    visit(*next, measured);
+    coverage.measured += measured;
+    at = end;
+  }
+  if (at < to) {
+    coverage.extrapolated = secondsBetween(at, to);
+    visit(spans_.back(), coverage.extrapolated);
+  }
+  return coverage;
+}
+
+}  // namespace swf_vo

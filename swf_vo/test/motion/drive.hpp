@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "swf_vo/frame.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/motion_input.hpp"
+
+namespace swf_vo {
+
+/// A robot that drives on level ground, nods and sways, known to a millisecond. Stamps are nanoseconds since the start.
+class LevelDrive {
+ public:
+  explicit LevelDrive(double seconds) {
+    double yaw = 0.0;
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    for (int ms = 0; ms <= static_cast<int>(1000.0 * seconds); ++ms) {
+      const double t = 1e-3 * ms;
+      const Eigen::Quaterniond q = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                   Eigen::AngleAxisd(0.03 * std::sin(2.3 * t), Eigen::Vector3d::UnitY()) *
+                                   Eigen::AngleAxisd(0.02 * std::sin(3.1 * t), Eigen::Vector3d::UnitX());
+      poses_.emplace_back(q, p);
+      levels_.emplace_back(Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), p);
+      const double half = yaw + 0.5e-3 * yawRate(t);
+      p += 1e-3 * speed(t) * Eigen::Vector3d(std::cos(half), std::sin(half), 0.0);
+      yaw += 1e-3 * yawRate(t);
+    }
+  }
+
+  static double yawRate(double t) { return 0.5 * std::sin(0.6 * t) + 0.2 * std::sin(1.7 * t); }
+  static double speed(double t) { return 1.2 + 0.4 * std::sin(0.9 * t); }
+
+  int milliseconds() const { return static_cast<int>(poses_.size()) - 1; }
+  /// Returns T_odom_base.
+  const urban_nav_core::Pose& at(int ms) const { return poses_[static_cast<std::size_t>(ms)]; }
+  urban_nav_core::Pose between(int from, int to) const { return at(from).inverse() * at(to); }
+  /// Returns the motion of the wheels between two times, as seen from above.
+  urban_nav_core::Pose rolled(int from, int to) const {
+    return levels_[static_cast<std::size_t>(from)].inverse() * levels_[static_cast<std::size_t>(to)];
+  }
+
+ private:
+  std::vector<urban_nav_core::Pose> poses_, levels_;
+};
+
+constexpr urban_nav_core::StampNs kMillisecond = 1'000'000;
+
+/// Errors of the sensors of a drive.
+struct DriveErrors {
+  Eigen::Vector3d bias = Eigen::Vector3d::Zero();  // rad/s
+  double rate_density = 0.0017;                    // rad/s/sqrt(Hz)
+  int imu_delay_ms = 0;
+  double speed_scale = 1.0, turn_scale = 1.0;
+  double wheel_noise = 0.01;  // of the distance of a message
+};
+
+/// Draws what sensors state and what images see of a drive. The same seed draws the same.
+class DriveSensors {
+ public:
+  DriveSensors(const LevelDrive& drive, const DriveErrors& errors, unsigned seed)
+      : drive_(drive), errors_(errors), random_(seed) {}
+
+  /// Returns the rate of a gyroscope over 10 ms from `ms` on.
+  urban_nav_core::MotionInput gyroscope(int ms) {
+    constexpr int kPeriod = 10;
+    const double seconds = 1e-3 * kPeriod;
+    const Eigen::Vector3d turn = urban_nav_core::logSo3(drive_.between(ms, ms + kPeriod).q()) + seconds * errors_.bias +
+                                 errors_.rate_density * std::sqrt(seconds) * noise();
+    urban_nav_core::MotionInput input;
+    input.source = urban_nav_core::MotionSource::Gyroscope;
+    input.from = (ms + errors_.imu_delay_ms) * kMillisecond;
+    input.to = input.from + kPeriod * kMillisecond;
+    input.T_from_to = urban_nav_core::Pose(urban_nav_core::expSo3(turn), Eigen::Vector3d::Zero());
+    const double sigma = errors_.rate_density * std::sqrt(seconds);
+    if (sigma > 0.0) input.information.diagonal().tail<3>().setConstant(1.0 / (sigma * sigma));
+    return input;
+  }
+
+  /// Returns what wheels state of 40 ms from `ms` on.
+  urban_nav_core::MotionInput wheels(int ms) {
+    constexpr int kPeriod = 40;
+    urban_nav_core::Vector6d motion = urban_nav_core::logSe3(drive_.rolled(ms, ms + kPeriod));
+    const double sigma = errors_.wheel_noise * motion[0] + 2e-4;
+    motion[0] = errors_.speed_scale * motion[0] + sigma * noise().x();
+    motion[5] = errors_.turn_scale * motion[5] + sigma * noise().x();
+    urban_nav_core::MotionInput input;
+    input.source = urban_nav_core::MotionSource::Wheels;
+    input.from = ms * kMillisecond;
+    input.to = input.from + kPeriod * kMillisecond;
+    input.T_from_to = urban_nav_core::expSe3(motion);
+    input.information.diagonal() << 1.0 / (sigma * sigma), 1.0 / (sigma * sigma), 0.0, 0.0, 0.0, 1.0 / (sigma * sigma);
+    return input;
+  }
+
+  /// Returns a step as images measure it, with errors of its covariance; all of them add up.
+  Settled step(FrameId frame, int from, int to) {
+    constexpr double kForward = 1e-3, kTurn = 1e-4;  // m, rad
+    Settled settled;
+    settled.frame = frame;
+    settled.stamp = to * kMillisecond;
+    settled.T_odom_base.pose = drive_.at(to);
+    settled.from_previous.from = from * kMillisecond;
+    settled.from_previous.to = to * kMillisecond;
+    urban_nav_core::Vector6d error;
+    error << kForward * noise(), kTurn * noise();
+    settled.from_previous.T_from_to = urban_nav_core::boxPlus(drive_.between(from, to), error);
+    urban_nav_core::Vector6d variances;
+    variances << Eigen::Vector3d::Constant(kForward * kForward), Eigen::Vector3d::Constant(kTurn * kTurn);
+    settled.from_previous.covariance = settled.from_previous.drift_covariance = variances.asDiagonal();
+    return settled;
+  }
+
+  Eigen::Vector3d noise() { return {normal_(random_), normal_(random_), normal_(random_)}; }
+
+ private:
+  const LevelDrive& drive_;
+  DriveErrors errors_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace swf_vo
