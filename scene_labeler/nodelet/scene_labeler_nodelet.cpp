@@ -112,7 +112,8 @@ class SceneLabelerStage {
   std::chrono::steady_clock::time_point last_pose_;
   geometry_msgs::PointStampedConstPtr click_;
   std::string taught_fault_;
-  ClassMap class_map_;  // of class images
+  ClassMap class_map_;                   // values of class images
+  urban_nav_ros::GreyRange grey_range_;  // 16-bit pixels of both cameras
 };
 
 SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
@@ -224,7 +225,9 @@ void SceneLabelerStage::handle(Input& input) {
     return;
   }
   if (const auto* image = std::get_if<CameraImage>(&input)) {
-    const urban_nav_ros::RecordedImage recorded = image->image;
+    urban_nav_ros::RecordedImage recorded = image->image;
+    recorded.addTo(grey_range_);
+    recorded.setScale(grey_range_.scale());
     labels_->addImage(image->side, recorded.stamp(), [recorded] { return recorded.colour().pixels; });
   }
 }

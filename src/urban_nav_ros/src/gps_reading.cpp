@@ -35,7 +35,7 @@ std::optional<GpsReading> toGpsReading(const sensor_msgs::NavSatFix& fix) {
   const bool is_stated = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
   for (std::size_t axis = 0; is_stated && axis < 3; ++axis) {
     const double variance = fix.position_covariance[4 * axis];
-    if (std::isfinite(variance) && variance >= 0.0)
+    if (std::isfinite(variance) && variance > 0.0)  // zero is not known
       reading.sigma(static_cast<Eigen::Index>(axis)) = std::max(kLeastSigma, std::sqrt(variance));
   }
   if (!std::isfinite(fix.altitude)) reading.sigma.z() = kNoHeight;

@@ -224,7 +224,10 @@ GreyImage toGrey(const sensor_msgs::Image& message) { return withOwnScale(toDeep
 GreyImage toGrey(const sensor_msgs::CompressedImage& message) { return withOwnScale(toDeepGrey(message)); }
 GreyImage toGrey(const cv::Mat& pixels) { return withOwnScale(toDeepGrey(pixels)); }
 
-GreyImage toColour(const sensor_msgs::CompressedImage& message) {
+namespace {
+
+/// Decodes to three channels as deep as stored.
+GreyImage toDeepColour(const sensor_msgs::CompressedImage& message) {
   GreyImage image = decode(message);
   if (image.pixels.empty()) return image;
   if (const Layout* layout = mosaicLayout(message.format, image.pixels)) {
@@ -235,9 +238,20 @@ GreyImage toColour(const sensor_msgs::CompressedImage& message) {
   }
   if (image.pixels.channels() == 1) cv::cvtColor(image.pixels, image.pixels, cv::COLOR_GRAY2BGR);
   if (image.pixels.channels() == 4) cv::cvtColor(image.pixels, image.pixels, cv::COLOR_BGRA2BGR);
-  if (image.pixels.depth() == CV_16U)
-    image.pixels = toEightBits(image.pixels, ownScale(toDeepGrey(image.pixels).pixels));
   return image;
+}
+
+}  // namespace
+
+GreyImage toColour(const sensor_msgs::CompressedImage& message) {
+  GreyImage image = toDeepColour(message);
+  if (image.pixels.empty() || image.pixels.depth() != CV_16U) return image;
+  const GreyScale scale = ownScale(toDeepGrey(image.pixels).pixels);
+  return withScale(std::move(image), scale);
+}
+
+GreyImage toColour(const sensor_msgs::CompressedImage& message, const GreyScale& scale) {
+  return withScale(toDeepColour(message), scale);
 }
 
 sensor_msgs::Image toImageMessage(const cv::Mat& grey) {

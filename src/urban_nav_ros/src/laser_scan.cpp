@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/laser_scan.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "urban_nav_ros/stamp.hpp"
 
@@ -26,29 +28,104 @@ sensor_msgs::LaserScan toLaserScanMessage(const urban_nav_core::PlanarScan& scan
 
 namespace {
 
-constexpr double kFarthest = 1e6;  // in any unit: no laser reaches it
+using urban_nav_core::LaserConvention;
+using urban_nav_core::PlanarScan;
+using urban_nav_core::ScanFault;
+using urban_nav_core::ScanVerdict;
 
-std::optional<urban_nav_core::PlanarScan> read(const sensor_msgs::LaserScan& message,
-                                               const urban_nav_core::LaserConvention& convention) {
-  for (const float number : {message.angle_min, message.angle_increment, message.time_increment})
-    if (!std::isfinite(number)) return std::nullopt;
-  if (message.header.stamp.isZero()) return std::nullopt;
-  urban_nav_core::PlanarScan scan;
+constexpr double kFarthest = 1e6;  // in any unit: no laser reaches it
+constexpr double kTurn = 2.0 * M_PI;
+constexpr double kDegrees = M_PI / 180.0;
+constexpr double kSameSpan = 0.1;    // relative: ends of the angles and their increment in one unit
+constexpr double kLeastReach = 1.0;  // m: every planar laser measures farther
+constexpr double kFewValid = 0.1;    // share of beams
+constexpr double kSpread = 1.05;     // ratio of quartiles of the ranges: a value for "no return" has none
+
+/// Angles of the first beam and from beam to beam, as stated.
+struct Angles {
+  double first = 0.0, step = 0.0;
+  double ends = 0.0;  ///< angle_max - angle_min; not finite: unknown
+};
+
+/// Takes what is not finite, or an increment of zero, from the other two numbers.
+std::optional<Angles> readAngles(const sensor_msgs::LaserScan& message) {
+  const double last = message.angle_max, steps = static_cast<double>(message.ranges.size()) - 1.0;
+  Angles angles{message.angle_min, message.angle_increment, last - static_cast<double>(message.angle_min)};
+  if ((!std::isfinite(angles.step) || angles.step == 0.0) && steps > 0.0) angles.step = angles.ends / steps;
+  if (!std::isfinite(angles.first)) angles.first = last - steps * angles.step;
+  if (!std::isfinite(angles.first) || !std::isfinite(angles.step) || (angles.step == 0.0 && steps > 0.0))
+    return std::nullopt;
+  return angles;
+}
+
+/// Returns whether one of the spans is the other one in degrees.
+bool isInDegrees(double degrees, double radians) {
+  return std::abs(kDegrees * degrees / radians - 1.0) < kSameSpan && std::abs(radians) > 0.0;
+}
+
+void scaleAngles(Angles& angles, double scale, std::size_t beams) {
+  const double span = angles.step * (static_cast<double>(beams) - 1.0);
+  if (!isInDegrees(span, angles.ends)) angles.first *= scale;
+  if (!isInDegrees(angles.ends, span)) angles.step *= scale;
+}
+
+/// Returns the time from beam to beam, s: as stated, else that of a mirror which turns once in scan_time, else 0.
+double readTimeStep(const sensor_msgs::LaserScan& message, double scale, double angle_step) {
+  if (std::isfinite(message.time_increment)) return scale * static_cast<double>(message.time_increment);
+  if (!std::isfinite(message.scan_time) || message.scan_time <= 0.0F) return 0.0;
+  return static_cast<double>(message.scan_time) * std::min(1.0, std::abs(angle_step) / kTurn);
+}
+
+std::optional<PlanarScan> read(const sensor_msgs::LaserScan& message, const LaserConvention& convention) {
+  std::optional<Angles> angles = readAngles(message);
+  if (!angles || message.header.stamp.isZero()) return std::nullopt;
+  if (convention.angle_scale != 1.0) scaleAngles(*angles, convention.angle_scale, message.ranges.size());
+  PlanarScan scan;
   scan.stamp = toStampNs(message.header.stamp) - convention.delay;
-  scan.angle_first = convention.angle_scale * static_cast<double>(message.angle_min);
-  scan.angle_step = convention.angle_scale * static_cast<double>(message.angle_increment);
-  scan.time_step = message.time_increment;
+  scan.angle_first = angles->first;
+  scan.angle_step = angles->step;
+  scan.time_step = readTimeStep(message, convention.time_scale, angles->step);
   scan.period = std::isfinite(message.scan_time) ? message.scan_time : 0.0F;
   scan.range_min = std::isfinite(message.range_min) ? static_cast<double>(message.range_min) : 0.0;
   scan.range_max = hasNoRangeLimit(message) ? kFarthest : static_cast<double>(message.range_max);
   scan.ranges = message.ranges;
-  if (convention.range_scale != 1.0) {
-    for (float& range : scan.ranges) range = static_cast<float>(convention.range_scale * static_cast<double>(range));
-    scan.range_min *= convention.range_scale;
-    scan.range_max *= convention.range_scale;
+  if (const double scale = convention.range_scale; scale != 1.0) {
+    for (float& range : scan.ranges) range = static_cast<float>(scale * static_cast<double>(range));
+    if (scale * scan.range_max >= kLeastReach) {  // otherwise the limits are in metres already
+      scan.range_min *= scale;
+      scan.range_max *= scale;
+    }
   }
   if (message.intensities.size() == message.ranges.size()) scan.intensities = message.intensities;
   return scan;
+}
+
+/// Returns whether hardly a range is within the limits, and those outside are measurements.
+bool isBeyondLimits(const PlanarScan& scan) {
+  std::vector<float> finite;
+  std::size_t valid = 0;
+  for (const float range : scan.ranges) {
+    if (!std::isfinite(range) || range <= 0.0F) continue;
+    finite.push_back(range);
+    valid += static_cast<double>(range) >= scan.range_min && static_cast<double>(range) <= scan.range_max ? 1 : 0;
+  }
+  if (finite.empty() || static_cast<double>(valid) > kFewValid * static_cast<double>(scan.ranges.size())) return false;
+  std::sort(finite.begin(), finite.end());
+  return static_cast<double>(finite[3 * finite.size() / 4]) > kSpread * static_cast<double>(finite[finite.size() / 4]);
+}
+
+/// Returns what is wrong with the units of a scan that was read, and whose ends of angles the message states.
+ScanVerdict checkUnits(const PlanarScan& scan, const sensor_msgs::LaserScan& message,
+                       const LaserConvention& convention) {
+  const double span = scan.angle_step * (static_cast<double>(scan.ranges.size()) - 1.0);
+  const double ends = static_cast<double>(message.angle_max) - static_cast<double>(message.angle_min);
+  if (convention.angle_scale == 1.0 && std::abs(ends) > 1.02 * kTurn && isInDegrees(ends, span))
+    return {ScanFault::AngleUnit, std::abs(ends), kDegrees};
+  ScanVerdict verdict = urban_nav_core::checkUnits(scan);
+  if (verdict.fault != ScanFault::None || convention.range_scale != 1.0 || !isBeyondLimits(scan)) return verdict;
+  PlanarScan unlimited = scan;
+  unlimited.range_max = kFarthest;
+  return urban_nav_core::checkUnits(unlimited);
 }
 
 }  // namespace
@@ -57,17 +134,15 @@ bool hasNoRangeLimit(const sensor_msgs::LaserScan& message) {
   return !std::isfinite(message.range_max) || message.range_max <= 0.0F || message.range_max <= message.range_min;
 }
 
-std::optional<urban_nav_core::PlanarScan> toPlanarScan(const sensor_msgs::LaserScan& message,
-                                                       const urban_nav_core::LaserConvention& convention) {
-  std::optional<urban_nav_core::PlanarScan> scan = read(message, convention);
-  if (scan && urban_nav_core::checkUnits(*scan).fault != urban_nav_core::ScanFault::None) return std::nullopt;
+std::optional<PlanarScan> toPlanarScan(const sensor_msgs::LaserScan& message, const LaserConvention& convention) {
+  std::optional<PlanarScan> scan = read(message, convention);
+  if (scan && checkUnits(*scan, message, convention).fault != ScanFault::None) return std::nullopt;
   return scan;
 }
 
-urban_nav_core::ScanVerdict checkUnits(const sensor_msgs::LaserScan& message,
-                                       const urban_nav_core::LaserConvention& convention) {
-  const std::optional<urban_nav_core::PlanarScan> scan = read(message, convention);
-  return scan ? urban_nav_core::checkUnits(*scan) : urban_nav_core::ScanVerdict();
+ScanVerdict checkUnits(const sensor_msgs::LaserScan& message, const LaserConvention& convention) {
+  const std::optional<PlanarScan> scan = read(message, convention);
+  return scan ? checkUnits(*scan, message, convention) : ScanVerdict();
 }
 
 }  // namespace urban_nav_ros

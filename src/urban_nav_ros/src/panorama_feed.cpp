@@ -16,6 +16,7 @@ PanoramaFeed::PanoramaFeed(const Options& options)
 
 void PanoramaFeed::add(std::size_t camera, RecordedImage image) {
   const StampNs stamp = image.stamp();
+  image.addTo(range_);
   queue_.put(static_cast<int>(camera), stamp, std::move(image));
 }
 
@@ -31,8 +32,10 @@ bool PanoramaFeed::isComplete() const {
 Panorama PanoramaFeed::release() {
   Panorama panorama{*group_stamp_, std::exchange(group_, std::vector<RecordedImage>(options_.cameras))};
   group_stamp_.reset();
-  for (std::size_t camera = 0; camera < options_.cameras; ++camera)
+  for (std::size_t camera = 0; camera < options_.cameras; ++camera) {
+    panorama.images[camera].setScale(range_.scale());
     if (panorama.images[camera].empty()) ++missing_[camera];
+  }
   ++panoramas_;
   return panorama;
 }
@@ -55,7 +58,7 @@ std::optional<Panorama> PanoramaFeed::take() {
 void PanoramaFeed::archive(urban_nav_core::Archive& archive) {
   queue_.archive(archive, [](urban_nav_core::Archive& items, RecordedImage& image) { image.archive(items); });
   for (RecordedImage& image : group_) image.archive(archive);
-  archive(group_stamp_, missing_, panoramas_, finished_);
+  archive(group_stamp_, missing_, panoramas_, finished_, range_);
   archive.require(missing_.size() == options_.cameras, "another number of cameras");
 }
 

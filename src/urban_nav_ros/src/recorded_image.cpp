@@ -39,8 +39,13 @@ ColourImage fromGrey(const GreyImage& grey) {
   return colour;
 }
 
-ColourImage toColourImage(const sensor_msgs::Image& message) {
-  const GreyImage grey = toGrey(message);  // checks encoding and size
+template <typename Message>
+GreyImage toGreyBy(const Message& message, const std::optional<GreyScale>& scale) {
+  return scale ? toGrey(message, *scale) : toGrey(message);
+}
+
+ColourImage toColourImage(const sensor_msgs::Image& message, const std::optional<GreyScale>& scale) {
+  const GreyImage grey = toGreyBy(message, scale);  // checks encoding and size
   if (grey.pixels.empty()) return {{}, grey.fault};
   for (const ColourLayout& layout : kColourLayouts) {
     if (message.encoding != layout.encoding) continue;
@@ -55,8 +60,8 @@ ColourImage toColourImage(const sensor_msgs::Image& message) {
   return fromGrey(grey);
 }
 
-ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
-  const GreyImage image = toColour(message);
+ColourImage toColourImage(const sensor_msgs::CompressedImage& message, const std::optional<GreyScale>& scale) {
+  const GreyImage image = scale ? toColour(message, *scale) : toColour(message);
   return {image.pixels, image.fault};
 }
 
@@ -72,18 +77,23 @@ std::string RecordedImage::frame() const {
   return compressed_ ? compressed_->header.frame_id : std::string();
 }
 
+void RecordedImage::addTo(GreyRange& range) const {
+  if (raw_) range.add(*raw_);
+  if (compressed_) range.add(*compressed_);
+}
+
 GreyImage RecordedImage::grey() const {
-  if (compressed_) return toGrey(*compressed_);
+  if (compressed_) return toGreyBy(*compressed_, scale_);
   if (!raw_) return {{}, "no image"};
-  GreyImage grey = toGrey(*raw_);
+  GreyImage grey = toGreyBy(*raw_, scale_);
   if (!grey.pixels.empty() && grey.pixels.data == raw_->data.data()) grey.pixels = grey.pixels.clone();
   return grey;
 }
 
 ColourImage RecordedImage::colour() const {
-  if (compressed_) return toColourImage(*compressed_);
+  if (compressed_) return toColourImage(*compressed_, scale_);
   if (!raw_) return {{}, "no image"};
-  return toColourImage(*raw_);
+  return toColourImage(*raw_, scale_);
 }
 
 std::string RecordedImage::jpeg() const {
@@ -103,6 +113,11 @@ void RecordedImage::archive(urban_nav_core::Archive& archive) {
   if (archive.isReading()) *this = RecordedImage();
   if (kind == 1) archiveMessage(archive, raw_);
   if (kind == 2) archiveMessage(archive, compressed_);
+  bool has_scale = scale_.has_value();
+  GreyScale scale = scale_.value_or(GreyScale());
+  archive(has_scale, scale.offset, scale.step);
+  archive.require(scale.step > 0.0, "no grey scale");
+  if (archive.isReading() && has_scale) scale_ = scale;
 }
 
 }  // namespace urban_nav_ros

@@ -102,5 +102,44 @@ TEST(LaserScan, OtherUnitsAreRefusedUnlessTheyAreStated) {
   EXPECT_NEAR(beams.beams.front().range, 5.0F, 1e-5F);
 }
 
+TEST(LaserScan, ScalesApplyToTheNumbersThatAreInTheirUnits) {
+  sensor_msgs::LaserScan sound;
+  sound.header.stamp = ros::Time(5.0);
+  sound.angle_min = -1.5F;
+  sound.angle_increment = 0.01F;
+  sound.angle_max = 1.5F;
+  sound.range_max = 30.0F;
+  for (int i = 0; i < 301; ++i) sound.ranges.push_back(4.0F + 0.02F * static_cast<float>(i));
+  const urban_nav_core::Scan expected = urban_nav_core::toScan(*toPlanarScan(sound));
+  constexpr float kDegreesPerRadian = 57.29578F;
+  sensor_msgs::LaserScan increment = sound, ends = sound, millimetres = sound;
+  increment.angle_increment *= kDegreesPerRadian;
+  ends.angle_min *= kDegreesPerRadian, ends.angle_max *= kDegreesPerRadian;
+  for (float& range : millimetres.ranges) range *= 1000.0F;
+  for (const sensor_msgs::LaserScan& scan : {increment, ends, millimetres}) {
+    EXPECT_FALSE(toPlanarScan(scan));
+    const urban_nav_core::ScanVerdict verdict = checkUnits(scan);
+    urban_nav_core::LaserConvention stated;
+    (verdict.fault == urban_nav_core::ScanFault::AngleUnit ? stated.angle_scale : stated.range_scale) = verdict.repair;
+    ASSERT_TRUE(toPlanarScan(scan, stated));
+    const urban_nav_core::Scan repaired = urban_nav_core::toScan(*toPlanarScan(scan, stated));
+    ASSERT_EQ(repaired.beams.size(), expected.beams.size());
+    for (const std::size_t i : {std::size_t{0}, std::size_t{300}}) {
+      EXPECT_NEAR(repaired.beams[i].range, expected.beams[i].range, 1e-4F);
+      EXPECT_NEAR((repaired.beams[i].direction - expected.beams[i].direction).norm(), 0.0F, 1e-4F);
+    }
+  }
+}
+
+TEST(LaserScan, ARangeOfNoReturnIsNoUnit) {
+  sensor_msgs::LaserScan scan;
+  scan.header.stamp = ros::Time(5.0);
+  scan.angle_increment = 0.01F;
+  scan.range_max = 30.0F;
+  scan.ranges.assign(301, 655.35F);
+  for (std::size_t i = 0; i < 20; ++i) scan.ranges[i] = 5.0F;
+  EXPECT_EQ(checkUnits(scan).fault, urban_nav_core::ScanFault::None);
+}
+
 }  // namespace
 }  // namespace urban_nav_ros

@@ -119,6 +119,38 @@ TEST(PanoramaFeed, ContinuesFromItsArchivedState) {
   }
 }
 
+RecordedImage deepImage(StampNs stamp, std::uint16_t value) {
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header.stamp = toRosTime(stamp);
+  message->encoding = "mono16";
+  message->height = message->width = 16;
+  message->step = 32;
+  for (int i = 0; i < 256; ++i)
+    for (const int byte : {value & 255, value >> 8}) message->data.push_back(static_cast<std::uint8_t>(byte));
+  return RecordedImage(sensor_msgs::ImageConstPtr(message));
+}
+
+TEST(PanoramaFeed, ShowsSixteenBitsOfAllCamerasByOneScale) {
+  PanoramaFeed::Options options;
+  options.cameras = 2;
+  PanoramaFeed feed(options);
+  feed.add(0, deepImage(1000 * kFeedMs, 1000));
+  feed.add(1, deepImage(1000 * kFeedMs, 4000));
+  const std::optional<Panorama> panorama = feed.take();
+  ASSERT_TRUE(panorama);
+  EXPECT_EQ(panorama->images[0].grey().pixels.at<std::uint8_t>(0, 0), 1000 / 16);
+  EXPECT_EQ(panorama->images[1].grey().pixels.at<std::uint8_t>(0, 0), 4000 / 16);
+  EXPECT_EQ(panorama->images[1].colour().pixels.at<cv::Vec3b>(0, 0), cv::Vec3b(250, 250, 250));
+  urban_nav_core::Archive writer;
+  RecordedImage image = panorama->images[0];
+  writer(image);
+  const std::string bytes = writer.take();
+  urban_nav_core::Archive reader(bytes, "image");
+  RecordedImage read;
+  reader(read);
+  EXPECT_EQ(read.grey().pixels.at<std::uint8_t>(0, 0), 1000 / 16);
+}
+
 TEST(RecordedImage, DecodesColourAndGreyOnDemand) {
   const RecordedImage jpeg = colourJpeg(5 * kFeedMs);
   EXPECT_EQ(jpeg.stamp(), 5 * kFeedMs);

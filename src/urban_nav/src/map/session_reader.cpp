@@ -132,7 +132,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   const bool has_images = source_->info().has_images;
   Progress bar(context_.console, has_images ? "vo" : "lo", has_images ? "frames" : "sweeps", frames);
   auto read = static_cast<std::int64_t>(context_.sessions[session_].odometry->frames.size());  // or sweeps
-  urban_nav_input::SampledPairs images(frames, kJudgedPairs, kLeastJudgedStep);
+  urban_nav_input::SampledPairs images(source_->info(), kJudgedPairs, kLeastJudgedStep);
   while (const std::optional<urban_nav_input::SourceItem> input = source_->next()) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
@@ -158,7 +158,9 @@ void SessionReader::read(const ProgressCallback& progress) {
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
   std::vector<urban_nav_input::Finding> findings = source_->sensorFindings();
-  for (const urban_nav_input::Finding& finding : images.findings(source_->info())) findings.push_back(finding);
+  for (const urban_nav_input::Finding& finding : images.findings()) findings.push_back(finding);
+  for (const urban_nav_input::Finding& finding : source_->sightFindings(images.sight(), 1.0))
+    findings.push_back(finding);
   for (const urban_nav_input::Finding& finding : findings)
     faults.push_back(source_->info().name + ": " + finding.text + " (" + finding.remedy + ")");
   if (const std::string& note = context_.sessions[session_].input.note; !note.empty())

@@ -27,6 +27,7 @@ constexpr double kFits = 30.0;                        // deg
 constexpr double kUnitTolerance = 0.08;               // relative
 constexpr double kCorrelated = 0.3;                   // least correlation of lateral force and yaw rate
 constexpr double kSameCorrelation = 0.1;              // candidates that close are equal
+constexpr double kMostForce = 1e6, kMostRate = 1e6;   // m/s2, rad/s: beyond, numbers are no measurements
 constexpr double kMostWeight = 60'000.0;              // measurements: ten minutes at 100 Hz
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
@@ -105,7 +106,7 @@ std::string AccelerometerVerdict::sentence() const {
 
 void AccelerometerCheck::add(const Vector3d& force, const Vector3d& rate) {
   ++count_;
-  if (!force.allFinite() || force.norm() > 1e6) return;
+  if (!force.allFinite() || force.norm() > kMostForce) return;
   ++finite_;
   if (weight_ > kMostWeight) {
     for (double* sum : {&weight_, &length_, &rate_weight_}) *sum *= 0.5;
@@ -116,7 +117,7 @@ void AccelerometerCheck::add(const Vector3d& force, const Vector3d& rate) {
   length_ += force.norm();
   force_ += force;
   force_force_ += force * force.transpose();
-  if (!rate.allFinite()) return;
+  if (!rate.allFinite() || rate.norm() > kMostRate) return;
   rate_weight_ += 1.0;
   rate_ += rate;
   force_rate_ += force * rate.transpose();

@@ -92,18 +92,65 @@ std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) 
   return times;
 }
 
+namespace {
+
+struct TimeWord {
+  std::string text, where;
+};
+
+constexpr double kLargestSeconds = 1e11, kLargestMilliseconds = 1e14, kLargestMicroseconds = 1e17;  // since 1970
+constexpr double kLongestSeconds = 5e3, kLongestMicroseconds = 5e6;  // between images; more is of a smaller unit
+
+/// Returns the words of a table of one column.
+std::vector<TimeWord> readTimeWords(std::string_view text, const std::string& name) {
+  std::string plain(text);
+  const bool has_decimal_commas = plain.find('.') == std::string::npos && plain.find(',') != std::string::npos;
+  if (has_decimal_commas) std::replace(plain.begin(), plain.end(), ',', '.');  // a single column needs no separator
+  std::vector<TimeWord> words;
+  const TextTable table(plain, name);
+  table.forEachRow([&](const TableRow& row) {
+    std::string word;
+    for (const std::string_view cell : row.cells) word += (word.empty() ? "" : " ") + std::string(cell);
+    words.push_back({word, table.where(row)});
+  });
+  return words;
+}
+
+/// Returns the size in s of the unit of times: by their size where they are times since 1970, else by their intervals.
+double findTimeUnit(const std::vector<TimeWord>& words) {
+  std::vector<double> times, intervals;
+  for (const TimeWord& word : words)
+    if (const auto number = parseNumber(word.text)) times.push_back(*number);
+  if (times.size() != words.size() || times.size() < 2) return 1.0;
+  const double largest = *std::max_element(times.begin(), times.end());
+  if (largest > kLargestSeconds)
+    return largest > kLargestMicroseconds ? 1e-9 : largest > kLargestMilliseconds ? 1e-6 : 1e-3;
+  for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(std::abs(times[i] - times[i - 1]));
+  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
+                   intervals.end());
+  const double interval = intervals[intervals.size() / 2];
+  return interval > kLongestMicroseconds ? 1e-9 : interval > kLongestSeconds ? 1e-6 : 1.0;
+}
+
+std::optional<StampNs> parseTimeIn(double unit, const std::string& text) {
+  if (unit == 1.0) return parseTime(text);
+  if (const auto whole = parseInteger(text); whole && unit == 1e-9) return *whole;
+  const auto number = parseNumber(text);
+  if (!number || std::abs(unit * *number) > 9.2e9) return std::nullopt;
+  return static_cast<StampNs>(std::llround(unit * 1e9 * *number));
+}
+
+}  // namespace
+
 void forEachTime(std::string_view text, const std::string& name,
                  const std::function<void(std::string_view word, StampNs stamp, const std::string& where)>& time) {
-  forEachLine(text, [&](std::string_view line, int number) {
-    std::string word(trimmed(line));
-    if (word.empty() || word.front() == '#' || word.front() == '%') return;
-    if (word.find('.') == std::string::npos && std::count(word.begin(), word.end(), ',') == 1)
-      std::replace(word.begin(), word.end(), ',', '.');
-    const auto stamp = parseTime(word);
-    const std::string where = atLine(name, number);
-    if (!stamp) throw UserError(where, "`" + word + "`", "seconds, one number a line");
-    time(word, *stamp, where);
-  });
+  const std::vector<TimeWord> words = readTimeWords(text, name);
+  const double unit = findTimeUnit(words);
+  for (const TimeWord& word : words) {
+    const auto stamp = parseTimeIn(unit, word.text);
+    if (!stamp) throw UserError(word.where, "`" + word.text + "`", "seconds, one number a line");
+    time(word.text, *stamp, word.where);
+  }
 }
 
 std::vector<StampNs> readTimes(const std::string& path) { return parseTimes(readTextFile(path), path); }

@@ -64,6 +64,19 @@ TEST(Kitti, TimesRise) {
             "times.txt:2: `0.1 0.2`: allowed seconds, one number a line");
 }
 
+TEST(Kitti, TimesHaveTheUnitThatTheirNumbersShow) {
+  const std::vector<StampNs> expected = {1'403'636'579'700'000'000, 1'403'636'579'800'000'000};
+  for (const char* text :
+       {"1403636579.7\n1403636579.8\n", "1403636579700\n1403636579800\n", "1403636579700000\n1403636579800000\n",
+        "1403636579700000000\n1403636579800000000\n", "1403636579,7\r\n1403636579,8\r\n",
+        "time\n1403636579.7\n1403636579.8\n", "// s\n\"1403636579.7\"\n\"1403636579.8\"\n"})
+    EXPECT_EQ(parseTimes(text, "times.txt"), expected) << text;
+  EXPECT_EQ(parseTimes("0\n100000000\n200000000\n", "times.txt"), (std::vector<StampNs>{0, 100'000'000, 200'000'000}));
+  EXPECT_EQ(parseTimes("0\n100000\n200000\n", "times.txt"), (std::vector<StampNs>{0, 100'000'000, 200'000'000}));
+  EXPECT_EQ(parseTimes("0\n30\n60\n", "times.txt"),
+            (std::vector<StampNs>{0, 30'000'000'000, 60'000'000'000}));  // a photograph every 30 s
+}
+
 TEST(Kitti, ReadsRealTruth) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string path = std::string(data == nullptr ? "" : data) + "/stereo/kitti06_000_050/poses.txt";

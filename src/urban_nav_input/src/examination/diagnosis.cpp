@@ -70,7 +70,7 @@ std::vector<std::string> describe(const SourceInfo& info) {
 class Reading {
  public:
   Reading(Source& source, Diagnosis& diagnosis)
-      : source_(source), diagnosis_(diagnosis), images_(source.info().frames, kMatchedSamples, 1) {}
+      : source_(source), diagnosis_(diagnosis), images_(source.info(), kMatchedSamples, 1) {}
 
   void read(const std::function<void(std::int64_t, std::int64_t)>& progress) {
     while (std::optional<SourceItem> item = source_.next()) {
@@ -87,7 +87,8 @@ class Reading {
     }
   }
 
-  void conclude() {
+  /// `stereo_scale`: true length over that of stereo, as far as a finding of the calibration states it.
+  void conclude(double stereo_scale) {
     const auto append = [this](const std::vector<Finding>& found) {
       diagnosis_.findings.insert(diagnosis_.findings.end(), found.begin(), found.end());
     };
@@ -99,7 +100,8 @@ class Reading {
       return;
     }
     if (2 * diagnosis_.complete > diagnosis_.pairs) append(checkStamps(stamps_));
-    append(images_.findings(source_.info()));
+    append(images_.findings());
+    append(source_.sightFindings(images_.sight(), stereo_scale));
     if (stamps_.size() > 1) {
       const auto [first, last] = std::minmax_element(stamps_.begin(), stamps_.end());
       diagnosis_.duration_s = urban_nav_core::secondsBetween(*first, *last);
@@ -183,6 +185,14 @@ std::unique_ptr<Source> openToExamine(const InputSession& session, SourceOptions
   }
 }
 
+/// Returns the scale of the baseline that the options of a finding state.
+std::optional<double> statedBaselineScale(const Finding& finding) {
+  const std::string name = "input.baseline_scale=";
+  for (const std::string& option : finding.options)
+    if (option.rfind(name, 0) == 0) return urban_nav_core::parseNumber(option.substr(name.size()));
+  return std::nullopt;
+}
+
 /// Completes the finding of a baseline below zero by what the images show: exchanged cameras, or a wrong sign.
 Finding baselineFinding(Finding fault, const SourceOptions& options, std::vector<Finding>& found) {
   const auto exchanged = std::find_if(found.begin(), found.end(), [](const Finding& finding) {
@@ -237,7 +247,10 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
     }
     Reading reading(*source, diagnosis);
     reading.read(progress);
-    reading.conclude();
+    double stereo_scale = 1.0;
+    for (const Finding& finding : diagnosis.findings)
+      if (const auto scale = statedBaselineScale(finding)) stereo_scale = *scale / used.baseline_scale;
+    reading.conclude(stereo_scale);
     if (fault) diagnosis.findings.push_back(baselineFinding(*fault, used, diagnosis.findings));
   } catch (const urban_nav_core::Error& error) {
     diagnosis.findings.push_back(toFinding(error));

@@ -12,6 +12,7 @@
 #include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
 
@@ -92,13 +93,10 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
   KittiTimes times;
   if (fs::exists(folder / "times.txt")) {
     times.path = (folder / "times.txt").string();
-    for (const TextLine& line : readLines(times.path)) {
-      const std::optional<StampNs> stamp = urban_nav_core::parseTime(line.text);
-      if (!stamp)
-        throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no time",
-                        "seconds, one number a line");
-      times.stamps.push_back(*stamp);
-    }
+    urban_nav_core::forEachTime(urban_nav_core::readTextFile(times.path), times.path,
+                                [&times](std::string_view /*word*/, StampNs stamp, const std::string& /*where*/) {
+                                  times.stamps.push_back(stamp);
+                                });
     return times;
   }
   const fs::path images(layout.left);

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kFewMessages = 10, kMostMessages = 20'000;
 constexpr double kApart = 0.5;      // s: no driver and no network of a robot delays one topic so much more than another
+constexpr double kApartGps = 2.0;   // s: receivers state the time of the measurement, which they compute for so long
 constexpr double kSpread = 0.1;     // s: median deviation of messages that were received as they were stamped
 constexpr double kDrift = 0.1;      // s over the recording
 constexpr double kShortest = 20.0;  // s, of a recording for a drift
@@ -84,7 +85,7 @@ std::vector<Finding> ClockExamination::findings(
     const std::optional<Delay> delay = role == "images" ? std::nullopt : summarise(delays_[i]);
     if (!delay) continue;
     const double apart = camera->median - delay->median, drift = camera->drift - delay->drift;
-    if (std::abs(apart) > kApart) {
+    if (std::abs(apart) > (role == "gps" ? kApartGps : kApart)) {
       Finding finding{chooseKind(role),
                       topic + ": its stamps are " + formatNumber(std::abs(apart), 4) + " s " +
                           (apart < 0.0 ? "earlier" : "later") + " than those of the images, by receipt minus stamp (" +

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/sensors/gps_examination.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace urban_nav_input {
 
 namespace {
 
-constexpr std::int64_t kFewFixes = 20;
+constexpr std::int64_t kFewFixes = 20, kFewJumps = 2;
+constexpr double kFastest = 100.0;  // m/s
+constexpr double kFarthest = 50.0;  // m: a position that was lost and found again may be so far off
+constexpr double kMetresPerDegree = 111'200.0;
+
+/// Returns the distance of two positions on the ground, m.
+double apart(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  const double north = b[0] - a[0], east = std::remainder(b[1] - a[1], 360.0) * std::cos(M_PI / 180.0 * a[0]);
+  return kMetresPerDegree * std::hypot(north, east);
+}
 
 }  // namespace
 
@@ -21,9 +31,19 @@ void GpsExamination::add(const sensor_msgs::NavSatFix& fix) {
   if (!(std::abs(fix.latitude) <= 90.0) || !(std::abs(fix.longitude) <= 360.0)) ++no_angles_;
   else if (fix.latitude == 0.0 && fix.longitude == 0.0) ++at_zero_;
   else if (!std::isfinite(fix.altitude)) ++no_altitude_;
-  const std::array<double, 3> now = {{fix.latitude, fix.longitude, fix.altitude}};
+  const auto finite = [](double value) { return std::isfinite(value) ? value : 0.0; };
+  const std::array<double, 3> now = {{finite(fix.latitude), finite(fix.longitude), finite(fix.altitude)}};
+  const double stamp = fix.header.stamp.toSec();
   repeated_ += now == last_ ? 1 : 0;
+  if (last_stamp_ > 0.0 && stamp > last_stamp_ && now[0] != 0.0 && last_[0] != 0.0 &&
+      apart(last_, now) > std::max(kFarthest, kFastest * (stamp - last_stamp_)))
+    ++jumps_;
+  const auto& variances = fix.position_covariance;
+  if (fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN &&
+      (variances[0] == 0.0 || variances[4] == 0.0))
+    ++no_variance_;
   last_ = now;
+  last_stamp_ = stamp;
 }
 
 std::vector<Finding> GpsExamination::findings(const std::string& topic) const {
@@ -43,6 +63,11 @@ std::vector<Finding> GpsExamination::findings(const std::string& topic) const {
       "let the driver set status -1 without a fix");
   add(no_altitude_, "have no altitude (NaN); their horizontal position is used, their height is not",
       "nothing has to be done; for later recordings let the receiver output its altitude (NMEA GGA)");
+  add(no_variance_, "state a covariance of zero; a standard deviation of 5 m is assumed",
+      "nothing has to be done; for later recordings let the driver state its covariance, or the type unknown");
+  if (jumps_ >= kFewJumps)
+    add(jumps_, "lie farther from the one before than any vehicle moves: the position jumps",
+        "check the antenna and its view of the sky; robust factors leave single ones out");
   if (no_fix_ > 0 && 2 * no_fix_ > messages_)
     add(no_fix_, "have a status below 0 (no fix) and are not used", "check the antenna and its view of the sky");
   if (messages_ >= kFewFixes && 2 * repeated_ > messages_)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -16,12 +17,34 @@ using urban_nav_core::ScanFault;
 namespace {
 
 constexpr std::int64_t kFewScans = 20;
-constexpr double kFewValid = 0.02;  // share of beams: outdoors a third may see nothing
+constexpr double kFewValid = 0.02;    // share of beams: outdoors a third may see nothing
+constexpr double kOtherEnd = 0.02;    // share of the span
+constexpr double kLeastShare = 0.05;  // least share of the interval of scans that the beams take
 constexpr double kDegrees = 180.0 / M_PI;
 
-bool hasUsableAngles(const sensor_msgs::LaserScan& message) {
+constexpr double kTooLong = 1.5;      // times the interval of scans: beams that overlap those of the next scan
+constexpr double kLeastSweep = 0.02;  // s
+
+bool statesAllAngles(const sensor_msgs::LaserScan& message) {
   return std::isfinite(message.angle_min) && std::isfinite(message.angle_increment) &&
-         std::isfinite(message.time_increment);
+         (message.angle_increment != 0.0F || message.ranges.size() < 2);
+}
+
+/// Returns a checksum of the ranges (FNV-1a, 32 bits).
+std::int64_t checksum(const std::vector<float>& ranges) {
+  std::uint32_t sum = 2166136261U;
+  for (const float range : ranges) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &range, sizeof(bits));
+    sum = (sum ^ bits) * 16777619U;
+  }
+  return sum;
+}
+
+/// Returns the angle from the first to the last beam, by their number and by the end that is stated, rad.
+std::pair<double, double> spans(const sensor_msgs::LaserScan& message) {
+  return {static_cast<double>(message.angle_increment) * (static_cast<double>(message.ranges.size()) - 1.0),
+          static_cast<double>(message.angle_max) - static_cast<double>(message.angle_min)};
 }
 
 }  // namespace
@@ -29,10 +52,10 @@ bool hasUsableAngles(const sensor_msgs::LaserScan& message) {
 std::optional<urban_nav_core::PlanarScan> LaserExamination::read(const sensor_msgs::LaserScan& message) {
   ++scans_;
   if (message.header.stamp.isZero()) ++no_stamp_;
-  else if (!hasUsableAngles(message)) ++not_finite_;
   if (urban_nav_ros::hasNoRangeLimit(message) && no_limit_++ == 0)
     no_limit_value_ = std::isfinite(message.range_max) ? static_cast<double>(message.range_max) : -1.0;
   if (!std::isfinite(message.scan_time)) ++no_time_;
+  if (!std::isfinite(message.time_increment)) ++no_increment_;
   const urban_nav_core::ScanVerdict verdict = urban_nav_ros::checkUnits(message, convention_);
   if (verdict.fault != ScanFault::None && unit_scans_++ == 0) {
     unit_fault_ = static_cast<std::int64_t>(verdict.fault);
@@ -40,9 +63,24 @@ std::optional<urban_nav_core::PlanarScan> LaserExamination::read(const sensor_ms
     unit_repair_ = verdict.repair;
   }
   std::optional<urban_nav_core::PlanarScan> scan = urban_nav_ros::toPlanarScan(message, convention_);
+  if (!scan && verdict.fault == ScanFault::None && !message.header.stamp.isZero()) ++not_finite_;
+  if (scan && !statesAllAngles(message)) ++completed_;
   beams_ += static_cast<std::int64_t>(message.ranges.size());
+  const std::int64_t sum = checksum(message.ranges);
+  repeated_ += scans_ > 1 && sum == last_ ? 1 : 0;
+  last_ = sum;
+  if (const auto [spanned, stated] = spans(message);
+      message.ranges.size() > 1 && std::isfinite(stated) && std::isfinite(spanned) &&
+      std::abs(spanned - stated) > std::max(kOtherEnd * std::abs(stated),
+                                            3.0 * std::abs(spanned) / static_cast<double>(message.ranges.size()))) {
+    ++other_end_;
+    stated_span_ = stated, made_span_ = spanned;
+  }
   if (!scan) return scan;
   ++used_;
+  if (first_stamp_ == 0) first_stamp_ = scan->stamp;
+  last_stamp_ = scan->stamp;
+  turn_s_ = std::abs(scan->time_step) * (static_cast<double>(scan->ranges.size()) - 1.0);
   valid_ += std::count_if(scan->ranges.begin(), scan->ranges.end(), [&](float range) {
     return std::isfinite(range) && range > 0.0F && static_cast<double>(range) >= scan->range_min &&
            static_cast<double>(range) <= scan->range_max;
@@ -79,6 +117,32 @@ Finding LaserExamination::unitFinding() const {
   return finding;
 }
 
+std::optional<Finding> LaserExamination::turnFinding() const {
+  if (used_ < kFewScans || last_stamp_ <= first_stamp_ || turn_s_ < kLeastSweep) return std::nullopt;
+  const double interval = 1e-9 * static_cast<double>(last_stamp_ - first_stamp_) / static_cast<double>(used_ - 1);
+  if (turn_s_ <= kTooLong * interval) return std::nullopt;
+  Finding finding{FindingKind::Lasers,
+                  topic_ + ": by time_increment the beams of a scan take " + formatNumber(turn_s_, 4) +
+                      " s, and a scan comes every " + formatNumber(interval, 3) + " s",
+                  "let the driver set time_increment in seconds from beam to beam"};
+  for (const double unit : {1e-3, 1e-6, 1e-9}) {
+    if (turn_s_ * unit > interval || turn_s_ * unit < kLeastShare * interval) continue;
+    finding.text += unit == 1e-3   ? ": it is in milliseconds"
+                    : unit == 1e-6 ? ": it is in microseconds"
+                                   : ": it is in nanoseconds";
+    finding.options = {"--set",
+                       "input." + role_ + "_time_scale=" + urban_nav_core::printNumber(unit * convention_.time_scale)};
+    finding.remedy = finding.options[0] + " " + finding.options[1] + "; for later recordings " + finding.remedy;
+    break;
+  }
+  if (finding.options.empty()) {
+    finding.options = {"--set", "input." + role_ + "_time_scale=0"};
+    finding.remedy = finding.options[0] + " " + finding.options[1] +
+                     " gives all beams the stamp of their scan; for later recordings " + finding.remedy;
+  }
+  return finding;
+}
+
 std::vector<Finding> LaserExamination::findings() const {
   std::vector<Finding> findings;
   if (scans_ == 0) return findings;
@@ -87,10 +151,15 @@ std::vector<Finding> LaserExamination::findings() const {
     findings.push_back({FindingKind::Stamps, topic_ + ": " + share(no_stamp_) + " have no stamp and are not used",
                         "let the driver of this laser stamp its scans"});
   if (not_finite_ > 0)
+    findings.push_back(
+        {FindingKind::Lasers,
+         topic_ + ": " + share(not_finite_) + " have angles that are zero or not finite (NaN) and are not used",
+         "check angle_min, angle_max and angle_increment of the driver of this laser"});
+  if (completed_ > 0)
     findings.push_back({FindingKind::Lasers,
-                        topic_ + ": " + share(not_finite_) +
-                            " have angles or time_increment that are not finite (NaN) and are not used",
-                        "check the driver of this laser"});
+                        topic_ + ": angle_min or angle_increment of " + share(completed_) +
+                            " is zero or not finite (NaN); it is taken from angle_max and the number of beams",
+                        "nothing has to be done; for later recordings set the angles in the driver"});
   if (no_limit_ > 0)
     findings.push_back(
         {FindingKind::Lasers,
@@ -102,6 +171,22 @@ std::vector<Finding> LaserExamination::findings() const {
     findings.push_back({FindingKind::Lasers,
                         topic_ + ": scan_time of " + share(no_time_) + " is not finite (NaN); it is not needed",
                         "nothing has to be done; for later recordings set scan_time in the driver"});
+  if (no_increment_ > 0)
+    findings.push_back({FindingKind::Lasers,
+                        topic_ + ": time_increment of " + share(no_increment_) +
+                            " is not finite (NaN); the time from beam to beam is taken from scan_time",
+                        "nothing has to be done; for later recordings set time_increment in the driver"});
+  if (std::optional<Finding> finding = turnFinding()) findings.push_back(*std::move(finding));
+  if (other_end_ > 0)
+    findings.push_back({FindingKind::Lasers,
+                        topic_ + ": the beams of " + share(other_end_) + " span " + formatNumber(made_span_, 4) +
+                            " rad by their number and angle_increment, and " + formatNumber(stated_span_, 4) +
+                            " rad by angle_min and angle_max; angle_increment is used",
+                        "check angle_increment, angle_min and angle_max of the driver"});
+  if (scans_ >= kFewScans && 2 * repeated_ > scans_ && valid_ > 0)
+    findings.push_back({FindingKind::Lasers,
+                        topic_ + ": " + share(repeated_) + " repeat the ranges of the one before to all digits: frozen",
+                        "restart the driver of this laser, and publish each scan once"});
   if (used_ >= kFewScans && static_cast<double>(valid_) < kFewValid * static_cast<double>(beams_))
     findings.push_back({FindingKind::Lasers,
                         topic_ + ": " +

@@ -15,10 +15,12 @@ constexpr std::int64_t kFewReadings = 50;
 }  // namespace
 
 void ReadingExamination::add(urban_nav_core::StampNs stamp, const std::array<double, 6>& numbers) {
+  if (stamp <= 0) ++no_stamp_;
   if (messages_++ == 0) first_ = stamp;
   if (!std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); })) {
     if (not_finite_++ == 0) first_not_finite_ = stamp;
     last_not_finite_ = stamp;
+    return;
   }
   repeated_ += messages_ > 1 && numbers == last_ ? 1 : 0;
   last_ = numbers;
@@ -33,6 +35,9 @@ std::vector<Finding> ReadingExamination::findings(const std::string& topic, Find
     return formatNumber(100.0 * static_cast<double>(count) / static_cast<double>(messages_), 3) + " % of " +
            std::to_string(messages_) + " messages";
   };
+  if (no_stamp_ > 0)
+    findings.push_back({FindingKind::Stamps, topic + ": " + percent(no_stamp_) + " have no stamp and are not used",
+                        "let the driver of this device stamp its messages"});
   if (not_finite_ > 0)
     findings.push_back({kind,
                         topic + ": " + percent(not_finite_) + " have numbers that are not finite (NaN), from " +

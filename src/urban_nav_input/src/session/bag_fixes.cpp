@@ -3,6 +3,8 @@
 
 #include <sensor_msgs/NavSatFix.h>
 
+#include <cmath>
+
 #include "session/given_transforms.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
@@ -28,7 +30,7 @@ void placeAntenna(Recording& recording, const std::vector<std::string>& given, c
 }  // namespace
 
 BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<std::string>& topics,
-                      const std::vector<std::string>& transforms) {
+                      const std::vector<std::string>& transforms, double delay) {
   BagFixes fixes;
   if (paths.empty() || inputKind(paths.front()) != InputKind::Bag) return fixes;
   Recording recording(paths);
@@ -41,7 +43,10 @@ BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<s
     const auto message = each->as<sensor_msgs::NavSatFix>();
     if (!message) continue;
     frame = message->header.frame_id;
-    if (const auto reading = urban_nav_ros::toGpsReading(*message)) fixes.readings.push_back(*reading);
+    auto reading = urban_nav_ros::toGpsReading(*message);
+    if (!reading) continue;
+    reading->stamp -= static_cast<urban_nav_core::StampNs>(std::llround(1e6 * delay));
+    if (reading->stamp > 0) fixes.readings.push_back(*reading);
   }
   if (!frame.empty()) placeAntenna(recording, transforms, frame, fixes);
   return fixes;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_input/session/grey_survey.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 
 namespace urban_nav_input {
@@ -47,6 +48,7 @@ BagPanorama::BagPanorama(Recording& recording, const BagTopics& topics,
         camera.calibration = urban_nav_ros::toCameraInfo(*message);
     cameras_.push_back(std::move(camera));
   }
+  if (!cameras_.empty()) range_ = surveyGreyRange(recording, this->topics());
   begin();
 }
 
@@ -56,6 +58,7 @@ void BagPanorama::begin() {
   PanoramaFeed::Options options;
   options.cameras = cameras_.size();
   feed_ = std::make_unique<PanoramaFeed>(options);
+  feed_->expectRange(range_);
 }
 
 std::vector<std::string> BagPanorama::topics() const {

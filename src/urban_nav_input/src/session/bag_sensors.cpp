@@ -4,17 +4,34 @@
 #include <cmath>
 
 #include "urban_nav_input/sensors/accelerometer_finding.hpp"
+#include "urban_nav_input/sensors/ground_finding.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
 
 using urban_nav_core::SpecificForce;
 using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
 
-void BagSensors::addLaser(const std::string& topic) {
+namespace {
+
+/// Takes a delay (ms) from a stamp. Returns false if nothing above zero remains.
+bool takeDelay(double delay, std_msgs::Header& header) {
+  if (delay == 0.0) return true;
+  const StampNs stamp = urban_nav_ros::toStampNs(header.stamp) - static_cast<StampNs>(std::llround(1e6 * delay));
+  if (stamp <= 0) return false;
+  header.stamp = urban_nav_ros::toRosTime(stamp);
+  return true;
+}
+
+}  // namespace
+
+void BagSensors::addLaser(const std::string& topic, const urban_nav_core::Pose& T_base_laser) {
   const std::optional<ChosenTopic> right = topics_.find(Role::LaserRight);
   const bool is_right = right && right->name == topic;
   laser_topics_.push_back(topic);
+  laser_places_.push_back(T_base_laser);
+  laser_grounds_.emplace_back();
   lasers_.emplace_back(toString(is_right ? Role::LaserRight : Role::LaserLeft), topic,
                        options_.lasers[is_right ? 1 : 0]);
 }
@@ -25,33 +42,50 @@ void BagSensors::addSweep(const std::string& topic, StampNs reference, StampNs r
       clocks_.add(toString(pointsRole(i)), topic, reference, receipt);
 }
 
-void BagSensors::add(sensor_msgs::Imu& imu, const std::string& topic, StampNs receipt) {
-  StampNs stamp = urban_nav_ros::toStampNs(imu.header.stamp);
-  if (options_.imu_delay != 0.0) {
-    stamp -= static_cast<StampNs>(std::llround(1e6 * options_.imu_delay));
-    if (stamp <= 0) return;
-    imu.header.stamp = urban_nav_ros::toRosTime(stamp);
-  }
+bool BagSensors::add(sensor_msgs::Imu& imu, const std::string& topic, StampNs receipt) {
+  if (!takeDelay(options_.imu_delay, imu.header)) return false;
+  const StampNs stamp = urban_nav_ros::toStampNs(imu.header.stamp);
   clocks_.add(toString(Role::Imu), topic, stamp, receipt);
-  const auto &force = imu.linear_acceleration, &rate = imu.angular_velocity;
+  auto &force = imu.linear_acceleration, &rate = imu.angular_velocity;
   imu_.add(stamp, {{force.x, force.y, force.z, rate.x, rate.y, rate.z}});
-  if (!accelerometer_) return;
-  for (const SpecificForce& sample : accelerometer_->add(imu)) forces_.push_back(sample);
+  const double scale = options_.motion.gyroscope_scale;
+  rate.x *= scale, rate.y *= scale, rate.z *= scale;
+  if (R_base_imu_)
+    motion_.addGyroscope(stamp, R_base_imu_->row(2).dot(urban_nav_core::Vector3d(rate.x, rate.y, rate.z)));
+  if (accelerometer_)
+    for (const SpecificForce& sample : accelerometer_->add(imu)) forces_.push_back(sample);
+  return true;
 }
 
-void BagSensors::add(const nav_msgs::Odometry& wheels, const std::string& topic, StampNs receipt) {
+bool BagSensors::add(nav_msgs::Odometry& wheels, const std::string& topic, StampNs receipt) {
+  if (!takeDelay(options_.wheels_delay, wheels.header)) return false;
   const StampNs stamp = urban_nav_ros::toStampNs(wheels.header.stamp);
   clocks_.add(toString(Role::Wheels), topic, stamp, receipt);
-  const auto& p = wheels.pose.pose.position;
+  auto& p = wheels.pose.pose.position;
   const auto& q = wheels.pose.pose.orientation;
-  wheels_.add(stamp, {{p.x, p.y, q.z, q.w, wheels.twist.twist.linear.x, wheels.twist.twist.angular.z}});
+  const auto& twist = wheels.twist.twist;
+  wheels_.add(stamp, {{p.x, p.y, q.z, q.w, twist.linear.x, twist.angular.z}});
+  const double scale = options_.motion.wheels_scale;
+  p.x *= scale, p.y *= scale, p.z *= scale;
+  const double yaw = std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+  motion_.addWheels(stamp, {{p.x, p.y, yaw}}, twist.linear.x);
+  return true;
+}
+
+void BagSensors::add(const sensor_msgs::NavSatFix& fix, const std::string& topic, StampNs receipt) {
+  gps_.add(fix);
+  sensor_msgs::NavSatFix corrected = fix;
+  if (takeDelay(options_.gps_delay, corrected.header))
+    clocks_.add(toString(Role::Gps), topic, urban_nav_ros::toStampNs(corrected.header.stamp), receipt);
 }
 
 std::optional<urban_nav_core::PlanarScan> BagSensors::read(std::size_t laser, const sensor_msgs::LaserScan& message,
                                                            StampNs receipt) {
   LaserExamination& examination = lasers_[laser];
   std::optional<urban_nav_core::PlanarScan> scan = examination.read(message);
-  if (scan) clocks_.add(examination.role(), laser_topics_[laser], scan->stamp, receipt);
+  if (!scan) return scan;
+  clocks_.add(examination.role(), laser_topics_[laser], scan->stamp, receipt);
+  laser_grounds_[laser].add(*scan, laser_places_[laser]);
   return scan;
 }
 
@@ -61,6 +95,8 @@ std::vector<SpecificForce> BagSensors::forces() const {
 
 std::optional<double> BagSensors::findDelay(const std::string& role) const {
   if (role == toString(Role::Imu)) return options_.imu_delay;
+  if (role == toString(Role::Wheels)) return options_.wheels_delay;
+  if (role == toString(Role::Gps)) return options_.gps_delay;
   if (role == toString(Role::LaserLeft)) return 1e-6 * static_cast<double>(options_.lasers[0].delay);
   if (role == toString(Role::LaserRight)) return 1e-6 * static_cast<double>(options_.lasers[1].delay);
   for (std::size_t i = 0; i < options_.points.delays.size(); ++i)
@@ -85,12 +121,36 @@ std::vector<Finding> BagSensors::findings() const {
   return findings;
 }
 
+std::vector<Finding> BagSensors::sightFindings(const Sight& sight, double stereo_scale, bool is_camera_placed) const {
+  const auto name = [this](Role role) {
+    const std::optional<ChosenTopic> topic = topics_.find(role);
+    return topic ? topic->name : std::string();
+  };
+  std::vector<SeenMotion> motions = sight.motions;
+  for (SeenMotion& motion : motions)
+    motion.T_from_to = urban_nav_core::Pose(motion.T_from_to.q(), stereo_scale * motion.T_from_to.t());
+  std::vector<Finding> findings = motion_.findings(motions, name(Role::Wheels), name(Role::Imu), options_.motion);
+  if (!is_camera_placed) return findings;
+  std::vector<double> heights;
+  for (const SeenGround& ground : sight.grounds)
+    heights.push_back((ground.up.dot(sight.camera) - stereo_scale * ground.drop) / ground.up.z());
+  for (std::size_t i = 0; i < lasers_.size(); ++i)
+    if (auto finding = laser_grounds_[i].finding(lasers_[i].role(), laser_topics_[i], heights))
+      findings.push_back(std::move(*finding));
+  if (!accelerometer_ || !accelerometer_->verdict().sound()) return findings;
+  Vector3d force = Vector3d::Zero();
+  for (const SpecificForce& sample : forces_) force += sample.force;
+  for (Finding& finding : groundFindings(name(Role::Imu), sight.grounds, force)) findings.push_back(std::move(finding));
+  return findings;
+}
+
 void BagSensors::archive(urban_nav_core::Archive& archive) {
   std::vector<std::pair<StampNs, urban_nav_core::Vector3d>> forces;
   for (const SpecificForce& sample : forces_) forces.emplace_back(sample.stamp, sample.force);
-  archive(forces, imu_, wheels_, gps_, clocks_);
+  archive(forces, imu_, wheels_, gps_, clocks_, motion_);
   if (accelerometer_) archive(*accelerometer_);
   for (LaserExamination& laser : lasers_) archive(laser);
+  for (LaserGround& ground : laser_grounds_) archive(ground);
   if (!archive.isReading()) return;
   forces_.clear();
   for (const auto& [stamp, force] : forces) forces_.push_back({stamp, force});

@@ -12,6 +12,8 @@
 #include "urban_nav_input/sensors/clock_examination.hpp"
 #include "urban_nav_input/sensors/gps_examination.hpp"
 #include "urban_nav_input/sensors/laser_examination.hpp"
+#include "urban_nav_input/sensors/laser_ground.hpp"
+#include "urban_nav_input/sensors/motion_examination.hpp"
 #include "urban_nav_input/sensors/reading_examination.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/accelerometer.hpp"
@@ -28,9 +30,10 @@ class BagSensors {
   void add(const std::vector<Finding>& findings) {
     findings_.insert(findings_.end(), findings.begin(), findings.end());
   }
-  /// Adds the laser of a role, whose place is known.
-  void addLaser(const std::string& topic);
+  /// Adds the laser of a role at its place.
+  void addLaser(const std::string& topic, const urban_nav_core::Pose& T_base_laser);
   void placeImu(const urban_nav_core::Matrix3d& R_base_imu) {
+    R_base_imu_ = R_base_imu;
     accelerometer_.emplace(R_base_imu, options_.accelerometer);
   }
 
@@ -40,10 +43,11 @@ class BagSensors {
   }
   /// Adds a sweep of a 3D LiDAR; its reference and the receipt of its cloud in ns.
   void addSweep(const std::string& topic, urban_nav_core::StampNs reference, urban_nav_core::StampNs receipt);
-  /// Corrects the stamp of a message of the IMU, and takes its specific force.
-  void add(sensor_msgs::Imu& imu, const std::string& topic, urban_nav_core::StampNs receipt);
-  void add(const nav_msgs::Odometry& wheels, const std::string& topic, urban_nav_core::StampNs receipt);
-  void add(const sensor_msgs::NavSatFix& fix) { gps_.add(fix); }
+  /// Corrects stamp and rates of a message of the IMU, and takes its specific force. Returns whether it can be used.
+  bool add(sensor_msgs::Imu& imu, const std::string& topic, urban_nav_core::StampNs receipt);
+  /// Corrects stamp and positions of a message of wheel odometry. Returns whether it can be used.
+  bool add(nav_msgs::Odometry& wheels, const std::string& topic, urban_nav_core::StampNs receipt);
+  void add(const sensor_msgs::NavSatFix& fix, const std::string& topic, urban_nav_core::StampNs receipt);
   /// Returns the scan of a message of the n-th laser; nullopt where its beams cannot be placed.
   std::optional<urban_nav_core::PlanarScan> read(std::size_t laser, const sensor_msgs::LaserScan& message,
                                                  urban_nav_core::StampNs receipt);
@@ -51,6 +55,8 @@ class BagSensors {
   /// Returns the specific forces in the axes of base_link; none of an accelerometer that is not sound.
   std::vector<urban_nav_core::SpecificForce> forces() const;
   std::vector<Finding> findings() const;
+  /// As Source::sightFindings(). `is_camera_placed`: whether the recording states where the camera is.
+  std::vector<Finding> sightFindings(const Sight& sight, double stereo_scale, bool is_camera_placed) const;
   /// Reads or writes the state between two messages, of the same lasers and the same IMU.
   void archive(urban_nav_core::Archive& archive);
 
@@ -63,10 +69,14 @@ class BagSensors {
   std::optional<urban_nav_ros::Accelerometer> accelerometer_;
   std::vector<urban_nav_core::SpecificForce> forces_;
   std::vector<std::string> laser_topics_;
+  std::vector<urban_nav_core::Pose> laser_places_;
+  std::vector<LaserGround> laser_grounds_;
   std::vector<LaserExamination> lasers_;  // as laser_topics_
   ReadingExamination imu_, wheels_;
   GpsExamination gps_;
   ClockExamination clocks_;
+  MotionExamination motion_;
+  std::optional<urban_nav_core::Matrix3d> R_base_imu_;
 };
 
 }  // namespace urban_nav_input

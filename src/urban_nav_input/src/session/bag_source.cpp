@@ -11,20 +11,22 @@
 #include "recording/unused_topics.hpp"
 #include "session/bag_calibration.hpp"
 #include "session/bag_cameras.hpp"
+#include "session/bag_images.hpp"
 #include "session/bag_inputs.hpp"
 #include "session/bag_sensors.hpp"
 #include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
-#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/sensors/pairing_examination.hpp"
+#include "urban_nav_input/sensors/place_finding.hpp"
 #include "urban_nav_input/sensors/topic_examination.hpp"
 #include "urban_nav_input/session/bag_panorama.hpp"
 #include "urban_nav_input/session/calibration_file.hpp"
+#include "urban_nav_input/session/grey_survey.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -43,14 +45,11 @@ namespace {
 
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, waiting costs nothing
 
-constexpr urban_nav_core::StampNs kClockStep = 1'000'000'000;  // ns
-
 constexpr const char* kBagStateName = "reader of bags";
 constexpr std::uint32_t kBagStateVersion = 7;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
-    25'000'000;                            // ns: images of a pair are received one after another
-constexpr std::size_t kDepthSamples = 20;  // images at the beginning of each side
-constexpr std::size_t kMostSweeps = 4;     // that wait for a pair
+    25'000'000;                         // ns: images of a pair are received one after another
+constexpr std::size_t kMostSweeps = 4;  // that wait for a pair
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
@@ -105,22 +104,13 @@ class BagSource : public Source {
     for (Finding& finding : sweeps_in_bag_.findings()) findings.push_back(std::move(finding));
     return findings;
   }
+  std::vector<Finding> sightFindings(const Sight& sight, double stereo_scale) const override {
+    return sensors_.sightFindings(sight, stereo_scale, is_placed_);
+  }
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
   std::vector<std::string> closingFaults() const override {
-    std::vector<std::string> faults;
-    const auto count = [&](urban_nav_ros::Side side, Role role) {
-      const urban_nav_core::TimeOrderedQueueCounts& counts = feed_->counts(side);
-      const std::string topic = topics_.find(role)->name;
-      if (counts.late > 0)
-        faults.push_back(topic + ": " + std::to_string(counts.late) +
-                         " images came too late by their stamps and were dropped");
-      if (counts.duplicate > 0)
-        faults.push_back(topic + ": " + std::to_string(counts.duplicate) +
-                         " images have the stamp of another and were dropped");
-    };
-    if (feed_) count(urban_nav_ros::Side::Left, Role::Left);
-    if (feed_) count(urban_nav_ros::Side::Right, Role::Right);
+    std::vector<std::string> faults = feed_ ? droppedImages(*feed_, topics_) : std::vector<std::string>();
     for (std::string& fault : panorama_.faults()) faults.push_back(std::move(fault));
     for (std::string& warning : recording_.warnings()) faults.push_back(std::move(warning));
     return faults;
@@ -167,6 +157,7 @@ class BagSource : public Source {
   void placeCamera(const urban_nav_ros::StaticTransforms& transforms) {
     if (const std::optional<urban_nav_core::Pose> T_base_optical =
             transforms.lookup(frames::kBaseLink, camera_frame_)) {
+      sensors_.add(placeFindings(camera_frame_, *T_base_optical));
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
       is_placed_ = true;
       return;
@@ -200,7 +191,8 @@ class BagSource : public Source {
       if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
         laser_topics_.push_back(topic->name);
-        sensors_.addLaser(topic->name);
+        sensors_.addLaser(topic->name, *T_base_laser);
+        sensors_.add(placeFindings(scan->header.frame_id, *T_base_laser));
       } else {
         info_.notes.push_back("no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
                               " is not used");
@@ -246,7 +238,7 @@ class BagSource : public Source {
     if (frames.size() == 0) throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds", "");
     std::tie(info_.first, info_.last) =
         stamps_are_receipts_ ? std::make_pair(frames.first(), frames.last()) : findStampSpan(frames);
-    if (info_.has_images) expectRange(leading);
+    if (info_.has_images) feed_->expectRange(surveyGreyRange(recording_, leading));
   }
 
   /// Finds out in which order messages are read: by the topics of images, or of clouds without images.
@@ -256,17 +248,8 @@ class BagSource : public Source {
     is_sorted_ = survey.needs_sorting;
     if (info_.has_images && !sweeps_in_bag_.empty())
       is_sorted_ = is_sorted_ || surveyStamps(recording_, sweeps_in_bag_.topics(), part_).needs_sorting;
-    if (stamps_are_receipts_) {
-      convention_.tolerance = std::max(convention_.tolerance, kReceiptTolerance);
-      info_.notes.push_back(std::string(survey.unset ? "no header has a stamp" : "all stamps of a topic are equal") +
-                            ": the times at which messages were received are used instead");
-    }
-    if (is_sorted_) info_.notes.push_back("messages lie in another order than their stamps: sorted by stamp");
-    if (survey.back > kClockStep)
-      info_.notes.push_back("stamps step back by " +
-                            urban_nav_core::printNumber(std::round(1e-7 * static_cast<double>(survey.back)) / 100.0) +
-                            " s during the recording (a clock was set): images after the step are left out "
-                            "until the stamps have caught up");
+    if (stamps_are_receipts_) convention_.tolerance = std::max(convention_.tolerance, kReceiptTolerance);
+    for (std::string& note : describeOrder(survey, is_sorted_)) info_.notes.push_back(std::move(note));
   }
 
   void noteUnused() {
@@ -282,22 +265,6 @@ class BagSource : public Source {
     leave(Role::Imu, R_base_imu_ || motion_.gyroscope);
     if (std::string sentence = describeUnusedTopics(recording_, used); !sentence.empty())
       info_.notes.push_back(std::move(sentence));
-  }
-
-  /// The range of 16-bit images is known before the first of them is decoded.
-  void expectRange(const std::vector<std::string>& topics) {
-    urban_nav_ros::GreyRange range;
-    for (const std::string& topic : topics) {
-      RecordedMessages messages = recording_.messages({topic});
-      for (std::size_t seen = 0; seen < kDepthSamples; ++seen) {
-        const std::optional<RecordedMessage> message = messages.next();
-        if (!message) break;
-        if (const auto image = message->as<sensor_msgs::Image>()) range.add(*image);
-        else if (const auto packed = message->as<sensor_msgs::CompressedImage>()) range.add(*packed);
-      }
-    }
-    range.settle();
-    feed_->expectRange(range);
   }
 
   /// The messages of the next group, if there is one.
@@ -346,7 +313,7 @@ class BagSource : public Source {
       for (const auto& [topic, place] : lasers) {
         laser_topics_.push_back(topic);
         info_.lasers.push_back({place.first, place.second});
-        sensors_.addLaser(topic);
+        sensors_.addLaser(topic, place.second);
       }
     }
     archive(panorama_, sweeps_in_bag_);
@@ -403,16 +370,15 @@ class BagSource : public Source {
         feed_->add(side, sensor_msgs::CompressedImageConstPtr(compressed));
       }
     } else if (const auto odometry = instance.as<nav_msgs::Odometry>()) {
-      sensors_.add(*odometry, topic, instance.receipt());
-      if (!motion_.wheels) return;
+      if (!sensors_.add(*odometry, topic, instance.receipt()) || !motion_.wheels) return;
       if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
     } else if (const auto imu = instance.as<sensor_msgs::Imu>()) {
-      sensors_.add(*imu, topic, instance.receipt());
+      if (!sensors_.add(*imu, topic, instance.receipt())) return;
       if (const auto motion = gyroscope_->add(*imu); motion && motion_.gyroscope) feed_->add(*motion);
     } else if (const auto scan = instance.as<sensor_msgs::LaserScan>()) {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
-      sensors_.add(*fix);
+      sensors_.add(*fix, topic, instance.receipt());
     } else if (panorama_.add(instance)) {
       takePanoramas();
     }

@@ -102,17 +102,53 @@ std::vector<urban_nav_core::Row<P>> sensorRows() {
        "docs/files.md"},
       scaleRow("accelerometer_scale", &P::accelerometer_scale, "m/s2",
                "Specific force of 1 in the messages of the IMU: 9.80665 where they state it in g."),
+      scaleRow("gyroscope_scale", &P::gyroscope_scale, "rad/s",
+               "Rate of 1 in the messages of the IMU: 0.0174532925 where they state deg/s."),
+      {"wheels_scale",
+       &P::wheels_scale,
+       "m",
+       1.0,
+       -1e6,
+       1e6,
+       {},
+       "Distance of 1 in the positions of wheel odometry: 0.001 where they state millimetres, -1 where forward is "
+       "negative.",
+       "docs/files.md",
+       {},
+       kRepair},
       delayRow("imu_delay", &P::imu_delay, "messages of the IMU"),
-      delayRow("laser_left_delay", &P::laser_left_delay, "scans of laser_left"),
-      delayRow("laser_right_delay", &P::laser_right_delay, "scans of laser_right"),
-      scaleRow("laser_left_range_scale", &P::laser_left_range_scale, "m",
-               "Range of 1 in the messages of laser_left: 0.001 where they state millimetres."),
-      scaleRow("laser_right_range_scale", &P::laser_right_range_scale, "m",
-               "Range of 1 in the messages of laser_right: 0.001 where they state millimetres."),
-      scaleRow("laser_left_angle_scale", &P::laser_left_angle_scale, "rad",
-               "Angle of 1 in the messages of laser_left: 0.0174532925 where they state degrees."),
-      scaleRow("laser_right_angle_scale", &P::laser_right_angle_scale, "rad",
-               "Angle of 1 in the messages of laser_right: 0.0174532925 where they state degrees.")};
+      delayRow("wheels_delay", &P::wheels_delay, "messages of wheel odometry"),
+      delayRow("gps_delay", &P::gps_delay, "fixes of the GPS receiver")};
+}
+
+urban_nav_core::Row<P> timeScaleRow(const char* name, double P::*member, const std::string& laser) {
+  return {name,
+          member,
+          "s",
+          1.0,
+          0.0,
+          1e6,
+          {},
+          "time_increment of 1 in the messages of " + laser +
+              ": 0.001 where they state milliseconds; 0: all beams have the stamp of their scan.",
+          "docs/files.md",
+          {},
+          kRepair};
+}
+
+std::vector<urban_nav_core::Row<P>> laserRows() {
+  return {delayRow("laser_left_delay", &P::laser_left_delay, "scans of laser_left"),
+          delayRow("laser_right_delay", &P::laser_right_delay, "scans of laser_right"),
+          scaleRow("laser_left_range_scale", &P::laser_left_range_scale, "m",
+                   "Range of 1 in the messages of laser_left: 0.001 where they state millimetres."),
+          scaleRow("laser_right_range_scale", &P::laser_right_range_scale, "m",
+                   "Range of 1 in the messages of laser_right: 0.001 where they state millimetres."),
+          scaleRow("laser_left_angle_scale", &P::laser_left_angle_scale, "rad",
+                   "Angle of 1 in the messages of laser_left: 0.0174532925 where they state degrees."),
+          scaleRow("laser_right_angle_scale", &P::laser_right_angle_scale, "rad",
+                   "Angle of 1 in the messages of laser_right: 0.0174532925 where they state degrees."),
+          timeScaleRow("laser_left_time_scale", &P::laser_left_time_scale, "laser_left"),
+          timeScaleRow("laser_right_time_scale", &P::laser_right_time_scale, "laser_right")};
 }
 
 std::vector<urban_nav_core::Row<P>> pointsRows() {
@@ -177,7 +213,7 @@ PointsOptions toPointsOptions(const P& parameters) {
 const Table<InputParameters>& inputTable() {
   static const Table<P> table = [] {
     std::vector<urban_nav_core::Row<P>> rows = pairRows();
-    for (auto& more : {sensorRows(), pointsRows()}) rows.insert(rows.end(), more.begin(), more.end());
+    for (auto& more : {sensorRows(), laserRows(), pointsRows()}) rows.insert(rows.end(), more.begin(), more.end());
     return Table<P>("input", urban_nav_core::withMotionInput<P>(std::move(rows)));
   }();
   return table;
@@ -194,6 +230,11 @@ void apply(const InputParameters& parameters, SourceOptions& options) {
   options.accelerometer = {*axes, parameters.accelerometer_scale};
   options.imu_delay = parameters.imu_delay;
   options.points = toPointsOptions(parameters);
+  options.wheels_delay = parameters.wheels_delay;
+  options.gps_delay = parameters.gps_delay;
+  if (parameters.wheels_scale == 0.0)
+    throw urban_nav_core::UserError("input.wheels_scale", "0", "a factor that leaves a distance");
+  options.motion = {parameters.wheels_scale, parameters.gyroscope_scale};
   const auto toNs = [](double ms) { return static_cast<urban_nav_core::StampNs>(std::llround(1e6 * ms)); };
   options.pairing = {toNs(parameters.right_delay), toNs(parameters.pairing_tolerance)};
   if (parameters.baseline_scale == 0.0)
@@ -202,9 +243,10 @@ void apply(const InputParameters& parameters, SourceOptions& options) {
   options.sessions = parameters.sessions == "apart"      ? SessionRule::Apart
                      : parameters.sessions == "together" ? SessionRule::Together
                                                          : SessionRule::Auto;
-  options.lasers = {
-      {{parameters.laser_left_range_scale, parameters.laser_left_angle_scale, toNs(parameters.laser_left_delay)},
-       {parameters.laser_right_range_scale, parameters.laser_right_angle_scale, toNs(parameters.laser_right_delay)}}};
+  options.lasers = {{{parameters.laser_left_range_scale, parameters.laser_left_angle_scale,
+                      toNs(parameters.laser_left_delay), parameters.laser_left_time_scale},
+                     {parameters.laser_right_range_scale, parameters.laser_right_angle_scale,
+                      toNs(parameters.laser_right_delay), parameters.laser_right_time_scale}}};
 }
 
 }  // namespace urban_nav_input

@@ -55,6 +55,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->sensorFindings() : std::vector<Finding>();
   }
 
+  std::vector<Finding> sightFindings(const Sight& sight, double stereo_scale) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->sightFindings(sight, stereo_scale) : std::vector<Finding>();
+  }
+
   std::shared_ptr<const BagEnd> bagEnd() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->bagEnd() : nullptr;

@@ -28,7 +28,7 @@ sensor_msgs::LaserScan makeScan(int i) {
   scan.scan_time = 0.02F;
   scan.range_min = 0.1F;
   scan.range_max = 80.0F;
-  scan.ranges.assign(301, 6.0F);
+  scan.ranges.assign(301, 6.0F + 0.001F * static_cast<float>(i));
   return scan;
 }
 
@@ -82,9 +82,31 @@ TEST(LaserExamination, NamesWhatItUsesInSpiteOfAFault) {
   EXPECT_EQ(used, 100);
 }
 
+TEST(LaserExamination, NamesNumbersThatFollowFromOthers) {
+  int used = 0;
+  const std::string increment =
+      examineScans([](sensor_msgs::LaserScan& scan) { scan.angle_increment = 0.0F; }, &used).at(0).text;
+  EXPECT_NE(increment.find("angle_increment of 50 of 50"), std::string::npos) << increment;
+  const std::string time =
+      examineScans([](sensor_msgs::LaserScan& scan) { scan.time_increment = kNan; }, &used).at(0).text;
+  EXPECT_NE(time.find("taken from scan_time"), std::string::npos) << time;
+  EXPECT_EQ(used, 100);
+}
+
+TEST(LaserExamination, NamesTimesOfBeamsThatOverlapTheNextScan) {
+  EXPECT_TRUE(examineScans([](sensor_msgs::LaserScan& scan) { scan.time_increment = 3e-5F; }).empty());
+  const auto milliseconds = examineScans([](sensor_msgs::LaserScan& scan) { scan.time_increment = 0.03F; });
+  ASSERT_EQ(milliseconds.size(), 1U);
+  EXPECT_NE(milliseconds[0].text.find("milliseconds"), std::string::npos) << milliseconds[0].text;
+  EXPECT_EQ(milliseconds[0].options, (Options{"--set", "input.laser_left_time_scale=0.001"}));
+  const auto turns = examineScans([](sensor_msgs::LaserScan& scan) { scan.time_increment = 0.02F / 100.0F; });
+  ASSERT_EQ(turns.size(), 1U);
+  EXPECT_EQ(turns[0].options, (Options{"--set", "input.laser_left_time_scale=0"}));
+}
+
 TEST(LaserExamination, NamesWhatItCannotUse) {
   int used = 0;
-  const auto angles = examineScans([](sensor_msgs::LaserScan& scan) { scan.angle_min = kNan; }, &used);
+  const auto angles = examineScans([](sensor_msgs::LaserScan& scan) { scan.angle_min = scan.angle_max = kNan; }, &used);
   ASSERT_EQ(angles.size(), 1U);
   EXPECT_NE(angles[0].text.find("50 of 50"), std::string::npos) << angles[0].text;
   const auto stamps = examineScans([](sensor_msgs::LaserScan& scan) { scan.header.stamp = ros::Time(); }, &used);

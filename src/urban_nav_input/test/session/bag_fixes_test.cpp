@@ -63,6 +63,13 @@ TEST(BagFixes, AreReadWithTheirUncertaintyAndThePlaceOfTheAntenna) {
   EXPECT_LT((fixes.p_base - Vector3d(-0.1, 0.0, 1.4)).norm(), 1e-12);
 }
 
+TEST(BagFixes, AreMeasuredEarlierByTheDelay) {
+  const testing::TemporaryFolder folder;
+  const BagFixes fixes = readBagFixes({bagWithFixes(folder, "/gps/fix")}, {}, {}, 18'000.0);
+  ASSERT_EQ(fixes.readings.size(), 2U);
+  EXPECT_EQ(fixes.readings[0].stamp, 1'225'719'854'000'000'000);
+}
+
 TEST(BagFixes, FollowTheUsersTopicAndAreEmptyWithoutOne) {
   const testing::TemporaryFolder folder;
   const std::string bag = bagWithFixes(folder, "/novatel/position");

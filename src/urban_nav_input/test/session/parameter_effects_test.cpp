@@ -27,6 +27,8 @@ sensor_msgs::LaserScan scanAt(const ros::Time& stamp, const std::string& frame) 
   scan.header.frame_id = frame;
   scan.angle_min = -1.5F;
   scan.angle_increment = 0.3F;
+  scan.angle_max = 1.2F;
+  scan.time_increment = 0.001F;
   scan.range_max = 80.0F;
   scan.ranges.assign(10, 4.0F);
   return scan;
@@ -121,7 +123,7 @@ std::string readMovingBag(const std::string& path, const InputParameters& parame
     text << pair.stamp << (pair.left.empty() ? "" : " left") << (pair.right.empty() ? "" : " right") << "\n";
     for (const LaserInput& each : item->scans)
       text << each.laser << each.scan << each.scan.beams.front().range << each.scan.beams.front().direction.transpose()
-           << "\n";
+           << each.scan.beams.back().stamp << "\n";
     for (const SweepInput& each : item->sweeps)
       text << each.role << " " << each.sweep.reference << " " << static_cast<int>(each.sweep.times) << " "
            << each.sweep.beams.size() << " " << each.sweep.beams.front().stamp << "\n";
@@ -155,14 +157,20 @@ TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
          {"laser_right_range_scale", 0.5},
          {"laser_left_angle_scale", 0.5},
          {"laser_right_angle_scale", 0.5},
+         {"laser_left_time_scale", 0.5},
+         {"laser_right_time_scale", 0.5},
          {"points_time", "before,s,header"},
          {"points_deskewed", "yes"},
          {"points_near", 2.0},
          {"points0_delay", 5.0},
          {"points1_delay", 5.0}}},
-       {"bag with wheels", read, {{"wheel_noise", 0.5}}, {{"motion_input", "wheels"}}},
-       {"bag with an IMU", read, {{"gyro_noise", 0.5}}, {{"motion_input", "gyroscope"}}}},
-      {{"sessions", "ForeignBags.TheUserStatesWhichRecordingsFormASession"}});
+       {"bag with wheels",
+        read,
+        {{"wheel_noise", 0.5}, {"wheels_scale", -1.0}, {"wheels_delay", 5.0}},
+        {{"motion_input", "wheels"}}},
+       {"bag with an IMU", read, {{"gyro_noise", 0.5}, {"gyroscope_scale", 0.5}}, {{"motion_input", "gyroscope"}}}},
+      {{"sessions", "ForeignBags.TheUserStatesWhichRecordingsFormASession"},
+       {"gps_delay", "BagFixes.AreMeasuredEarlierByTheDelay"}});
   EXPECT_EQ(faults, "");
 }
 

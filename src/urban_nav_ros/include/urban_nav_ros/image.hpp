@@ -40,6 +40,8 @@ GreyImage toGrey(const cv::Mat& pixels);
 
 /// Returns the 8-bit colours (CV_8UC3, BGR) of a compressed image, 16-bit pixels by their own range; or a fault.
 GreyImage toColour(const sensor_msgs::CompressedImage& message);
+/// Returns the colours by one scale for several images.
+GreyImage toColour(const sensor_msgs::CompressedImage& message, const GreyScale& scale);
 
 /// Returns 16-bit pixels of any number of channels in 8 bits.
 cv::Mat toEightBits(const cv::Mat& deep, const GreyScale& scale);

@@ -17,7 +17,8 @@ struct Panorama {
 };
 
 /// Groups the images of a panoramic head by stamp, for nodelets and the bag reader alike, so that both hand a stage the
-/// same panoramas in the same order. Images are not decoded. Not thread-safe.
+/// same panoramas in the same order. All images have one scale of 16-bit pixels; others are not decoded. Not
+/// thread-safe.
 ///
 /// A panorama is returned as soon as each camera has an image of its time, or it is known that the others are missing:
 /// when images more than max_lateness younger have arrived.
@@ -35,6 +36,8 @@ class PanoramaFeed {
   void add(std::size_t camera, RecordedImage image);
   /// Ends the input: take() then returns all that is held.
   void finish();
+  /// States the range of 16-bit pixels; otherwise it is that of the first images that arrive, of all cameras.
+  void expectRange(const GreyRange& range) { range_ = range; }
   /// Returns the next panorama, in order of stamps; nullopt while its images may still arrive.
   std::optional<Panorama> take();
 
@@ -55,6 +58,7 @@ class PanoramaFeed {
   urban_nav_core::TimeOrderedQueue<RecordedImage> queue_;
   std::vector<RecordedImage> group_;  // images of the panorama that is being completed, per camera
   std::optional<urban_nav_core::StampNs> group_stamp_;
+  GreyRange range_;  // 16-bit pixels of all cameras
   std::vector<std::int64_t> missing_;
   std::int64_t panoramas_ = 0;
   bool finished_ = false;

@@ -5,10 +5,12 @@
 #include <sensor_msgs/Image.h>
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_ros/grey_range.hpp"
 #include "urban_nav_ros/image.hpp"
 
 namespace urban_nav_ros {
@@ -33,6 +35,11 @@ class RecordedImage {
   urban_nav_core::StampNs stamp() const;
   std::string frame() const;
 
+  /// Takes the image into account in a range of 16-bit pixels; nothing for other images.
+  void addTo(GreyRange& range) const;
+  /// Sets the scale of 16-bit pixels, one for all images that are compared; without it each image has its own.
+  void setScale(const GreyScale& scale) { scale_ = scale; }
+
   /// Decodes to grey. The pixels do not depend on the life of this object.
   GreyImage grey() const;
   /// Decodes to colour; grey images have three equal channels.
@@ -47,6 +54,7 @@ class RecordedImage {
  private:
   sensor_msgs::ImageConstPtr raw_;  // at most one of them
   sensor_msgs::CompressedImageConstPtr compressed_;
+  std::optional<GreyScale> scale_;
 };
 
 }  // namespace urban_nav_ros

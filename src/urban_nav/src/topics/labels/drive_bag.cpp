@@ -15,6 +15,7 @@
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/session/bag_panorama.hpp"
+#include "urban_nav_input/session/grey_survey.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/recorded_image.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -74,8 +75,12 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
 class SideReader {
  public:
   SideReader(const SideTopics& topics, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,
-             double spacing, const ClassImages& classes, DriveWindow& window)
-      : topics_(topics), classes_(classes), window_(window), drive_(topics.rig, T_world_base, path, spacing, window) {}
+             double spacing, const ClassImages& classes, DriveWindow& window, const urban_nav_ros::GreyScale& scale)
+      : topics_(topics),
+        classes_(classes),
+        window_(window),
+        scale_(scale),
+        drive_(topics.rig, T_world_base, path, spacing, window) {}
 
   bool takes(const std::string& topic) const {
     return !topic.empty() && (topic == topics_.scan || topic == topics_.image);
@@ -94,7 +99,8 @@ class SideReader {
   void finish() { window_.finish(); }
 
  private:
-  void add(const urban_nav_ros::RecordedImage& image) {
+  void add(urban_nav_ros::RecordedImage image) {
+    image.setScale(scale_);
     if (drive_.wants(image.stamp()))
       drive_.add(image.stamp(), image.colour().pixels, classes_.at(image.frame(), image.stamp()));
   }
@@ -102,6 +108,7 @@ class SideReader {
   const SideTopics& topics_;
   const ClassImages& classes_;
   DriveWindow& window_;
+  const urban_nav_ros::GreyScale scale_;
   scene_labeler::SideDrive drive_;
 };
 
@@ -143,10 +150,14 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
   if (!parameters.class_topic.empty() && classes.size() == 0)
     throw UserError("scene_labeler.class_topic", "no sensor_msgs/Image on " + parameters.class_topic,
                     "a topic of the bag with mono8 class images");
+  std::vector<std::string> images;
+  for (const SideTopics& side : rigs)
+    if (!side.image.empty()) images.push_back(side.image);
+  const urban_nav_ros::GreyScale scale = urban_nav_input::surveyGreyRange(recording, images).scale();
   std::vector<SideReader> sides;
   for (const DriveSide side : kBothSides)
     sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, parameters.spacing, classes,
-                       *windows[static_cast<std::size_t>(side)]);
+                       *windows[static_cast<std::size_t>(side)], scale);
   Progress progress(console, std::filesystem::path(bag).stem().string(), "messages", 0);
   readSides(recording, rigs, sides, progress);
 }

@@ -7,6 +7,7 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/session/grey_survey.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
 
 namespace urban_nav {
@@ -52,6 +53,7 @@ class PlaceBag : public PlaceSource {
     PanoramaFeed::Options options;
     options.cameras = topics_.topics.size();
     feed_.emplace(options);
+    feed_->expectRange(urban_nav_input::surveyGreyRange(recording_, topics_.topics));
     messages_.emplace(recording_.messages(topics_.topics));
   }
 

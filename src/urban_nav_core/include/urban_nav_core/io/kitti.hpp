@@ -28,8 +28,9 @@ std::vector<Pose> parseKitti(std::string_view text, const std::string& name);
 /// times.txt: seconds, one a line, each later than the one before. Throws UserError with file and line.
 std::vector<StampNs> readTimes(const std::string& path);
 std::vector<StampNs> parseTimes(std::string_view text, const std::string& name);
-/// Calls `time(word, stamp, where)` for each line of such a file in whatever order; comments begin with # or %, decimal
-/// commas are understood. Throws UserError with file and line for what is no number.
+/// Calls `time(word, stamp, where)` for each row of such a file, a TextTable of one column, in whatever order. Times
+/// since 1970 may be in ms, us or ns by their size, others in us or ns by their intervals. Throws UserError with file
+/// and line for what is no number.
 void forEachTime(std::string_view text, const std::string& name,
                  const std::function<void(std::string_view word, StampNs stamp, const std::string& where)>& time);
 /// Seconds as such a file holds them, with decimals or KITTI's exponents (1.038170e-01); empty if it is no number.

@@ -12,6 +12,7 @@ struct LaserConvention {
   double range_scale = 1.0;  ///< m per unit of the ranges
   double angle_scale = 1.0;  ///< rad per unit of the angles
   StampNs delay = 0;         ///< ns by which messages are stamped later than their first beam was measured
+  double time_scale = 1.0;   ///< s per unit of time_increment
 };
 
 enum class ScanFault {

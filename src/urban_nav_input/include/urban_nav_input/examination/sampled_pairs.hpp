@@ -8,6 +8,7 @@
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_input/examination/pair_check.hpp"
 #include "urban_nav_input/examination/repeated_images.hpp"
+#include "urban_nav_input/examination/sight_meter.hpp"
 
 namespace urban_nav_input {
 
@@ -15,20 +16,23 @@ namespace urban_nav_input {
 /// whether images repeat the one before. Not thread-safe.
 class SampledPairs {
  public:
-  /// `frames`: pairs of the recording, 0 if unknown. About `samples` pairs are judged, at least `least_step` apart.
-  SampledPairs(std::int64_t frames, std::int64_t samples, std::int64_t least_step);
+  /// `info`: of the recording. About `samples` pairs are judged, at least `least_step` apart.
+  SampledPairs(SourceInfo info, std::int64_t samples, std::int64_t least_step);
 
   /// Adds the next pair. Its images stay alive until the pair after the next one.
   void add(const urban_nav_core::StereoPairWithMotion& pair);
-  /// `info`: of the recording, for the options.
-  std::vector<Finding> findings(const SourceInfo& info) const;
+  std::vector<Finding> findings() const;
+  /// Returns what these pairs show of motion and ground.
+  const Sight& sight() const { return sight_.sight(); }
 
  private:
+  SourceInfo info_;
   std::int64_t step_, most_, count_ = 0;
   std::deque<urban_nav_core::StereoPairWithMotion>
       last_;  // up to three: neighbours tell whether partners belong together
   PairCheck images_;
   RepeatedImages repeated_;
+  SightMeter sight_;
   std::vector<urban_nav_core::StampNs> intervals_;  // ns, of the first pairs
 };
 

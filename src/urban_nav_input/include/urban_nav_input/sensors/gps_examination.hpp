@@ -19,14 +19,18 @@ class GpsExamination {
   void add(const sensor_msgs::NavSatFix& fix);
   std::vector<Finding> findings(const std::string& topic) const;
   void archive(urban_nav_core::Archive& archive) {
-    archive(messages_, no_fix_, at_zero_, no_angles_, no_altitude_, no_stamp_, repeated_, last_);
+    archive(messages_, no_fix_, at_zero_, no_angles_, no_altitude_, no_stamp_, repeated_, jumps_, no_variance_, last_,
+            last_stamp_);
   }
 
  private:
   std::int64_t messages_ = 0;
   std::int64_t no_fix_ = 0, at_zero_ = 0, no_angles_ = 0, no_altitude_ = 0, no_stamp_ = 0;
   std::int64_t repeated_ = 0;          // positions with all digits of the one before
-  std::array<double, 3> last_ = {{}};  // latitude and longitude in deg, altitude in m
+  std::int64_t jumps_ = 0;             // positions that no vehicle reaches from the one before
+  std::int64_t no_variance_ = 0;       // zero, though of a known type
+  std::array<double, 3> last_ = {{}};  // latitude and longitude in deg, altitude in m; 0 where it is not finite
+  double last_stamp_ = 0.0;            // s; 0: none
 };
 
 }  // namespace urban_nav_input

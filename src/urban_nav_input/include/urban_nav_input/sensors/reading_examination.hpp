@@ -22,11 +22,11 @@ class ReadingExamination {
   /// not.
   std::vector<Finding> findings(const std::string& topic, FindingKind kind, bool is_frozen_odd) const;
   void archive(urban_nav_core::Archive& archive) {
-    archive(messages_, not_finite_, repeated_, first_, first_not_finite_, last_not_finite_, last_);
+    archive(messages_, no_stamp_, not_finite_, repeated_, first_, first_not_finite_, last_not_finite_, last_);
   }
 
  private:
-  std::int64_t messages_ = 0, not_finite_ = 0, repeated_ = 0;
+  std::int64_t messages_ = 0, no_stamp_ = 0, not_finite_ = 0, repeated_ = 0;
   urban_nav_core::StampNs first_ = 0, first_not_finite_ = 0, last_not_finite_ = 0;  // stamps
   std::array<double, 6> last_ = {{}};
 };

@@ -40,6 +40,7 @@ class BagPanorama {
   void begin();
 
   std::vector<PanoramaCamera> cameras_;
+  urban_nav_ros::GreyRange range_;
   std::unique_ptr<urban_nav_ros::PanoramaFeed> feed_;  // null without cameras
 };
 

@@ -15,10 +15,13 @@ struct InputParameters : urban_nav_core::MotionInputParameters {
   std::string sessions;                                    // auto, apart, together
   std::string accelerometer_axes;                          // as parseAxisMap() reads
   double accelerometer_scale;                              // m/s2
-  double imu_delay;                                        // ms
+  double gyroscope_scale;                                  // rad/s
+  double wheels_scale;                                     // m
+  double imu_delay, wheels_delay, gps_delay;               // ms
   double laser_left_delay, laser_right_delay;              // ms
   double laser_left_range_scale, laser_right_range_scale;  // m
   double laser_left_angle_scale, laser_right_angle_scale;  // rad
+  double laser_left_time_scale, laser_right_time_scale;    // s
   std::string points_time;                                 // "auto", or as parsePointTimes() reads
   std::string points_deskewed;                             // auto, yes, no
   double points_near;                                      // m

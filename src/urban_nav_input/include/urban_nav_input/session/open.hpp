@@ -11,6 +11,7 @@
 #include "urban_nav_core/laser/cloud/point_times.hpp"
 #include "urban_nav_core/laser/scan_check.hpp"
 #include "urban_nav_input/recording/receipt_range.hpp"
+#include "urban_nav_input/sensors/motion_examination.hpp"
 #include "urban_nav_input/sensors/pairing_examination.hpp"
 #include "urban_nav_input/session/sessions.hpp"
 #include "urban_nav_input/session/source.hpp"
@@ -37,6 +38,8 @@ struct SourceOptions {
   double baseline_scale = 1.0;                                 ///< as input.baseline_scale
   std::vector<std::string> read_elsewhere = {};                ///< topics of bags that do not count as unused
   double imu_delay = 0.0;                                      ///< ms, as input.imu_delay
+  double wheels_delay = 0.0, gps_delay = 0.0;                  ///< ms, as input.wheels_delay and input.gps_delay
+  MotionConvention motion = {};                                ///< as input.wheels_scale and input.gyroscope_scale
   std::array<urban_nav_core::LaserConvention, 2> lasers = {};  ///< left, right: as input.laser_left_delay and so on
   std::vector<std::string> transforms = {};  ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, which take precedence over tf
   urban_nav_core::AccelerometerConvention accelerometer = {};  ///< as input.accelerometer_axes and _scale

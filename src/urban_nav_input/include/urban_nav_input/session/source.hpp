@@ -17,6 +17,7 @@
 #include "urban_nav_core/types/specific_force.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_input/examination/finding.hpp"
+#include "urban_nav_input/sensors/sight.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
@@ -120,6 +121,12 @@ class Source {
   virtual std::vector<std::string> closingFaults() const { return {}; }
   /// Returns what is wrong with the sensors of the input. Valid after next() has returned nullopt.
   virtual std::vector<Finding> sensorFindings() const { return {}; }
+  /// Returns what is wrong with the sensors of the input by comparison with what its images show. `stereo_scale`: true
+  /// length over that of `sight`. Valid after next() has returned nullopt.
+  virtual std::vector<Finding> sightFindings(const Sight& sight, double stereo_scale) const {
+    static_cast<void>(sight), static_cast<void>(stereo_scale);
+    return {};
+  }
   /// Returns the end of a bag that no pair follows; null if there is none. Valid after next() has returned nullopt.
   virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
   /// Returns scans that no pair and no end of a bag follow. Valid after next() has returned nullopt.

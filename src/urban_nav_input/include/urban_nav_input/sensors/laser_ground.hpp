@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_input/examination/finding.hpp"
+
+namespace urban_nav_input {
+
+/// The ground that a planar laser sees near the robot, to compare its ranges and its place with the ground that
+/// stereo sees. A laser without downward beams has none. Not thread-safe.
+class LaserGround {
+ public:
+  /// Adds every fifth scan; `T_base_laser`: place of the laser.
+  void add(const urban_nav_core::PlanarScan& scan, const urban_nav_core::Pose& T_base_laser);
+  /// Returns the height of the ground in base_link, m; nullopt if the low returns do not lie at one height.
+  std::optional<double> height() const;
+  /// Returns what contradicts the ground that stereo sees. `stereo`: heights of the ground below base_link, m; few or
+  /// scattered ones give nothing.
+  std::optional<Finding> finding(const std::string& role, const std::string& topic,
+                                 const std::vector<double>& stereo) const;
+  void archive(urban_nav_core::Archive& archive) { archive(scans_, returns_, laser_height_, heights_); }
+
+ private:
+  std::int64_t scans_ = 0, returns_ = 0;  // returns that are near and below the laser
+  double laser_height_ = 0.0;             // m, in base_link
+  std::vector<std::int64_t> heights_;     // numbers of returns by height in base_link
+};
+
+}  // namespace urban_nav_input

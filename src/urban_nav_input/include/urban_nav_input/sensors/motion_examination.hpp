@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_input/examination/finding.hpp"
+#include "urban_nav_input/sensors/sight.hpp"
+
+namespace urban_nav_input {
+
+/// Scales of the messages of a role, as parameters state them.
+struct MotionConvention {
+  double wheels_scale = 1.0;     ///< m per unit of the positions of wheel odometry
+  double gyroscope_scale = 1.0;  ///< rad/s per unit of the rates of the IMU
+};
+
+/// Compares the motion that wheels and a gyroscope state with each other and with the motion that stereo sees: scale
+/// and sign of distances and of turns. What moved too little for a ratio is not assessed. Not thread-safe.
+class MotionExamination {
+ public:
+  /// Adds the pose that wheels state, m and rad in their own frame of odometry, and the forward speed, m/s.
+  void addWheels(urban_nav_core::StampNs stamp, const std::array<double, 3>& x_y_yaw, double speed);
+  /// Adds the rate about the vertical axis of base_link, rad/s.
+  void addGyroscope(urban_nav_core::StampNs stamp, double yaw_rate);
+  /// `seen`: some motions of the recording, in any order. `wheels`, `imu`: names of the topics.
+  std::vector<Finding> findings(const std::vector<SeenMotion>& seen, const std::string& wheels, const std::string& imu,
+                                const MotionConvention& present) const;
+  void archive(urban_nav_core::Archive& archive) {
+    archive(wheel_stamps_, wheels_, speed_stamp_, speed_, by_speed_, gyroscope_stamps_, gyroscope_, last_pose_,
+            last_rate_);
+  }
+
+ private:
+  using Pairs = std::vector<std::pair<double, double>>;
+  /// Measured motions with the reference of the same intervals.
+  struct Ratios {
+    Pairs distances, wheel_turns, gyroscope_turns;  ///< by stereo
+    Pairs gyroscope_wheels;                         ///< turns of the gyroscope by those of the wheels
+  };
+  Ratios compare(const std::vector<SeenMotion>& seen) const;
+  std::optional<Finding> distanceFinding(const Ratios& ratios, const std::string& wheels,
+                                         const MotionConvention& present) const;
+  static std::optional<Finding> turnFinding(const Ratios& ratios, bool are_wheels_sound, const std::string& imu,
+                                            const MotionConvention& present);
+
+  std::vector<urban_nav_core::StampNs> wheel_stamps_, gyroscope_stamps_;
+  std::vector<std::array<double, 2>> wheels_;  // signed distance, m; heading without jumps, rad; both since the start
+  std::vector<double> gyroscope_;              // integrated heading, rad
+  std::array<double, 3> last_pose_ = {{}};
+  double last_rate_ = 0.0;
+  urban_nav_core::StampNs speed_stamp_ = 0;
+  double speed_ = 0.0, by_speed_ = 0.0;  // m/s, of the last message; m: distance by speeds
+};
+
+}  // namespace urban_nav_input

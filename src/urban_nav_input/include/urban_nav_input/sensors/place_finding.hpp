@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_input/examination/finding.hpp"
+
+namespace urban_nav_input {
+
+/// Returns a finding for a sensor that is farther from base_link than any robot is long: its place is stated in other
+/// units than metres. The option states the place in metres, unless two units are about as likely.
+std::vector<Finding> placeFindings(const std::string& frame, const urban_nav_core::Pose& T_base_sensor);
+
+}  // namespace urban_nav_input

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recording/bag_order.hpp"
+#include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_ros/stereo_feed.hpp"
+
+namespace urban_nav_input {
+
+/// Returns sentences on images of the roles left and right that were dropped for their stamps.
+std::vector<std::string> droppedImages(const urban_nav_ros::StereoFeed& feed, const BagTopics& topics);
+
+/// Returns what a user should know about the order and the stamps of a recording.
+std::vector<std::string> describeOrder(const StampSurvey& survey, bool is_sorted);
+
+}  // namespace urban_nav_input
