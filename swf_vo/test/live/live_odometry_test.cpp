@@ -42,7 +42,8 @@ struct Recorded {
                            frames.push_back(frame);
                            EXPECT_GE(process_ms, 0.0);
                          },
-                         [this](const Settled& each) { settled.push_back(each); }}};
+                         [this](const Settled& each) { settled.push_back(each); },
+                         nullptr}};
 
   void play(RenderedSequence& sequence, int first, int count) {
     for (int i = first; i < first + count; ++i) {
