@@ -28,7 +28,7 @@ VoRun someRun(int frames) {
   VoRun run;
   VoRecorder recorder(swf_vo::Parameters(), source->info(), run);
   while (const std::optional<urban_nav_input::SourceItem> input = source->next()) recorder.process(*input);
-  recorder.finish({{"a fault"}, {{0, {0.1, 0.2, 9.8}}, {50'000'000, {0.1, 0.3, 9.7}}}});
+  recorder.finish({{"a fault"}, {{0, {0.1, 0.2, 9.8}}, {50'000'000, {0.1, 0.3, 9.7}}}}, false);
   return run;
 }
 
