@@ -25,7 +25,7 @@ PlaceModel modelOfSyntheticDrives() {
   std::vector<TrainingDrive> drives(3);
   for (std::uint32_t d = 0; d < 3; ++d)
     for (std::uint32_t i = 0; i < 40; ++i)
-      drives[d].push_back({i * 1'000'000'000, syntheticPlace(100 * d + i / 2, i % 2)});
+      drives[d].push_back({urban_nav_core::StampNs{i} * 1'000'000'000, syntheticPlace(100 * d + i / 2, i % 2)});
   TrainingOptions options;
   options.k_means.words = 250;
   options.k_means.iterations = 4;

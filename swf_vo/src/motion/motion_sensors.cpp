@@ -29,8 +29,9 @@ namespace {
 constexpr double kTurnFloor = 2e-3, kForwardFloor = 0.01;
 // The newest step is not final: so many floors, and this share of the motion, are held against a sensor.
 constexpr double kFarInOneStep = 4.0, kLargeShareOfStep = 0.5;
-// A bias beyond so many standard deviations of its prior belongs to no sound sensor, once it is known that well.
-constexpr double kBeyond = 2.0, kWellKnown = 0.02;
+// A bias or scale beyond so many standard deviations of its prior belongs to no sound sensor: once it is known that
+// well (rad/s, ratio), or where so many standard deviations of the estimate lie between.
+constexpr double kBeyond = 2.0, kWellKnown = 0.02, kSignificant = 3.0;
 // Half of the time over which rates at the ends of a step are averaged, s.
 constexpr double kRateWindow = 0.1;
 // Offsets of clocks reach so far before the oldest step that is still to come.
@@ -51,6 +52,13 @@ ImageStep toImageStep(const urban_nav_core::RelativePose& step) {
   images.forward_drift = meanDiagonal(step.drift_covariance, 0, 1);
   images.forward_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 0, 1) - images.forward_drift);
   return images;
+}
+
+/// Returns whether a slow state is farther from zero than those of sound sensors. `prior`, `sigma`: standard deviations
+/// before any image and now.
+bool isBeyond(double mean, double sigma, double prior) {
+  const double excess = std::abs(mean) - kBeyond * prior;
+  return excess > 0.0 && (sigma < kWellKnown || excess > kSignificant * sigma);
 }
 
 /// Returns the mean twist around a stamp of the sensor.
@@ -282,15 +290,15 @@ std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, co
 
 bool MotionSensors::isBiasBeyondPrior() const {
   const MotionStates& states = calibration_.states();
-  const double known = std::sqrt(states.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
-  return known < kWellKnown && states.bias().cwiseAbs().maxCoeff() > kBeyond * kBiasPrior;
+  const double sigma = std::sqrt(states.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+  return isBeyond(states.bias().cwiseAbs().maxCoeff(), sigma, kBiasPrior);
 }
 
 void MotionSensors::decide(Sensor& sensor, bool is_wheels, StampNs stamp) {
   const MotionStates& states = calibration_.states();
+  constexpr int kScale = MotionStates::kSpeedScale;
   const bool beyond =
-      is_wheels ? std::abs(states.mean[MotionStates::kSpeedScale]) > kBeyond * kSpeedScalePrior &&
-                      states.covariance(MotionStates::kSpeedScale, MotionStates::kSpeedScale) < kWellKnown * kWellKnown
+      is_wheels ? isBeyond(states.mean[kScale], std::sqrt(states.covariance(kScale, kScale)), kSpeedScalePrior)
                 : isBiasBeyondPrior();
   const Agreement::Verdict verdict = sensor.agreement.verdict();
   if (verdict == Agreement::Verdict::Contradicts || beyond) {

@@ -37,7 +37,7 @@ std::vector<Finding> examine(double wheels_scale, double turn_scale, double gyro
   }
   std::vector<SeenMotion> seen;
   for (int second = 1; second < 29; ++second) {
-    const StampNs from = kFirstSeen + second * 1'000'000'000 + 3'000'000;
+    const StampNs from = kFirstSeen + second * StampNs{1'000'000'000} + 3'000'000;
     const double t = second + 0.003, turn = heading(t + 0.2) - heading(t);
     seen.push_back({from, from + 200'000'000,
                     Pose(Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ())),

@@ -176,17 +176,25 @@ TEST(VoState, Version2IsRead) {
 TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   VoRun run = *unpackVoRun(runOfVersion2());
   run.rig.delay_s = 1e-3;
+  run.motion.wheel_scale = 1.02;
   ASSERT_EQ(run.settled.size(), 1U);
   run.settled[0].from_previous.constants = {{"scale", 0.0, 0.0, 5e-4, urban_nav_core::Vector6d::Unit(2)}};
   const std::string now = packVoRun(run);
   const std::string name = "visual odometry of a session";
   const VoRun same = unpackVoRun(now).value();
   ASSERT_EQ(same.rig.delay_s, 1e-3);
+  ASSERT_EQ(same.motion.wheel_scale, 1.02);
   ASSERT_EQ(same.settled[0].from_previous.constants.size(), 1U);
   EXPECT_TRUE(isApprox(same.settled[0].from_previous, run.settled[0].from_previous, 0.0));
-  const std::string content(urban_nav_core::unseal(name, 5, now));
-  // The additions of version 5 come last: number of steps, number of constants, length of a name and its five letters,
-  // nine numbers. Those of version 4, five numbers, precede them.
+  // The states of motion sensors, version 6, come last. Before them those of version 5: number of steps, number of
+  // constants, length of a name and its five letters, nine numbers. Those of version 4, five numbers, precede them.
+  urban_nav_core::Archive motion;
+  motion(run.motion);
+  std::string content(urban_nav_core::unseal(name, 6, now));
+  content.resize(content.size() - motion.take().size());
+  const VoRun fifth = unpackVoRun(urban_nav_core::seal(name, 5, content)).value();
+  EXPECT_EQ(fifth.motion.wheel_scale, 1.0);
+  EXPECT_EQ(fifth.settled[0].from_previous.constants.size(), 1U);
   const std::size_t steps = 8 + 8 + 8 + 5 + 9 * sizeof(double), rig = 5 * sizeof(double);
   const VoRun fourth = unpackVoRun(urban_nav_core::seal(name, 4, content.substr(0, content.size() - steps))).value();
   EXPECT_EQ(fourth.rig.delay_s, 1e-3);
