@@ -77,6 +77,7 @@ void rewriteBag(const std::string& from, const std::string& to, Rewrite how) {
 }
 
 void splitBag(const std::string& from, const std::vector<std::string>& parts) {
+  constexpr double kSpeed = 0.5;  // m/s, of the drive that makeKittiFolder() renders
   rosbag::Bag in(from, rosbag::bagmode::Read);
   std::list<rosbag::Bag> out;
   for (const std::string& part : parts) out.emplace_back(part, rosbag::bagmode::Write);
@@ -111,7 +112,8 @@ void splitBag(const std::string& from, const std::vector<std::string>& parts) {
     extractPart(time).write("/imu/data", time, imu);
     nav_msgs::Odometry wheels;
     wheels.header.stamp = time;
-    wheels.pose.pose.position.x = (time - view.getBeginTime()).toSec();
+    wheels.pose.pose.position.x =
+        kSpeed * (time - view.getBeginTime()).toSec() + 1e-3 * static_cast<double>(random() % 1000) / 1000.0;
     wheels.pose.pose.orientation.w = 1.0;
     extractPart(time).write("/wheel_odom", time, wheels);
     for (int camera = 0; camera < 5; ++camera) {

@@ -48,13 +48,16 @@ TEST(LaserScan, WhoseBeamsCannotBePlacedIsNone) {
   ASSERT_TRUE(toPlanarScan(good));
   EXPECT_TRUE(toPlanarScan(good)->intensities.empty()) << "not as many as the ranges";
   EXPECT_EQ(urban_nav_core::toScan(*toPlanarScan(good)).beams.size(), 2U);
-  for (float sensor_msgs::LaserScan::*number :
-       {&sensor_msgs::LaserScan::angle_min, &sensor_msgs::LaserScan::angle_increment,
-        &sensor_msgs::LaserScan::time_increment}) {
-    sensor_msgs::LaserScan bad = good;
-    bad.*number = std::numeric_limits<float>::infinity();
-    EXPECT_FALSE(toPlanarScan(bad));
-  }
+  const float infinite = std::numeric_limits<float>::infinity();
+  sensor_msgs::LaserScan bad = good;
+  bad.angle_min = bad.angle_max = infinite;
+  EXPECT_FALSE(toPlanarScan(bad));
+  bad = good;
+  bad.angle_increment = infinite;  // and both ends are 0
+  EXPECT_FALSE(toPlanarScan(bad));
+  good.time_increment = infinite;
+  ASSERT_TRUE(toPlanarScan(good));
+  EXPECT_EQ(toPlanarScan(good)->time_step, 0.0);
   good.header.stamp = ros::Time();
   EXPECT_FALSE(toPlanarScan(good));
 }

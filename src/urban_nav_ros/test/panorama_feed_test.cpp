@@ -136,6 +136,7 @@ TEST(PanoramaFeed, ShowsSixteenBitsOfAllCamerasByOneScale) {
   PanoramaFeed feed(options);
   feed.add(0, deepImage(1000 * kFeedMs, 1000));
   feed.add(1, deepImage(1000 * kFeedMs, 4000));
+  feed.finish();
   const std::optional<Panorama> panorama = feed.take();
   ASSERT_TRUE(panorama);
   EXPECT_EQ(panorama->images[0].grey().pixels.at<std::uint8_t>(0, 0), 1000 / 16);

@@ -29,8 +29,9 @@ namespace {
 constexpr double kTurnFloor = 2e-3, kForwardFloor = 0.01;
 // The newest step is not final: so many floors, and this share of the motion, are held against a sensor.
 constexpr double kFarInOneStep = 4.0, kLargeShareOfStep = 0.5;
-// A bias or scale beyond so many standard deviations of its prior belongs to no sound sensor: once it is known that
-// well (rad/s, ratio), or where so many standard deviations of the estimate lie between.
+// A bias or scale beyond so many standard deviations of its prior belongs to no sound sensor, once it is known that
+// well (rad/s, ratio). A scale, for which other faults are not mistaken, also where so many standard deviations of the
+// estimate lie between.
 constexpr double kBeyond = 2.0, kWellKnown = 0.02, kSignificant = 3.0;
 // Half of the time over which rates at the ends of a step are averaged, s.
 constexpr double kRateWindow = 0.1;
@@ -54,10 +55,9 @@ ImageStep toImageStep(const urban_nav_core::RelativePose& step) {
   return images;
 }
 
-/// Returns whether a slow state is farther from zero than those of sound sensors. `prior`, `sigma`: standard deviations
-/// before any image and now.
-bool isBeyond(double mean, double sigma, double prior) {
-  const double excess = std::abs(mean) - kBeyond * prior;
+/// Returns whether wheels of this scale (measured over true, less one) are no sound ones.
+bool isBeyondScales(double mean, double sigma) {
+  const double excess = std::abs(mean) - kBeyond * kSpeedScalePrior;
   return excess > 0.0 && (sigma < kWellKnown || excess > kSignificant * sigma);
 }
 
@@ -291,14 +291,14 @@ std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, co
 bool MotionSensors::isBiasBeyondPrior() const {
   const MotionStates& states = calibration_.states();
   const double sigma = std::sqrt(states.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
-  return isBeyond(states.bias().cwiseAbs().maxCoeff(), sigma, kBiasPrior);
+  return sigma < kWellKnown && states.bias().cwiseAbs().maxCoeff() > kBeyond * kBiasPrior;
 }
 
 void MotionSensors::decide(Sensor& sensor, bool is_wheels, StampNs stamp) {
   const MotionStates& states = calibration_.states();
   constexpr int kScale = MotionStates::kSpeedScale;
   const bool beyond =
-      is_wheels ? isBeyond(states.mean[kScale], std::sqrt(states.covariance(kScale, kScale)), kSpeedScalePrior)
+      is_wheels ? isBeyondScales(states.mean[kScale], std::sqrt(states.covariance(kScale, kScale)))
                 : isBiasBeyondPrior();
   const Agreement::Verdict verdict = sensor.agreement.verdict();
   if (verdict == Agreement::Verdict::Contradicts || beyond) {

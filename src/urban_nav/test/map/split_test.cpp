@@ -17,6 +17,7 @@
 #include "support/child.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/session/input_parameters.hpp"
 #include "urban_nav_input/testing/bags.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_store/store.hpp"
@@ -67,6 +68,7 @@ class Split : public ::testing::Test {
     MapOptions request{inputs, out, {"vo"}, "", "", "", {}, loadParameters(none), 1};
     if (!store_of.empty()) request.store = store_of + "/session.db";
     if (change) change(request);
+    apply(request.parameters.get(urban_nav_input::inputTable()), request.source);
     Console console;
     ::testing::internal::CaptureStderr();
     runMap(request, makeStages(), console);
@@ -126,16 +128,27 @@ TEST_F(Split, GoesOnInAnotherFolder) {
   expectWhole(folder.file("all"));
 }
 
+/// Lines of a summary that state what odometry knows of the wheels.
+std::vector<std::string> wheelStates(const std::string& summary) {
+  const std::string text = readFile(summary);
+  static const std::regex state("\"wheel_[a-z_]+\": [^,\n}]+");
+  std::vector<std::string> lines;
+  for (std::sregex_iterator match(text.begin(), text.end(), state), end; match != end; ++match)
+    lines.push_back(match->str());
+  return lines;
+}
+
 TEST_F(Split, GoesOnWithWheels) {
   const auto with_wheels = [](MapOptions& request) {
     request.parameters.set("input.motion_input=wheels");
-    request.source.motion_input = "wheels";
-    request.source.wheel_noise = 0.05;
+    request.parameters.set("input.wheel_noise=0.05");
   };
   map(parts(), folder.file("once"), {}, with_wheels);
   for (int i = 0; i < 3; ++i) map({part(i)}, folder.file("out"), i > 0 ? folder.file("out") : "", with_wheels);
   EXPECT_TRUE(readFile(folder.file("once/covariance.csv")) == readFile(folder.file("out/covariance.csv")));
-  EXPECT_FALSE(readFile(whole() + "/covariance.csv") == readFile(folder.file("out/covariance.csv")));
+  const std::vector<std::string> once = wheelStates(folder.file("once/summary.json"));
+  EXPECT_EQ(once.size(), 6U);
+  EXPECT_EQ(wheelStates(folder.file("out/summary.json")), once);
 }
 
 /// Rows of place recognition: of panoramas, or of keyframes beside them.

@@ -14,7 +14,9 @@ constexpr double kMostTurn = 2.0 * kPi * 1.02;  // rad: some drivers count the f
 constexpr std::size_t kFewRanges = 10;
 constexpr double kMostMedian = 150.0;  // m: no surroundings are so far away on median
 constexpr double kLeastRange = 0.2;    // m, of a median
+constexpr double kUsualRange = 1.0;    // m, of a median: hardly a robot has less around it
 constexpr double kMostReach = 130.0;   // m, of planar lasers outdoors
+constexpr double kNoReach = 2e5;       // in any unit: no limit
 
 double medianRange(const PlanarScan& scan) {
   std::vector<float> valid;
@@ -28,6 +30,15 @@ double medianRange(const PlanarScan& scan) {
   return static_cast<double>(*middle);
 }
 
+/// Returns m per unit of ranges with this median; 1 if neither millimetres nor centimetres fit.
+double findRangeUnit(double median, double range_max) {
+  const double millimetres = 0.001 * median, centimetres = 0.01 * median;
+  if (millimetres >= kMostReach) return 1.0;
+  const bool reaches_too_far = range_max < kNoReach && 0.01 * range_max > kMostReach;
+  if (millimetres < kUsualRange && centimetres < kMostReach && !reaches_too_far) return 0.01;
+  return millimetres > kLeastRange ? 0.001 : 1.0;
+}
+
 }  // namespace
 
 ScanVerdict checkUnits(const PlanarScan& scan) {
@@ -35,9 +46,7 @@ ScanVerdict checkUnits(const PlanarScan& scan) {
   if (span > kMostTurn) return {ScanFault::AngleUnit, span, span * kPi / 180.0 <= kMostTurn ? kPi / 180.0 : 1.0};
   const double median = medianRange(scan);
   if (median <= kMostMedian) return {};
-  for (const double scale : {0.001, 0.01})
-    if (median * scale > kLeastRange && median * scale < kMostReach) return {ScanFault::RangeUnit, median, scale};
-  return {ScanFault::RangeUnit, median, 1.0};
+  return {ScanFault::RangeUnit, median, findRangeUnit(median, scan.range_max)};
 }
 
 }  // namespace urban_nav_core

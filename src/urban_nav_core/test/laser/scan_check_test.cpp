@@ -55,6 +55,10 @@ TEST(ScanCheck, KnowsAnglesInDegrees) {
 TEST(ScanCheck, KnowsMillimetresAndCentimetres) {
   EXPECT_EQ(checkUnits(scaled(1000.0, 1.0)).fault, ScanFault::RangeUnit);
   EXPECT_EQ(checkUnits(scaled(1000.0, 1.0)).repair, 0.001);
+  EXPECT_EQ(checkUnits(scaled(100.0, 1.0)).repair, 0.01);
+  PlanarScan close = scaled(100.0, 1.0);
+  close.range_max = 80'000.0;
+  EXPECT_EQ(checkUnits(close).repair, 0.001) << "in centimetres it would measure to 800 m";
   EXPECT_EQ(checkUnits(scaled(1e6, 1.0)).repair, 1.0) << "no unit";
   EXPECT_EQ(checkUnits(scaled(1.0 / 0.3048, 1.0)).fault, ScanFault::None) << "feet are plausible metres";
 }

@@ -28,14 +28,18 @@ void GpsExamination::add(const sensor_msgs::NavSatFix& fix) {
     ++no_fix_;
     return;
   }
-  if (!(std::abs(fix.latitude) <= 90.0) || !(std::abs(fix.longitude) <= 360.0)) ++no_angles_;
-  else if (fix.latitude == 0.0 && fix.longitude == 0.0) ++at_zero_;
-  else if (!std::isfinite(fix.altitude)) ++no_altitude_;
-  const auto finite = [](double value) { return std::isfinite(value) ? value : 0.0; };
-  const std::array<double, 3> now = {{finite(fix.latitude), finite(fix.longitude), finite(fix.altitude)}};
+  const bool has_angles = std::abs(fix.latitude) <= 90.0 && std::abs(fix.longitude) <= 360.0,
+             is_zero = fix.latitude == 0.0 && fix.longitude == 0.0;
+  if (!has_angles || is_zero) {  // not used, and no evidence of anything else
+    ++(is_zero ? at_zero_ : no_angles_);
+    return;
+  }
+  const bool has_altitude = std::isfinite(fix.altitude);
+  if (!has_altitude) ++no_altitude_;
+  const std::array<double, 3> now = {{fix.latitude, fix.longitude, has_altitude ? fix.altitude : 0.0}};
   const double stamp = fix.header.stamp.toSec();
   repeated_ += now == last_ ? 1 : 0;
-  if (last_stamp_ > 0.0 && stamp > last_stamp_ && now[0] != 0.0 && last_[0] != 0.0 &&
+  if (last_stamp_ > 0.0 && stamp > last_stamp_ &&
       apart(last_, now) > std::max(kFarthest, kFastest * (stamp - last_stamp_)))
     ++jumps_;
   const auto& variances = fix.position_covariance;

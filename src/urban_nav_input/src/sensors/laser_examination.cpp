@@ -103,7 +103,8 @@ Finding LaserExamination::unitFinding() const {
     finding.text = topic_ + ": the median range of " + share(unit_scans_) + " is " + formatNumber(unit_value_, 4) +
                    " m" +
                    (unit_repair_ == 0.001  ? ": the ranges are in millimetres"
-                    : unit_repair_ == 0.01 ? ": the ranges are in centimetres"
+                    : unit_repair_ == 0.01 ? ": the ranges are in centimetres (in millimetres, scale 0.001, it would be " +
+                                                 formatNumber(0.001 * unit_value_, 3) + " m)"
                                            : ", farther than any planar laser measures");
   finding.text += "; these scans are not used";
   if (unit_repair_ == 1.0) {

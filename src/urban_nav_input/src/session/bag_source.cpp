@@ -184,6 +184,10 @@ class BagSource : public Source {
     const std::optional<urban_nav_core::Pose> T_base_imu =
         imu ? transforms.lookup(frames::kBaseLink, imu->header.frame_id) : std::nullopt;
     if (T_base_imu) R_base_imu_ = T_base_imu->R();
+    else if (imu)
+      info_.notes.push_back("no static tf from base_link to \"" + imu->header.frame_id + "\": the axes of " +
+                            topics_.find(Role::Imu)->name +
+                            " are taken to be those of base_link for its gyroscope, and its accelerometer is not used");
     for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
       const auto scan = topic ? recording_.first<sensor_msgs::LaserScan>(topic->name) : nullptr;

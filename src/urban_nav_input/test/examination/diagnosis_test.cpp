@@ -253,13 +253,16 @@ JudgedInput judgeBag(const std::function<void(BagRecipe&)>& change) {
 TEST(BagDoctor, NamesTransformsThatAreMissing) {
   const JudgedInput verdict = judgeBag([](BagRecipe&) {});
   EXPECT_TRUE(verdict.usable);
-  EXPECT_EQ(verdict.kinds, (std::multiset<std::string>{"tf", "tf"})) << verdict.text;  // camera and laser
+  EXPECT_EQ(verdict.kinds, (std::multiset<std::string>{"tf", "tf", "tf"})) << verdict.text;
   EXPECT_NE(verdict.text.find("base_link camera"), std::string::npos) << verdict.text;
   EXPECT_NE(verdict.text.find("base_link laser"), std::string::npos) << verdict.text;
+  EXPECT_NE(verdict.text.find("base_link imu"), std::string::npos) << verdict.text;
 }
 
 TEST(BagDoctor, NamesImagesWithoutStamps) {
-  EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.stamped = false; }).kinds.count("stamps"), 1U);
+  const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.stamped = false; });
+  EXPECT_EQ(verdict.kinds.count("stamps"), 2U) << verdict.text;  // images and IMU
+  EXPECT_NE(verdict.text.find("/imu/data"), std::string::npos) << verdict.text;
 }
 
 TEST(BagDoctor, NamesAClockThatWasSet) {

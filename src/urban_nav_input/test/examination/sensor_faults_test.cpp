@@ -106,7 +106,9 @@ void writeScans(rosbag::Bag& bag, const Injection& injection, std::mt19937& rand
   for (int i = 0; i < 10 * kSeconds; ++i)
     for (const bool is_right : {false, true}) {
       scan.header.frame_id = is_right ? "laser_right" : "laser_left";
-      for (float& range : scan.ranges) range = 6.0F + 1e-9F * static_cast<float>(random() % 20'000'000U);
+      for (std::size_t k = 0; k < scan.ranges.size(); ++k)  // a room of 4 to 8 m
+        scan.ranges[k] = 6.0F + 2.0F * std::sin(0.1F * static_cast<float>(k)) +
+                         1e-9F * static_cast<float>(random() % 20'000'000U);
       write(bag, injection, "/" + scan.header.frame_id + "/scan", 0.1 * i, scan,
             is_right ? std::function<void(sensor_msgs::LaserScan&, double)>() : injection.left_scan);
     }
@@ -289,7 +291,7 @@ std::vector<Fault> imuFaults() {
            "takes gravity off"},
           {"wrong scale", onForce([](const Vector3d& a) { return Vector3d(0.7 * a); }), "imu", "wrong scale"},
           {"not finite for a while", onImu([](Imu& imu, double t) {
-             if (t > 6.0 && t < 18.0) imu.linear_acceleration.x = kNoNumber;
+             if (t > 5.99 && t < 17.99) imu.linear_acceleration.x = kNoNumber;
            }),
            "imu", "50 % of"},
           {"frozen", onImu([](Imu& imu, double) {
