@@ -61,11 +61,12 @@ class Bumblebee2Nodelet : public CameraNodelet {
     if (rectified) loadCalibration();
     else loadInfos();
     ros::NodeHandle& handle = getNodeHandle();
-    left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kLeftRectified : topics::kLeftImage, 10);
-    right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kRightRectified : topics::kRightImage, 10);
+    const auto queue = static_cast<std::uint32_t>(nodelet().image_queue);
+    left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kLeftRectified : topics::kLeftImage, queue);
+    right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kRightRectified : topics::kRightImage, queue);
     if (!left_info_) return;
-    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kLeftInfo, 10);
-    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kRightInfo, 10);
+    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kLeftInfo, queue);
+    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kRightInfo, queue);
   }
 
   void makeCamera(FrameSource& source) override {
@@ -109,6 +110,7 @@ class Bumblebee2Nodelet : public CameraNodelet {
     publishImage(pair->frame.left, left_map_, stamp, frames::kStereoLeft, left_);
     publishImage(pair->frame.right, right_map_, stamp, frames::kStereoRight, right_);
     publishTimeReference(frames::kStereoLeft, pair->arrival, *pair->frame.bus_time);
+    countFrame(pair->stamp);
     if (!left_info_) return;
     left_info_->header.stamp = right_info_->header.stamp = stamp;
     left_info_->header.frame_id = frames::kStereoLeft;

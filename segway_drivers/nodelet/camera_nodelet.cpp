@@ -2,6 +2,7 @@
 #include "camera_nodelet.hpp"
 
 #include <sensor_msgs/TimeReference.h>
+#include <urban_nav_msgs/VoStatistics.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -28,6 +29,7 @@ CameraNodelet::~CameraNodelet() { shutDown(); }
 
 void CameraNodelet::shutDown() {
   stop_ = true;
+  odometry_.shutdown();
   diagnostics_.stop();
   if (reader_.joinable()) reader_.join();
 }
@@ -62,14 +64,36 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   if (!isSimulated()) return makeBusCamera(nodelet_.port, model(), error);
   SimCameraOptions options;
   options.model = simulatedModel();
+  options.is_paced = !nodelet_.paced_by.empty();
   try {
-    if (!nodelet_.session_begin.empty())
-      options.begin = urban_nav_core::agreeOnNumber(nodelet_.session_begin, steadyTime() + kSessionLead);
-    return std::make_unique<SimSource>(readBag(nodelet_.port), options, realSimClock());
+    options.begin = sessionBegin();
+    FrameReader read = readBag(nodelet_.port);
+    if (options.is_paced) read = pace(std::move(read));
+    return std::make_unique<SimSource>(std::move(read), options, realSimClock());
   } catch (const urban_nav_core::UserError& no_pictures) {
     error = no_pictures.what();
     return nullptr;
   }
+}
+
+std::function<std::optional<TimeNs>()> CameraNodelet::sessionBegin() const {
+  const std::string& file = nodelet_.session_begin;
+  if (file.empty()) return {};
+  if (nodelet_.session_held) return [file] { return urban_nav_core::findAgreedNumber(file); };
+  return [begin = urban_nav_core::agreeOnNumber(file, steadyTime() + kSessionLead)] { return begin; };
+}
+
+/// Frames wait for odometry from the time at which somebody publishes its statistics.
+FrameReader CameraNodelet::pace(FrameReader read) {
+  odometry_ = getMTNodeHandle().subscribe<urban_nav_msgs::VoStatistics>(
+      nodelet_.paced_by, 100, [this](const urban_nav_msgs::VoStatisticsConstPtr& message) {
+        pacer_.answered(static_cast<TimeNs>(message->header.stamp.toNSec()));
+      });
+  return [this, read = std::move(read)] {
+    while (!stop_ && (odometry_.getNumPublishers() == 0 || !pacer_.isFree(steadyTime())))
+      ros::WallDuration(0.005).sleep();
+    return read();
+  };
 }
 
 void CameraNodelet::run() {
