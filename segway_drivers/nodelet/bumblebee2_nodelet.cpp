@@ -26,17 +26,6 @@ namespace {
 
 constexpr TimeNs kStereoStalled = 500'000'000;  // ns
 
-const char* encodingOfMosaic(MosaicPattern pattern) {
-  switch (pattern) {
-    case MosaicPattern::None: return "mono8";
-    case MosaicPattern::Rggb: return "bayer_rggb8";
-    case MosaicPattern::Gbrg: return "bayer_gbrg8";
-    case MosaicPattern::Grbg: return "bayer_grbg8";
-    case MosaicPattern::Bggr: return "bayer_bggr8";
-  }
-  return "mono8";
-}
-
 }  // namespace
 
 /// Stereo camera. With rectify: none `stereo/{left,right}/image_raw` as the imagers sent it, with `camera_info` where
@@ -128,7 +117,7 @@ class Bumblebee2Nodelet : public CameraNodelet {
       cv::remap(grey, image, map.x, map.y, cv::INTER_LINEAR);
     }
     auto message = boost::make_shared<sensor_msgs::Image>(urban_nav_ros::toImageMessage(image));
-    if (map.x.empty()) message->encoding = encodingOfMosaic(camera_->pattern());
+    if (map.x.empty()) message->encoding = mosaicEncoding(camera_->pattern());
     message->header.stamp = stamp;
     message->header.frame_id = frame;
     publisher.publish(message);

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "device_parameters.hpp"
-#include "urban_nav_core/io/agreed_number.hpp"
+#include "live/simulated_session.hpp"
 #include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -19,7 +19,6 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs kSessionLead = 4'000'000'000;                                       // ns
 constexpr TimeNs kFrameWait = 100'000'000;                                           // ns
 constexpr TimeNs kLeastCameraPause = 200'000'000, kMostCameraPause = 2'000'000'000;  // ns
 
@@ -62,38 +61,25 @@ void CameraNodelet::onInit() {
 
 std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   if (!isSimulated()) return makeBusCamera(nodelet_.port, model(), error);
-  SimCameraOptions options;
-  options.model = simulatedModel();
-  options.is_paced = !nodelet_.paced_by.empty();
   try {
-    options.begin = sessionBegin();
     FrameReader read = readBag(nodelet_.port);
-    if (options.is_paced) read = pace(std::move(read));
-    return std::make_unique<SimSource>(std::move(read), options, realSimClock());
+    if (!nodelet_.paced_by.empty()) read = pace(std::move(read));
+    return std::make_unique<SimSource>(std::move(read), simulatedCameraOptions(nodelet_, simulatedModel()),
+                                       realSimClock());
   } catch (const urban_nav_core::UserError& no_pictures) {
     error = no_pictures.what();
     return nullptr;
   }
 }
 
-std::function<std::optional<TimeNs>()> CameraNodelet::sessionBegin() const {
-  const std::string& file = nodelet_.session_begin;
-  if (file.empty()) return {};
-  if (nodelet_.session_held) return [file] { return urban_nav_core::findAgreedNumber(file); };
-  return [begin = urban_nav_core::agreeOnNumber(file, steadyTime() + kSessionLead)] { return begin; };
-}
-
-/// Frames wait for odometry from the time at which somebody publishes its statistics.
+/// Frames wait for odometry once its statistics are published.
 FrameReader CameraNodelet::pace(FrameReader read) {
   odometry_ = getMTNodeHandle().subscribe<urban_nav_msgs::VoStatistics>(
       nodelet_.paced_by, 100, [this](const urban_nav_msgs::VoStatisticsConstPtr& message) {
         pacer_.answered(static_cast<TimeNs>(message->header.stamp.toNSec()));
       });
-  return [this, read = std::move(read)] {
-    while (!stop_ && (odometry_.getNumPublishers() == 0 || !pacer_.isFree(steadyTime())))
-      ros::WallDuration(0.005).sleep();
-    return read();
-  };
+  return pacer_.pace(
+      std::move(read), [this] { return !stop_ && odometry_.getNumPublishers() == 0; }, stop_);
 }
 
 void CameraNodelet::run() {

@@ -6,9 +6,7 @@
 #include <ros/subscriber.h>
 
 #include <atomic>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -58,7 +56,7 @@ class CameraNodelet : public nodelet::Nodelet {
   const Parameters& parameters() const { return parameters_; }
   bool isSimulated() const;
   ros::Time toRos(TimeNs steady) const;
-  /// A frame with this stamp has been published: the next one of a paced camera may wait for the odometry of this one.
+  /// A frame with this stamp has been published.
   void countFrame(TimeNs stamp) { pacer_.sent(static_cast<TimeNs>(toRos(stamp).toNSec()), steadyTime()); }
   /// Publishes raw arrival and time of the bus on time_reference.
   void publishTimeReference(const std::string& frame, TimeNs arrival, double bus_s) const;
@@ -66,7 +64,6 @@ class CameraNodelet : public nodelet::Nodelet {
  private:
   void onInit() final;
   std::unique_ptr<FrameSource> makeSource(std::string& error);
-  std::function<std::optional<TimeNs>()> sessionBegin() const;
   FrameReader pace(FrameReader read);
   void run();
   void stream(FrameSource& source);

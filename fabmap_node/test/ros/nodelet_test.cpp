@@ -84,9 +84,7 @@ class Head {
     marker_ = nh_.subscribe<visualization_msgs::MarkerArray>(
         "places/markers", 100, [this](const visualization_msgs::MarkerArrayConstPtr& m) { markers = m->markers; });
   }
-  static bool until(const std::function<bool()>& isDone) {
-    return urban_nav_ros::testing::Listener::until(isDone);
-  }
+  static bool until(const std::function<bool()>& isDone) { return urban_nav_ros::testing::Listener::until(isDone); }
   bool connected() {
     return until([this] {
       for (const ros::Publisher& image : images_)

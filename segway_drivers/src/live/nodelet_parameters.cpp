@@ -29,8 +29,8 @@ const Table<NodeletParameters>& nodeletTable() {
            "File in which the simulated devices of a launch agree on the begin of their session, new for each launch; "
            "empty: a camera's session begins when it is opened.", ""},
           {"session_held", &P::session_held, "", false, false, true, {},
-           "Whether a simulated camera is absent before somebody else has written the begin, ns of the steady clock, to "
-           "that file.", ""},
+           "Whether a simulated camera is absent before another process has written the begin, ns of the steady "
+           "clock, to that file.", ""},
           {"paced_by", &P::paced_by, "", "", false, false, {},
            "Topic of urban_nav_msgs/VoStatistics that paces a simulated camera: a frame is exposed when odometry has "
            "taken all but the newest ten; empty: frames come at the times of the recording.", ""},

@@ -23,7 +23,7 @@ TEST(FramePacer, WaitsForTheOdometryAndGoesOnWhenItHasTakenAFrame) {
   pacer.sent(stamp += kPeriod, 0);
   EXPECT_FALSE(pacer.isFree(0));
   pacer.answered(stamp);
-  EXPECT_TRUE(pacer.isFree(0)) << "an answer stands for all before it";
+  EXPECT_TRUE(pacer.isFree(0)) << "an answer holds for all before it";
 }
 
 TEST(FramePacer, GoesOnWithoutAnAnswerAfterItsPatience) {

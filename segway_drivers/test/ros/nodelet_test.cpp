@@ -137,8 +137,7 @@ TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
   };
   ASSERT_TRUE(runFor(kPatience, drive)) << velocity << " " << odometry;
   // Twice, since one that was on its way may have come in place of the last.
-  for (int i = 0; i < 2; ++i)
-    EXPECT_TRUE(receipts.await({{"cmd_vel", 1}}, [&] { command.publish(twist); }));
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(receipts.await({{"cmd_vel", 1}}, [&] { command.publish(twist); }));
   step(due);
   due = 0.0;
   moving = 0;

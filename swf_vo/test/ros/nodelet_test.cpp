@@ -140,8 +140,7 @@ TEST_F(SwfVoNodelet, TimeGoingBackBeginsANewSession) {
   EXPECT_EQ(graph().frames.back().frame, 4U) << "counts from 0 again";
   // Topics come one by one: the frame may overtake what belongs to it.
   const ros::Time last = urban_nav_ros::toRosTime(sequence().stamp(4));
-  EXPECT_TRUE(
-      Graph::until([&] { return !graph().odometry.empty() && graph().odometry.back().header.stamp == last; }));
+  EXPECT_TRUE(Graph::until([&] { return !graph().odometry.empty() && graph().odometry.back().header.stamp == last; }));
   EXPECT_TRUE(Graph::until([&] { return graph().relative.size() == 4U; })) << "the session before was flushed";
 }
 

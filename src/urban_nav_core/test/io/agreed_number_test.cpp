@@ -30,9 +30,9 @@ TEST_F(AgreedNumber, TheFirstProposalHoldsForAll) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "new"), {}), 1) << "no proposal is left";
 }
 
-TEST_F(AgreedNumber, IsFoundOnceSomebodyHasWrittenIt) {
+TEST_F(AgreedNumber, IsFoundOnceItIsWritten) {
   EXPECT_EQ(findAgreedNumber(file), std::nullopt);
-  EXPECT_FALSE(std::filesystem::exists(folder)) << "who waits makes no folder";
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "a search makes no folder";
   agreeOnNumber(file, 7);
   EXPECT_EQ(findAgreedNumber(file), 7);
   EXPECT_EQ(agreeOnNumber(file, 1), 7);

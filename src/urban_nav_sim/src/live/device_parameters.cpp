@@ -41,7 +41,8 @@ const Table<DeviceParameters>& deviceTable() {
           {"begin", &P::begin, "", "", false, false, {},
            "File in which devices agree on the begin of their session, new for each launch; empty: at once.", ""},
           {"held", &P::held, "", false, false, true, {},
-           "Whether there is no port before somebody else has written the begin, ns of the steady clock, to that file.",
+           "Whether there is no port before another process has written the begin, ns of the steady clock, to that "
+           "file.",
            ""},
           {"truth", &P::truth, "", "", false, false, {},
            "File for sequence,true_ns of each measurement, written at the end; empty: none.", ""},

@@ -12,8 +12,8 @@ namespace urban_nav_core {
 /// cannot be made or holds something else. Thread-safe.
 std::int64_t agreeOnNumber(const std::string& path, std::int64_t proposal);
 
-/// Returns the number that somebody else has written to that file, as agreeOnNumber() does, and nothing while there is
-/// no file. Throws UserError if it holds something else. Thread-safe.
+/// Returns the number that another process has written to that file, as agreeOnNumber() does, and nothing while there
+/// is no file. Throws UserError if it holds something else. Thread-safe.
 std::optional<std::int64_t> findAgreedNumber(const std::string& path);
 
 }  // namespace urban_nav_core

@@ -18,9 +18,9 @@
 
 namespace urban_nav_ros::testing {
 
-/// Messages that a node has received or sent, by the statistics of its slave API. Each topic has a connection of its own, and
-/// messages on different connections may overtake each other by as much as the machine is slow. What has been received
-/// is handled before all that is published later, whatever its topic.
+/// Messages that a node has received or sent, by the statistics of its slave API. Each topic has a connection of its
+/// own, and messages on different connections may overtake each other by as much as the machine is slow. What has been
+/// received is handled before all that is published later, whatever its topic.
 class Receipts {
  public:
   /// Messages to wait for, by topic.
@@ -29,8 +29,8 @@ class Receipts {
   explicit Receipts(const std::string& node) : node_(ros::names::resolve(node)) {}
 
   /// Calls `publish`, and waits until the node has received that many messages more on each topic. Topics to which it
-  /// is not connected are left out. Returns false after Listener::until()'s time. Requires that no earlier message on these topics is
-  /// in flight.
+  /// is not connected are left out. Returns false after Listener::until()'s time. Requires that no earlier message on
+  /// these topics is in flight.
   bool await(const Messages& messages, const std::function<void()>& publish) const {
     const Topics before = receivedBy(node_);
     publish();
@@ -87,7 +87,7 @@ class Receipts {
     if (!client.execute(method, caller, answer) || answer.getType() != XmlRpc::XmlRpcValue::TypeArray ||
         answer.size() < 2)
       return false;
-    // What is asked for comes after a code and a message by the specification; statistics of roscpp have neither.
+    // The result comes after a code and a message by the specification; statistics of roscpp have neither.
     result = answer[0].getType() == XmlRpc::XmlRpcValue::TypeInt ? answer[2] : answer;
     return true;
   }
