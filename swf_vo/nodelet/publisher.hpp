@@ -9,6 +9,7 @@
 
 #include "live/tracks_picture.hpp"
 #include "swf_vo/frame.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 #include "urban_nav_ros/stage_node.hpp"
 
