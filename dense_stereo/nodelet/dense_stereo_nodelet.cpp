@@ -109,6 +109,7 @@ void DenseStereoStage::process(urban_nav_ros::DecodedPair& pair) {
 
 urban_nav_live::StageReport DenseStereoStage::report() const {
   urban_nav_live::StageReport report = stereo_->report();
+  report.warn(sessions_->placeFault());
   sessions_->counts().addTo(report);
   accelerometer_->addTo(report);
   return report;

@@ -13,7 +13,7 @@
 #include "live/belief_trail.hpp"
 #include "live/live_places.hpp"
 #include "live/nodelet_parameters.hpp"
-#include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_live/round_gate.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
@@ -73,7 +73,7 @@ class FabmapStage {
  public:
   static constexpr const char* name = "fabmap_node";
   static constexpr const char* topic = "place recognition";
-  using Input = std::variant<CameraImage, OdometryPose>;
+  using Input = std::variant<CameraImage, OdometryPose, urban_nav_core::OdometrySessionPtr>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit FabmapStage(Node& node);
@@ -85,6 +85,8 @@ class FabmapStage {
   urban_nav_live::StageReport report() const { return places_->report(); }
 
  private:
+  using Images = urban_nav_live::RoundGate<CameraImage>;
+  void sortImages();
   template <typename Message>
   void subscribeCameras();
   void subscribeOdometry();
@@ -101,7 +103,7 @@ class FabmapStage {
   Parameters parameters_;
   ros::Publisher belief_, closure_, markers_;
   std::unique_ptr<PanoramaFeed> feed_;
-  urban_nav_live::TimeJumpDetector image_time_;
+  std::unique_ptr<Images> images_;
   std::unique_ptr<LivePlaces> places_;
   BeliefTrail trail_;
   std::string odom_frame_;
@@ -115,6 +117,7 @@ FabmapStage::FabmapStage(Node& node) : node_(node) {
                                          nodelet_.store, storeOptions());
   loadMap();
   startFeed();
+  sortImages();
   belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(urban_nav_ros::topics::kPlaceBelief, 100);
   closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::kPlaceClosure, 1000);
   markers_ = node.nh().advertise<visualization_msgs::MarkerArray>(urban_nav_ros::topics::kPlaceMarkers, 1, true);
@@ -151,6 +154,11 @@ void FabmapStage::subscribeOdometry() {
         if (!T_odom_base) return std::nullopt;
         return OdometryPose{{urban_nav_ros::toStampNs(message->header.stamp), *T_odom_base}, message->header.frame_id};
       });
+  options.is_monitored = false;
+  node_.subscribeInput<urban_nav_msgs::RelativePose>(urban_nav_ros::topics::kVoRelativePose, options,
+                                                     [](const urban_nav_msgs::RelativePoseConstPtr& message) {
+                                                       return urban_nav_ros::toOdometrySession(message->session);
+                                                     });
 }
 
 void FabmapStage::advertiseFiles() {
@@ -177,14 +185,26 @@ void FabmapStage::startFeed() {
 
 void FabmapStage::handle(Input& input) {
   if (const auto* pose = std::get_if<OdometryPose>(&input)) return addOdometry(*pose);
+  if (const auto* session = std::get_if<urban_nav_core::OdometrySessionPtr>(&input)) return places_->follow(*session);
   const CameraImage& image = std::get<CameraImage>(input);
-  if (image_time_.add(image.image.stamp())) {  // the recording begins again
+  images_->add(static_cast<int>(image.camera), image.image.stamp(), image);
+}
+
+/// Images of the cameras come on connections of their own: their stamps jump back one after the other.
+void FabmapStage::sortImages() {
+  Images::Options options;
+  for (int camera = 0; camera < nodelet_.cameras; ++camera) options.leading.insert(camera);
+  Images::Listener listener;
+  listener.item = [this](CameraImage& image) {
+    feed_->add(image.camera, image.image);
+    processPanoramas();
+  };
+  listener.next_round = [this] {
     feed_->finish();
     processPanoramas();
     startFeed();
-  }
-  feed_->add(image.camera, image.image);
-  processPanoramas();
+  };
+  images_ = std::make_unique<Images>(options, listener);
 }
 
 void FabmapStage::addOdometry(const OdometryPose& pose) {
@@ -231,7 +251,7 @@ bool FabmapStage::idle() {
 std::string FabmapStage::reset() {
   places_->reset();
   loadMap();
-  image_time_.reset();
+  sortImages();
   trail_.clear();
   startFeed();
   return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +

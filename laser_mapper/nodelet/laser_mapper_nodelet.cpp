@@ -15,6 +15,7 @@
 #include "live/live_map.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "map_messages.hpp"
+#include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_registration/parameters.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -65,7 +66,7 @@ class LaserMapperStage {
   static constexpr const char* name = "laser_mapper";
   static constexpr const char* topic = "laser map";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, urban_nav_core::GraphUpdate,
+                             urban_nav_core::StampedPose, urban_nav_core::SessionStep, urban_nav_core::GraphUpdate,
                              urban_nav_core::MetricClosure>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
@@ -97,6 +98,7 @@ class LaserMapperStage {
   ros::Publisher cloud_, tiles_, quality_, constraints_;
   std::uint32_t tile_subscribers_ = 0;
   std::string unplaced_, store_fault_;
+  urban_nav_live::BeamFaults beams_;
   bool changed_ = false, are_constraints_due_ = false;
   Clock::time_point due_, constraints_due_, tiles_sent_ = Clock::now();
   double seconds_ = 0.0;  ///< of the last cloud
@@ -137,7 +139,7 @@ void LaserMapperStage::handle(Input& input) {
     else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) map_->addOdometry(*odometry);
     else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
     else if (const auto* closure = std::get_if<urban_nav_core::MetricClosure>(&input)) map_->addClosure(*closure);
-    else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) map_->addStep(*step);
+    else if (const auto* step = std::get_if<urban_nav_core::SessionStep>(&input)) map_->addStep(*step);
     changed_ = are_constraints_due_ = true;  // scans may arrive after the poses of their time, which may be the last
   } catch (const urban_nav_core::Error& error) {
     store_fault_ = error.what();
@@ -147,6 +149,7 @@ void LaserMapperStage::handle(Input& input) {
 void LaserMapperStage::addScan(const sensor_msgs::LaserScan& message) {
   const auto planar = urban_nav_ros::toPlanarScan(message);
   if (!planar) return node_.gate().countInvalid();
+  beams_.add(*planar);
   const std::string& frame = message.header.frame_id;
   if (!map_->isPlaced(frame)) {
     const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
@@ -267,6 +270,7 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   report.add("scans of lasers without a pose on the robot", counts.scans_unplaced);
   report.add("poses of odometry", counts.poses);
   report.add("revisions of the graph missed", counts.updates_missed);
+  beams_.addTo(report);
   report.add("points", counts.points);
   report.add("chunks", counts.chunks);
   report.add("chunks rendered last", counts.chunks_rendered);

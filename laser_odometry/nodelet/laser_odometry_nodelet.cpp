@@ -66,10 +66,13 @@ LaserOdometryStage::LaserOdometryStage(Node& node) : node_(node) {
   clouds_.are_deskewed = nodelet_.deskewed;
   publisher_ = std::make_unique<Publisher>(
       node, Publisher::Frames{nodelet_.odom_frame, nodelet_.base_frame, nodelet_.publish_tf});
-  odometry_ = std::make_unique<LiveLaserOdometry>(parameters_, [this](const LaserPose& pose, double process_ms) {
-    newest_ = pose.stamp;
-    publisher_->publish(pose, process_ms);
-  });
+  odometry_ = std::make_unique<LiveLaserOdometry>(
+      parameters_,
+      [this](const LaserPose& pose, double process_ms) {
+        newest_ = pose.stamp;
+        publisher_->publish(pose, odometry_->session(), process_ms);
+      },
+      nodelet_.robot, nodelet_.recording);
   urban_nav_ros::TopicOptions transforms;
   transforms.is_monitored = transforms.is_paused = false;
   node.subscribeInput<tf2_msgs::TFMessage>(urban_nav_ros::topics::kStaticTransforms, transforms,

@@ -32,12 +32,12 @@ Publisher::Publisher(urban_nav_ros::StageNode& node, Frames frames)
       status_(node.nh().advertise<urban_nav_msgs::LaserOdometryStatus>(topics::kLoStatus, 50)),
       map_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::kLoLocalMap, 1, true)) {}
 
-void Publisher::publish(const LaserPose& pose, double process_ms) {
+void Publisher::publish(const LaserPose& pose, const urban_nav_core::OdometrySessionPtr& session, double process_ms) {
   if (pose.accepted) {
     publishOdometry(pose);
     // The first pose of a session is the origin: it has no neighbour to be related to.
     if (pose.step.from != pose.step.to)
-      relative_.publish(urban_nav_ros::toRelativePoseMessage(pose.step, frames_.base));
+      relative_.publish(urban_nav_ros::toRelativePoseMessage({pose.step, session}, frames_.base));
   }
   publishStatus(pose, process_ms);
   node_.publishStatus(pose.status, toString(static_cast<Reason>(pose.status.reason)), pose.stamp);

@@ -21,7 +21,8 @@ class Publisher {
   /// `node` must outlive it.
   Publisher(urban_nav_ros::StageNode& node, Frames frames);
 
-  void publish(const LaserPose& pose, double process_ms);
+  /// `session`: to which the pose belongs; null: not announced.
+  void publish(const LaserPose& pose, const urban_nav_core::OdometrySessionPtr& session, double process_ms);
   /// Publishes the local map if it has subscribers, at most once a second.
   void publishMap(const LiveLaserOdometry& odometry, urban_nav_core::StampNs stamp);
 

@@ -20,6 +20,7 @@ from urban_nav_msgs.msg import RelativePose, VoStatistics
 
 # Debian's image_proc ships a plugin description without content; pluginlib says so whenever a nodelet is loaded.
 # Where all nodes are ended at once, a manager may be gone before those that loaded nodelets into it.
+SIGINT_TIMEOUT = 120  # s
 HARMLESS = ("image_proc/nodelet_plugins.xml", "Failed to unload nodelet")
 
 
@@ -37,7 +38,8 @@ class Launched:
     """`roslaunch PACKAGE FILE ARG:=VALUE...` in a process of its own, on the master of the test."""
 
     def __init__(self, file, package="urban_nav_launch", **arguments):
-        command = ["roslaunch", package, file] + [f"{name}:={value}" for name, value in arguments.items()]
+        # A busy machine may take longer to end its nodes than the 15 s after which roslaunch kills them.
+        command = ["roslaunch", f"--sigint-timeout={SIGINT_TIMEOUT}", package, file] + [f"{name}:={value}" for name, value in arguments.items()]
         self.log = tempfile.NamedTemporaryFile("w+", suffix=".log", delete=False)
         self.process = subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True)
 
@@ -51,7 +53,7 @@ class Launched:
         """Ends it by Ctrl-C, if it has not ended, and gives what was wrong with that: nothing, as a rule."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
-            if not self.ended(30.0):
+            if not self.ended(2.0 * SIGINT_TIMEOUT):
                 os.killpg(self.process.pid, signal.SIGKILL)
                 return "did not end by Ctrl-C:\n" + self.output()
         text = self.output()

@@ -42,7 +42,7 @@ class LoopMetricStage {
   static constexpr const char* name = "loop_metric";
   static constexpr const char* topic = "loop closures";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedPose, urban_nav_core::RelativePose>;
+                             urban_nav_core::StampedPose, urban_nav_core::SessionStep>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LoopMetricStage(Node& node);
@@ -52,7 +52,11 @@ class LoopMetricStage {
   }
   bool idle();
   std::string reset();
-  void close() { recorder_->end(); }
+  void finish(std::chrono::milliseconds limit) {
+    recorder_->end();
+    if (limit.count() > 0 && !verifier_->finishSession(limit)) node_.logError(givenUp(verifier_->counts().waiting));
+  }
+  void close() { finish(ros::ok() ? node_.drainTime() : std::chrono::milliseconds(0)); }
   urban_nav_live::StageReport report() const { return makeReport(state()); }
 
  private:
@@ -73,14 +77,14 @@ class LoopMetricStage {
   std::unique_ptr<ClosureVerifier> verifier_;
   std::unique_ptr<SessionRecorder> recorder_;
   std::unique_ptr<Inputs> inputs_;
-  std::int64_t store_lost_ = 0;
   std::atomic<std::int64_t> candidates_{0};
+  std::int64_t store_lost_ = 0;
 };
 
 LoopMetricStage::LoopMetricStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_, parameters_.registration) = urban_nav_ros::readParameters(
       node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_.base_frame);
   store_ = std::make_unique<StoreWriterLink>(nodelet_.store, storeOptions());
   verifier_ = std::make_unique<ClosureVerifier>(parameters_, nodelet_.candidate_timeout, *store_,
@@ -98,6 +102,7 @@ void LoopMetricStage::subscribeCandidates() {
   urban_nav_ros::TopicOptions options;
   options.queue = nodelet_.queue_size;
   options.is_monitored = false;
+  options.is_awaited = true;
   node_.subscribe<urban_nav_msgs::TopologicalClosure>(
       urban_nav_ros::topics::kPlaceClosure, options, [this](const auto& message) {
         if (const auto closure = urban_nav_ros::toTopologicalClosure(*message)) {
@@ -159,6 +164,7 @@ LoopsState LoopMetricStage::state() const {
   state.laser_fault = monitor.fault(urban_nav_ros::topic_groups::kLasers);
   state.camera_fault = inputs_->sessions().fault();
   state.laser_pose_fault = inputs_->laserFault();
+  state.beams = inputs_->beams();
   state.camera = inputs_->mountingFault();
   state.damaged_images = inputs_->sessions().counts().damaged;
   state.candidates = candidates_;

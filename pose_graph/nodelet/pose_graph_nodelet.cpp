@@ -53,10 +53,18 @@ class PoseGraphStage {
     worker_->graph().reset();
     return "the graph is empty";
   }
+  void finish(std::chrono::milliseconds /*limit*/) { worker_->step(); }
+  static constexpr int kFinishOrder = 2;
   void close() {}
   urban_nav_live::StageReport report() const {
     urban_nav_live::StageReport report = worker_->report();
     accelerometer_->addTo(report);
+    if (ground_->isAssumed())
+      report.warn("no static tf from " + nodelet_.base_frame + " to the camera of " + topics::kGroundPlane +
+                  ": its axes are taken to be those of REP 103");
+    if (fixes_ && fixes_->isAssumed())
+      report.warn("no static tf from " + nodelet_.base_frame + " to the antenna of " + topics::kGpsFix +
+                  ": it is taken to be at the origin of the robot");
     return report;
   }
 
@@ -93,7 +101,7 @@ class PoseGraphStage {
 PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
   Parameters parameters;
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_);
   accelerometer_ = std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame);
   ground_ = std::make_unique<urban_nav_ros::GroundNormals>(nodelet_.base_frame);
@@ -109,14 +117,17 @@ void PoseGraphStage::subscribe() {
   steady.timeout = kOdometryTimeout;
   steady.queue = occasional.queue = nodelet_.queue_size;
   occasional.is_monitored = false;
+  steady.is_awaited = occasional.is_awaited = true;
   node_.subscribeInput<urban_nav_msgs::RelativePose>(
-      topics::kVoRelativePose, steady, [](const auto& message) { return urban_nav_ros::toRelativePose(*message); });
+      topics::kVoRelativePose, steady, [](const auto& message) { return urban_nav_ros::toSessionStep(*message); });
   node_.subscribeInput<urban_nav_msgs::MetricClosure>(
       topics::kMetricClosure, occasional, [](const auto& message) { return urban_nav_ros::toMetricClosure(*message); });
-  node_.subscribeInput<urban_nav_msgs::RelativeConstraint>(
-      topics::kMapConstraints, occasional,
-      [](const auto& message) { return urban_nav_ros::toRelativeConstraint(*message); });
-  TopicOptions always = occasional;
+  TopicOptions unawaited = occasional;
+  unawaited.is_awaited = false;
+  node_.subscribeInput<urban_nav_msgs::RelativeConstraint>(topics::kMapConstraints, unawaited, [](const auto& message) {
+    return urban_nav_ros::toRelativeConstraint(*message);
+  });
+  TopicOptions always = unawaited;
   always.is_paused = false;
   node_.subscribe<nav_msgs::Odometry>(topics::kVoOdometry, always, [this](const nav_msgs::OdometryConstPtr& message) {
     const StampNs stamp = urban_nav_ros::toStampNs(message->header.stamp);

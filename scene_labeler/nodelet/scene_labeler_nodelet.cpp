@@ -22,6 +22,7 @@
 #include "live/nodelet_parameters.hpp"
 #include "scene_labeler/class_map.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -79,7 +80,7 @@ class SceneLabelerStage {
   static constexpr const char* name = "scene_labeler";
   static constexpr const char* topic = "labels";
   using Input = std::variant<urban_nav_ros::ImageInput, urban_nav_ros::InfoInput, tf2_msgs::TFMessageConstPtr,
-                             sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose, urban_nav_core::RelativePose,
+                             sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
                              CameraImage, ClassImage, CameraCalibration, geometry_msgs::PointStampedConstPtr>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
@@ -112,6 +113,7 @@ class SceneLabelerStage {
   std::chrono::steady_clock::time_point last_pose_;
   geometry_msgs::PointStampedConstPtr click_;
   std::string taught_fault_;
+  urban_nav_live::BeamFaults beams_;
   ClassMap class_map_;                   // values of class images
   urban_nav_ros::GreyRange grey_range_;  // 16-bit pixels of both cameras
 };
@@ -235,6 +237,7 @@ void SceneLabelerStage::handle(Input& input) {
 void SceneLabelerStage::addScan(const sensor_msgs::LaserScan& message) {
   const auto planar = urban_nav_ros::toPlanarScan(message);
   if (!planar) return node_.gate().countInvalid();
+  beams_.add(*planar);
   const std::string& frame = message.header.frame_id;
   const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
   if (!T_base_laser) {
@@ -315,6 +318,8 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   report.add("of these with a class image", counts.class_frames);
   report.add("of these in a kind of place that the model was not trained in", counts.new_place_frames);
   report.add("black or saturated images", counts.blind_frames);
+  report.add("drives", counts.drives);
+  beams_.addTo(report);
   const LiveTeaching& teaching = labels_->teaching();
   report.add("corrections", teaching.corrections());
   report.add("training",

@@ -26,17 +26,6 @@ namespace {
 
 constexpr TimeNs kStereoStalled = 500'000'000;  // ns
 
-const char* encodingOfMosaic(MosaicPattern pattern) {
-  switch (pattern) {
-    case MosaicPattern::None: return "mono8";
-    case MosaicPattern::Rggb: return "bayer_rggb8";
-    case MosaicPattern::Gbrg: return "bayer_gbrg8";
-    case MosaicPattern::Grbg: return "bayer_grbg8";
-    case MosaicPattern::Bggr: return "bayer_bggr8";
-  }
-  return "mono8";
-}
-
 }  // namespace
 
 /// Stereo camera. With rectify: none `stereo/{left,right}/image_raw` as the imagers sent it, with `camera_info` where
@@ -61,11 +50,12 @@ class Bumblebee2Nodelet : public CameraNodelet {
     if (rectified) loadCalibration();
     else loadInfos();
     ros::NodeHandle& handle = getNodeHandle();
-    left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kLeftRectified : topics::kLeftImage, 10);
-    right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kRightRectified : topics::kRightImage, 10);
+    const auto queue = static_cast<std::uint32_t>(nodelet().image_queue);
+    left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kLeftRectified : topics::kLeftImage, queue);
+    right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::kRightRectified : topics::kRightImage, queue);
     if (!left_info_) return;
-    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kLeftInfo, 10);
-    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kRightInfo, 10);
+    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kLeftInfo, queue);
+    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::kRightInfo, queue);
   }
 
   void makeCamera(FrameSource& source) override {
@@ -109,6 +99,7 @@ class Bumblebee2Nodelet : public CameraNodelet {
     publishImage(pair->frame.left, left_map_, stamp, frames::kStereoLeft, left_);
     publishImage(pair->frame.right, right_map_, stamp, frames::kStereoRight, right_);
     publishTimeReference(frames::kStereoLeft, pair->arrival, *pair->frame.bus_time);
+    countFrame(pair->stamp);
     if (!left_info_) return;
     left_info_->header.stamp = right_info_->header.stamp = stamp;
     left_info_->header.frame_id = frames::kStereoLeft;
@@ -126,7 +117,7 @@ class Bumblebee2Nodelet : public CameraNodelet {
       cv::remap(grey, image, map.x, map.y, cv::INTER_LINEAR);
     }
     auto message = boost::make_shared<sensor_msgs::Image>(urban_nav_ros::toImageMessage(image));
-    if (map.x.empty()) message->encoding = encodingOfMosaic(camera_->pattern());
+    if (map.x.empty()) message->encoding = mosaicEncoding(camera_->pattern());
     message->header.stamp = stamp;
     message->header.frame_id = frame;
     publisher.publish(message);

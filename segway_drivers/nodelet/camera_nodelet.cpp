@@ -2,6 +2,7 @@
 #include "camera_nodelet.hpp"
 
 #include <sensor_msgs/TimeReference.h>
+#include <urban_nav_msgs/VoStatistics.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +10,7 @@
 #include <utility>
 
 #include "device_parameters.hpp"
-#include "urban_nav_core/io/agreed_number.hpp"
+#include "live/simulated_session.hpp"
 #include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -18,7 +19,6 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs kSessionLead = 4'000'000'000;                                       // ns
 constexpr TimeNs kFrameWait = 100'000'000;                                           // ns
 constexpr TimeNs kLeastCameraPause = 200'000'000, kMostCameraPause = 2'000'000'000;  // ns
 
@@ -28,6 +28,7 @@ CameraNodelet::~CameraNodelet() { shutDown(); }
 
 void CameraNodelet::shutDown() {
   stop_ = true;
+  odometry_.shutdown();
   diagnostics_.stop();
   if (reader_.joinable()) reader_.join();
 }
@@ -60,16 +61,25 @@ void CameraNodelet::onInit() {
 
 std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   if (!isSimulated()) return makeBusCamera(nodelet_.port, model(), error);
-  SimCameraOptions options;
-  options.model = simulatedModel();
   try {
-    if (!nodelet_.session_begin.empty())
-      options.begin = urban_nav_core::agreeOnNumber(nodelet_.session_begin, steadyTime() + kSessionLead);
-    return std::make_unique<SimSource>(readBag(nodelet_.port), options, realSimClock());
+    FrameReader read = readBag(nodelet_.port);
+    if (!nodelet_.paced_by.empty()) read = pace(std::move(read));
+    return std::make_unique<SimSource>(std::move(read), simulatedCameraOptions(nodelet_, simulatedModel()),
+                                       realSimClock());
   } catch (const urban_nav_core::UserError& no_pictures) {
     error = no_pictures.what();
     return nullptr;
   }
+}
+
+/// Frames wait for odometry once its statistics are published.
+FrameReader CameraNodelet::pace(FrameReader read) {
+  odometry_ = getMTNodeHandle().subscribe<urban_nav_msgs::VoStatistics>(
+      nodelet_.paced_by, 100, [this](const urban_nav_msgs::VoStatisticsConstPtr& message) {
+        pacer_.answered(static_cast<TimeNs>(message->header.stamp.toNSec()));
+      });
+  return pacer_.pace(
+      std::move(read), [this] { return !stop_ && odometry_.getNumPublishers() == 0; }, stop_);
 }
 
 void CameraNodelet::run() {

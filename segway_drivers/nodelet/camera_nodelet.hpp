@@ -3,6 +3,7 @@
 
 #include <nodelet/nodelet.h>
 #include <ros/publisher.h>
+#include <ros/subscriber.h>
 
 #include <atomic>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "device_diagnostics.hpp"
+#include "live/frame_pacer.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "segway_drivers/camera/bag_pictures.hpp"
 #include "segway_drivers/camera/frame_source.hpp"
@@ -54,12 +56,15 @@ class CameraNodelet : public nodelet::Nodelet {
   const Parameters& parameters() const { return parameters_; }
   bool isSimulated() const;
   ros::Time toRos(TimeNs steady) const;
+  /// A frame with this stamp has been published.
+  void countFrame(TimeNs stamp) { pacer_.sent(static_cast<TimeNs>(toRos(stamp).toNSec()), steadyTime()); }
   /// Publishes raw arrival and time of the bus on time_reference.
   void publishTimeReference(const std::string& frame, TimeNs arrival, double bus_s) const;
 
  private:
   void onInit() final;
   std::unique_ptr<FrameSource> makeSource(std::string& error);
+  FrameReader pace(FrameReader read);
   void run();
   void stream(FrameSource& source);
   void setState(DriverState state, const std::string& reason);
@@ -70,6 +75,8 @@ class CameraNodelet : public nodelet::Nodelet {
   HostClock clock_;
   ros::Publisher time_reference_;
   std::unique_ptr<FrameSource> source_;
+  FramePacer pacer_;
+  ros::Subscriber odometry_;  // of a paced camera
   DeviceDiagnostics diagnostics_;
   std::thread reader_;
   std::atomic<bool> stop_{false};

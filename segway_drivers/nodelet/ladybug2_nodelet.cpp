@@ -44,7 +44,8 @@ class Ladybug2Nodelet : public CameraNodelet {
 
   void prepare() override {
     ros::NodeHandle& handle = getNodeHandle();
-    raw_ = handle.advertise<urban_nav_msgs::RawFrame>(urban_nav_ros::topics::kPanoramaRaw, 10);
+    raw_ = handle.advertise<urban_nav_msgs::RawFrame>(urban_nav_ros::topics::kPanoramaRaw,
+                                                      static_cast<std::uint32_t>(nodelet().image_queue));
     for (std::size_t i = 0; i < kRingCameras; ++i) {
       const std::string topic = urban_nav_ros::topics::kPanoramaImages[i];
       images_[i] = handle.advertise<sensor_msgs::Image>(topic, 5);
@@ -75,6 +76,7 @@ class Ladybug2Nodelet : public CameraNodelet {
     message->bus_time = frame->bus_time;
     message->data = std::move(frame->bytes);
     raw_.publish(message);
+    countFrame(frame->stamp);
   }
 
   void publishColour(const Bytes& bytes, const ros::Time& stamp) const {

@@ -42,7 +42,8 @@ void Publisher::startSession(const Frames& frames, double near_disparity_px) {
   picture_ = std::make_unique<TracksPicture>(near_disparity_px);
 }
 
-void Publisher::publish(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms) {
+void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessionPtr& session,
+                        const urban_nav_core::StereoPair& pair, double process_ms) {
   if (frame.accepted) {
     publishOdometry(frame);
     if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, kPathSpacing, kPathPoints, drawn_path_))
@@ -52,13 +53,13 @@ void Publisher::publish(const Frame& frame, const urban_nav_core::StereoPair& pa
   }
   publishFrame(frame, process_ms);
   node_.publishStatus(frame.status, toString(static_cast<Reason>(frame.status.reason)), frame.stamp);
-  for (const Settled& settled : frame.settled) publish(settled);
+  for (const Settled& settled : frame.settled) publish(settled, session);
 }
 
-void Publisher::publish(const Settled& settled) {
+void Publisher::publish(const Settled& settled, const urban_nav_core::OdometrySessionPtr& session) {
   // The first pose of a session is the origin: it has no neighbour to be related to.
   if (settled.from_previous.from == settled.from_previous.to) return;
-  relative_.publish(urban_nav_ros::toRelativePoseMessage(settled.from_previous, frames_.base));
+  relative_.publish(urban_nav_ros::toRelativePoseMessage({settled.from_previous, session}, frames_.base));
 }
 
 void Publisher::publishOdometry(const Frame& frame) {

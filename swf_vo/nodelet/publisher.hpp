@@ -9,6 +9,7 @@
 
 #include "live/tracks_picture.hpp"
 #include "swf_vo/frame.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 #include "urban_nav_ros/stage_node.hpp"
 
@@ -26,8 +27,9 @@ class Publisher {
 
   /// Begins a session: path and tracks start anew. `near_disparity_px`: drawn in the warmest colour.
   void startSession(const Frames& frames, double near_disparity_px);
-  void publish(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms);
-  void publish(const Settled& settled);
+  void publish(const Frame& frame, const urban_nav_core::OdometrySessionPtr& session,
+               const urban_nav_core::StereoPair& pair, double process_ms);
+  void publish(const Settled& settled, const urban_nav_core::OdometrySessionPtr& session);
 
  private:
   void publishOdometry(const Frame& frame);

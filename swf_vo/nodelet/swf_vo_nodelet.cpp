@@ -39,7 +39,11 @@ class SwfVoStage {
     sessions_->end("reset");
     return "the session has ended, the next pair begins a new one";
   }
-  void close();
+  void finish(std::chrono::milliseconds /*limit*/) { sessions_->end("shutdown"); }
+  static constexpr int kFinishOrder = 0;  // the others receive what the window holds
+  void close() {
+    if (ros::ok()) sessions_->end("shutdown");
+  }
   urban_nav_live::StageReport report() const;
 
  private:
@@ -58,16 +62,16 @@ class SwfVoStage {
 
 SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   publisher_ = std::make_unique<Publisher>(node);
   LiveOdometry::Listener listener;
   listener.frame = [this](const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms) {
-    publisher_->publish(frame, pair, process_ms);
+    publisher_->publish(frame, odometry_->session(), pair, process_ms);
     node_.monitor().setIncomplete(frame.status.reason == static_cast<int>(Reason::ImageMissing));
   };
   listener.warning = [this](const std::string& text) { node_.logWarning("motion sensor", text); };
-  listener.settled = [this](const Settled& settled) { publisher_->publish(settled); };
-  odometry_ = std::make_unique<LiveOdometry>(parameters_, listener);
+  listener.settled = [this](const Settled& settled) { publisher_->publish(settled, odometry_->session()); };
+  odometry_ = std::make_unique<LiveOdometry>(parameters_, listener, nodelet_.robot, nodelet_.recording);
   StereoSessions::Options sessions = urban_nav_ros::toStereoOptions(nodelet_, node.nh());
   sessions.motion = urban_nav_core::toMotionChoice(nodelet_.motion_input);
   sessions.wheel_noise = nodelet_.wheel_noise;
@@ -104,12 +108,9 @@ void SwfVoStage::end(const std::string& why) {
   node_.logInfo("session " + std::to_string(odometry_->sessions()) + " ended: " + why);
 }
 
-void SwfVoStage::close() {
-  if (ros::ok()) sessions_->end("shutdown");
-}
-
 urban_nav_live::StageReport SwfVoStage::report() const {
   urban_nav_live::StageReport report = odometry_->report();
+  report.warn(sessions_->placeFault());
   sessions_->counts().addTo(report);
   return report;
 }

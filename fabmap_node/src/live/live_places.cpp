@@ -24,6 +24,9 @@ enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2, NotSt
 // Time by stamps until a session without odometry is named after its first observation: visual odometry gives its first
 // pose within a window.
 constexpr urban_nav_core::StampNs kLongestWait = 10'000'000'000;
+// ... and until one with odometry is named by its first pose: a window of frames lies between that and the first step,
+// which announces the session.
+constexpr urban_nav_core::StampNs kAnnouncedWait = 5'000'000'000;
 
 }  // namespace
 
@@ -44,17 +47,39 @@ LivePlaces::~LivePlaces() { endSession(); }
 void LivePlaces::addOdometry(const urban_nav_core::StampedPose& pose) {
   odometry_.add(pose);
   if (!first_observed_ && odometry_.isAhead()) {  // nothing of the session before was observed
-    odometry_.beginNextSession();
+    if (odometry_.start()) nameSession(*odometry_.start() + kAnnouncedWait);  // its id is used
+    beginNextSession();
     session_.reset();
   }
-  if (!session_ && odometry_.start()) beginSession(*odometry_.start());
+  nameSession(pose.stamp);
+}
+
+void LivePlaces::beginNextSession() {
+  odometry_.beginNextSession();
+  announced_ = std::exchange(next_announced_, nullptr);
+}
+
+void LivePlaces::follow(const urban_nav_core::OdometrySessionPtr& announced) {
+  if (!announced || announced->id == sessionId(announced_) || announced->id == sessionId(next_announced_)) return;
+  const bool jumps = odometry_.newest() && urban_nav_core::jumpsBack(announced->start, *odometry_.newest());
+  if (odometry_.isAhead() || (announced_ && jumps)) {
+    next_announced_ = announced;
+    return;
+  }
+  if (announced_ || session_) {  // of another session, which has ended without a jump back
+    endSession();
+    map_->beginSession("");
+    odometry_.restart();
+  }
+  announced_ = announced;
+  nameSession(announced->start);
 }
 
 PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images) {
   if (time_.add(stamp)) {
     endSession();
     map_->beginSession("");
-    odometry_.beginNextSession();
+    beginNextSession();
   }
   if (!first_observed_) first_observed_ = stamp;
   nameSession(stamp);
@@ -76,6 +101,10 @@ PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector
   counts_.known += output.belief.knowledge == PlaceKnowledge::Known ? 1 : 0;
   counts_.closures += static_cast<std::int64_t>(output.closures.size());
   last_ = output.belief;
+  if (session_ && session_->id == sessionId(announced_))
+    for (urban_nav_core::TopologicalClosure& closure : output.closures)
+      for (urban_nav_core::PoseRef* at : {&closure.a, &closure.b})
+        if (at->session.empty()) at->session = session_->id;
   return output;
 }
 
@@ -86,12 +115,18 @@ void LivePlaces::keep(urban_nav_store::StoredPlace place) {
 
 void LivePlaces::nameSession(urban_nav_core::StampNs now) {
   if (session_) return;
-  if (odometry_.start()) beginSession(*odometry_.start());
-  else if (first_observed_ && now - *first_observed_ >= kLongestWait) beginSession(*first_observed_);
+  if (announced_) return beginSession(namer_.follow(*announced_, resumable_).session);
+  const auto start = odometry_.start();
+  if (start && now - *start >= kAnnouncedWait) beginOwnSession(*start);
+  else if (!start && first_observed_ && now - *first_observed_ >= kLongestWait) beginOwnSession(*first_observed_);
 }
 
-void LivePlaces::beginSession(urban_nav_core::StampNs start) {
-  session_ = namer_.begin(name_.recording, start, resumable_).session;
+void LivePlaces::beginOwnSession(urban_nav_core::StampNs start) {
+  beginSession(namer_.begin(name_.recording, start, resumable_).session);
+}
+
+void LivePlaces::beginSession(const Session& session) {
+  session_ = session;
   std::vector<ArchivedSession> others;
   for (const ArchivedSession& each : earlier_)
     if (each.session.id != session_->id) others.push_back(each);
@@ -100,7 +135,8 @@ void LivePlaces::beginSession(urban_nav_core::StampNs start) {
 }
 
 void LivePlaces::endSession() {
-  if (!session_ && first_observed_) nameSession(*first_observed_ + kLongestWait);
+  if (!session_ && first_observed_)
+    nameSession(std::max(*first_observed_, odometry_.start().value_or(*first_observed_)) + kLongestWait);
   if (session_ && first_observed_) {
     store_.end(*session_);
     map_->renameSession(session_->id);
@@ -130,6 +166,7 @@ void LivePlaces::reset() {
   useMap(buildMap({}));
   resumable_.clear();
   odometry_ = SessionOdometry();
+  announced_ = next_announced_ = nullptr;
   time_.reset();
   counts_ = Counts();
   last_ = PlaceBelief();

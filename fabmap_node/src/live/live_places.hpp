@@ -24,11 +24,11 @@ struct LiveSessionName {
   std::string robot, recording;
 };
 
-/// Place recognition of a live robot, free of ROS. The session that is being recorded is unnamed in closures; earlier
-/// ones have the ids of their stores. Ids are those of urban_nav_live::SessionNamer: the session begins with its first
-/// pose of odometry, or, without one for 10 s, with its first observation. Observations whose stamps jump back begin
-/// the next session. Descriptors of places are read from the stores they come from, those of places that are being
-/// recorded from a temporary file. Not thread-safe.
+/// Place recognition of a live robot, free of ROS. Sessions and their ids are those that the odometry announces;
+/// observations whose stamps jump back belong to the next one. Where it does not announce it, ids are those of
+/// urban_nav_live::SessionNamer after 5 s: the session begins with its first pose of odometry, or, without one for 10
+/// s, with its first observation, and is unnamed in closures. Descriptors of places are read from the stores they come
+/// from, those of places that are being recorded from a temporary file. Not thread-safe.
 class LivePlaces {
  public:
   /// `store`: absolute path of the file to which places are written while they are observed, and whose places are
@@ -43,6 +43,8 @@ class LivePlaces {
 
   /// Adds a pose of odometry.
   void addOdometry(const urban_nav_core::StampedPose& pose);
+  /// The odometry is in this session; null: it does not announce it.
+  void follow(const urban_nav_core::OdometrySessionPtr& announced);
   /// Recognises an observation. `images`: by camera; an empty view is missing.
   PlaceOutput process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images);
   /// Opens the store when an attempt is due, and hands places on to it. To be called some ten times a second.
@@ -79,7 +81,9 @@ class LivePlaces {
 
   /// Names the session once it is known when it began.
   void nameSession(urban_nav_core::StampNs now);
-  void beginSession(urban_nav_core::StampNs start);
+  void beginSession(const urban_nav_store::Session& session);
+  void beginOwnSession(urban_nav_core::StampNs start);
+  void beginNextSession();
   /// Names the session, if it has places, and marks it complete.
   void endSession();
   void keep(urban_nav_store::StoredPlace place);
@@ -108,6 +112,9 @@ class LivePlaces {
   std::vector<urban_nav_store::Session> resumable_;  // those of the store when it was opened
   // Of the session that is being recorded.
   std::optional<urban_nav_store::Session> session_;  // nullopt: not named yet
+  // As odometry announces it, and the next one, which odometry has begun before the observations; null:
+  // nothing.
+  urban_nav_core::OdometrySessionPtr announced_, next_announced_;
   std::shared_ptr<RecordedPlaces> recorded_;
   SessionOdometry odometry_;
   urban_nav_live::TimeJumpDetector time_;                  // of observations

@@ -33,6 +33,7 @@ struct TemporaryStore {
 Session LivePlaces::recordedSession() const {
   if (session_) return *session_;
   urban_nav_live::SessionNamer namer = namer_;
+  if (announced_) return namer.follow(*announced_, resumable_).session;
   return namer.begin(name_.recording, odometry_.start().value_or(first_observed_.value_or(0)), resumable_).session;
 }
 

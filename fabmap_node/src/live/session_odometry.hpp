@@ -17,11 +17,15 @@ class SessionOdometry {
   void add(const urban_nav_core::StampedPose& T_odom_base);
   /// Stamps of observations have jumped back: those that follow belong to the next session.
   void beginNextSession();
+  /// Odometry has begun a session without a jump back: what was driven before is forgotten.
+  void restart() { current_ = Part(); }
   /// Returns true if poses of the next session have arrived.
   bool isAhead() const { return next_.has_value(); }
 
   /// Returns the stamp of the first pose of the session; nullopt before it.
   std::optional<urban_nav_core::StampNs> start() const { return current_.start; }
+  /// Returns the newest stamp of odometry; nullopt before it.
+  std::optional<urban_nav_core::StampNs> newest() const { return time_.newest(); }
   /// Returns the distance driven in the session up to a stamp, m.
   double travelled(urban_nav_core::StampNs stamp) const { return current_.travelled.at(stamp); }
 

@@ -176,6 +176,38 @@ TEST_F(LivePlacesTest, ImagesThatBeginInTheSecondRoundOfARecordingAreOfItsSessio
   EXPECT_EQ(sessions(path_)[0].recording, "begbroke (2)");
 }
 
+TEST_F(LivePlacesTest, SessionsAreThoseOfTheOdometry) {
+  const auto announce = [](const std::string& recording, StampNs start) {
+    return std::make_shared<const urban_nav_core::OdometrySession>(urban_nav_core::OdometrySession{
+        urban_nav_store::makeSessionId({"bart", recording, start, ""}), recording, "bart", recording, start});
+  };
+  const auto first = announce("monday", kMonday), second = announce("monday (2)", kMonday);
+  const StampNs reset_at = kMonday + 6 * kObservationPeriod;
+  const auto third = announce("monday", reset_at);
+  const auto places = begin(path_);
+  drive(*places, kMonday, 0, 2);
+  places->follow(first);
+  drive(*places, kMonday + 2 * kObservationPeriod, 2, 4);
+  // Odometry jumps back before the images do, and announces it.
+  places->addOdometry({kMonday, urban_nav_core::Pose()});
+  places->follow(first);  // what its window still had
+  places->follow(second);
+  observe(*places, kMonday + 4 * kObservationPeriod, 4);
+  drive(*places, kMonday + kObservationPeriod, 5, 8);
+  const PlaceOutput again = observe(*places, kMonday + 5 * kObservationPeriod, 1);
+  for (const auto& closure : again.closures) EXPECT_EQ(closure.b.session, second->id);
+  // A reset of the odometry is a session without a jump back.
+  drive(*places, reset_at, 8, 9);
+  places->follow(third);
+  drive(*places, reset_at + kObservationPeriod, 9, 11);
+  places->save(path_);
+  ASSERT_EQ(sessions(path_).size(), 3u);
+  EXPECT_EQ(rows(path_, first->id).size(), 5u);
+  EXPECT_EQ(rows(path_, second->id).size(), 5u);
+  EXPECT_EQ(rows(path_, third->id).size(), 2u);
+  for (const Session& session : sessions(path_)) EXPECT_EQ(session.robot, "bart");
+}
+
 TEST_F(LivePlacesTest, ASessionWithoutOdometryIsNamedAfterItsFirstObservation) {
   const auto places = begin(path_);
   for (unsigned i = 0; i < 12; ++i) observe(*places, kMonday + i * kObservationPeriod, i);

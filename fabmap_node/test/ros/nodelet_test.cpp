@@ -24,6 +24,7 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/receipts.hpp"
 #include "urban_nav_store/store.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_place.hpp"
@@ -83,13 +84,7 @@ class Head {
     marker_ = nh_.subscribe<visualization_msgs::MarkerArray>(
         "places/markers", 100, [this](const visualization_msgs::MarkerArrayConstPtr& m) { markers = m->markers; });
   }
-  static bool until(const std::function<bool()>& isDone) {
-    for (int i = 0; i < 6000 && ros::ok() && !isDone(); ++i) {
-      ros::spinOnce();
-      ros::WallDuration(0.01).sleep();
-    }
-    return isDone();
-  }
+  static bool until(const std::function<bool()>& isDone) { return urban_nav_ros::testing::Listener::until(isDone); }
   bool connected() {
     return until([this] {
       for (const ros::Publisher& image : images_)
@@ -130,8 +125,7 @@ class Head {
   bool reset() {
     std_srvs::Trigger call;
     const bool done = ros::service::call("fabmap_node/reset", call) && call.response.success;
-    ros::WallDuration(0.1).sleep();
-    ros::spinOnce();
+    EXPECT_TRUE(urban_nav_ros::testing::Receipts("fabmap_node").drain());
     beliefs.clear();
     closures.clear();
     markers.clear();

@@ -18,8 +18,9 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr const char* kLiveSession = "00000000000000000000";
-constexpr StampNs kBackInTime = 1'000'000'000;
-constexpr StampNs kFewSeconds = 5'000'000'000;  // from a pose of odometry until closures near it are measured
+constexpr int kOdometryStream = 0, kStepStream = 1, kFirstLaserStream = 2;
+constexpr StampNs kOdometryPatience = 60'000'000'000;  // ns of scans of a new session that wait for its odometry
+constexpr StampNs kFewSeconds = 5'000'000'000;         // from a pose of odometry until closures near it are measured
 
 /// Returns the poses of a trajectory at the given stamps.
 Trajectory posesAt(const Trajectory& trajectory, const std::set<StampNs>& stamps) {
@@ -50,6 +51,19 @@ std::size_t pointsDigest(const std::vector<MapPoint>& points) {
 LiveMap::LiveMap(const Parameters& parameters, std::string store_path, double cloud_half_length)
     : parameters_(parameters), path_(std::move(store_path)), cloud_half_length_(cloud_half_length) {
   open();
+  sortByRound();
+}
+
+void LiveMap::sortByRound() {
+  urban_nav_live::RoundGate<Add>::Options options;
+  options.leading = {kOdometryStream};
+  options.patience = kOdometryPatience;
+  rounds_ = std::make_unique<urban_nav_live::RoundGate<Add>>(
+      options, urban_nav_live::RoundGate<Add>::Listener{[](Add& add) { add(); }, [this] { clear(); }});
+}
+
+int LiveMap::streamNumber(const std::string& laser) {
+  return streams_.try_emplace(laser, kFirstLaserStream + static_cast<int>(streams_.size())).first->second;
 }
 
 LiveMap::~LiveMap() {
@@ -72,7 +86,11 @@ void LiveMap::open() {
 void LiveMap::clear() {
   open();
   T_odom_base_.clear();
-  T_map_base_.clear();
+  // The graph may have sent poses of the session that begins.
+  T_map_base_.erase(announced_);
+  T_map_base_.erase("");
+  if (!announced_.empty()) ended_.insert(announced_);
+  announced_.clear();
   nodes_.clear();
   drift_ = {};
   by_icp_.clear();
@@ -92,17 +110,29 @@ void LiveMap::addScan(const std::string& laser, const urban_nav_core::Scan& scan
     ++counts_.scans_unplaced;
     return;
   }
-  store_->scans().put(kLiveSession, laser, scan);
-  ++counts_.scans;
+  rounds_->add(streamNumber(laser), scan.stamp, [this, laser, scan] {
+    store_->scans().put(kLiveSession, laser, scan);
+    ++counts_.scans;
+  });
 }
 
 void LiveMap::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
-  if (newest() > T_odom_base.stamp + kBackInTime) clear();
-  T_odom_base_[T_odom_base.stamp] = T_odom_base.pose;
-  counts_.poses = T_odom_base_.size();
+  rounds_->add(kOdometryStream, T_odom_base.stamp, [this, T_odom_base] {
+    T_odom_base_[T_odom_base.stamp] = T_odom_base.pose;
+    counts_.poses = T_odom_base_.size();
+  });
 }
 
-void LiveMap::addStep(const urban_nav_core::RelativePose& step) {
+void LiveMap::addStep(const urban_nav_core::SessionStep& step) {
+  rounds_->add(kStepStream, step.to, [this, step] { take(step); });
+}
+
+void LiveMap::take(const urban_nav_core::SessionStep& step) {
+  if (step.session && step.session->id != announced_) {
+    if (!announced_.empty()) ended_.insert(announced_);
+    announced_ = step.session->id;
+    ended_.erase(announced_);
+  }
   nodes_.insert({step.from, step.to});
   drift_.add(step);
 }
@@ -110,13 +140,24 @@ void LiveMap::addStep(const urban_nav_core::RelativePose& step) {
 void LiveMap::addGraph(const urban_nav_core::GraphUpdate& update) {
   if (revision_ && update.previous != *revision_) ++counts_.updates_missed;
   revision_ = update.revision;
-  for (const urban_nav_core::TrajectorySegment& run : update.segments)
-    for (const urban_nav_core::StampedMapPose& pose : run.poses) T_map_base_[pose.stamp] = pose.T_map_base;
+  for (const urban_nav_core::TrajectorySegment& run : update.segments) {
+    if (ended_.count(run.session) > 0) continue;
+    for (const urban_nav_core::StampedMapPose& pose : run.poses)
+      T_map_base_[run.session][pose.stamp] = T_map_base_[""][pose.stamp] = pose.T_map_base;
+  }
+}
+
+const std::map<StampNs, Pose>& LiveMap::graphPoses() const {
+  static const std::map<StampNs, Pose> none;
+  const auto own = T_map_base_.find(announced_);
+  if (own != T_map_base_.end()) return own->second;
+  const auto all = T_map_base_.find("");
+  return all == T_map_base_.end() ? none : all->second;
 }
 
 void LiveMap::addClosure(const urban_nav_core::MetricClosure& closure) {
-  if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted &&
-      closure.method == urban_nav_core::ClosureMethod::Icp)
+  if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted && isOwn(closure.a.session) &&
+      isOwn(closure.b.session) && closure.method == urban_nav_core::ClosureMethod::Icp)
     by_icp_.push_back({0, 0, closure.a.stamp, closure.b.stamp, closure.measured});
 }
 
@@ -136,15 +177,16 @@ StampNs LiveMap::newest() const { return T_odom_base_.empty() ? 0 : T_odom_base_
 Trajectory LiveMap::trajectory() const {
   Trajectory made;
   Pose T_map_odom;
-  auto next = T_map_base_.begin();
+  const auto& T_map_base = graphPoses();
+  auto next = T_map_base.begin();
   bool known = false;
   for (const auto& [stamp, T_odom_base] : T_odom_base_) {
-    while (next != T_map_base_.end() && next->first < stamp) ++next;
-    if (next != T_map_base_.end() && next->first == stamp) {
+    while (next != T_map_base.end() && next->first < stamp) ++next;
+    if (next != T_map_base.end() && next->first == stamp) {
       T_map_odom = next->second * T_odom_base.inverse();
       known = true;
     }
-    if (known || T_map_base_.empty()) made.append(stamp, T_map_odom * T_odom_base);
+    if (known || T_map_base.empty()) made.append(stamp, T_map_odom * T_odom_base);
   }
   return made;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,14 +21,17 @@
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_live/round_gate.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace laser_mapper {
 
 /// The map of a session that is still going on: LaserMap over a temporary session store. Between the poses of the graph
 /// the robot moves as odometry says; without a graph the map is in the frame of odometry. When poses of the graph move,
-/// the chunks along them are rendered again. Not thread-safe. Throws UserError or DataError if the store cannot be
+/// the chunks along them are rendered again. Odometry whose stamps jump back begins a new session, with an empty map
+/// (urban_nav_live::RoundGate). Not thread-safe. Throws UserError or DataError if the store cannot be
 /// written.
 class LiveMap {
  public:
@@ -52,11 +56,11 @@ class LiveMap {
   bool isPlaced(const std::string& laser) const { return placed_.count(laser) != 0; }
   void placeLaser(const std::string& laser, const urban_nav_core::Pose& T_base_laser);
   void addScan(const std::string& laser, const urban_nav_core::Scan& scan);
-  /// A pose earlier than the last one by over a second begins a new session.
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
-  /// A step of odometry between two poses of the graph: constraints are between such poses.
-  void addStep(const urban_nav_core::RelativePose& step);
+  /// A step of odometry between two poses of the graph: constraints are between such poses. It names the session, whose
+  /// poses and closures alone are used then.
+  void addStep(const urban_nav_core::SessionStep& step);
   /// A closure of the running session; ignored unless it was accepted and measured by ICP.
   void addClosure(const urban_nav_core::MetricClosure& closure);
 
@@ -91,6 +95,16 @@ class LiveMap {
   urban_nav_core::StampNs newest() const;
 
  private:
+  using Add = std::function<void()>;
+  void sortByRound();
+  int streamNumber(const std::string& laser);
+  void take(const urban_nav_core::SessionStep& step);
+  /// Returns whether a pose is of this session, as far as odometry has announced it.
+  bool isOwn(const std::string& session) const {
+    return session.empty() || announced_.empty() || session == announced_;
+  }
+  /// Returns the poses of the graph in this session.
+  const std::map<urban_nav_core::StampNs, urban_nav_core::Pose>& graphPoses() const;
   void open();
   void update(LaserMap& map);
   std::vector<CloudClosure> cloudClosures(const urban_nav_core::Trajectory& trajectory) const;
@@ -109,7 +123,11 @@ class LiveMap {
   const double cloud_half_length_;
   std::unique_ptr<urban_nav_store::Store> store_;
   std::map<std::string, urban_nav_core::Pose> placed_;
-  std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_, T_map_base_;
+  std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_;
+  std::string announced_;        ///< id of the session; empty: odometry has not announced it
+  std::set<std::string> ended_;  ///< sessions before, that odometry has announced
+  /// Keyed by session: rounds of a recording have the same stamps. Under "": those of all sessions that have not ended.
+  std::map<std::string, std::map<urban_nav_core::StampNs, urban_nav_core::Pose>> T_map_base_;
   std::set<urban_nav_core::StampNs> nodes_;
   OdometryDrift drift_;
   std::vector<CloudClosure> by_icp_;                         ///< accepted
@@ -117,6 +135,8 @@ class LiveMap {
   std::optional<std::int64_t> revision_;
   std::map<Tile, TileState> tiles_;
   Counts counts_;
+  std::map<std::string, int> streams_;  ///< of the lasers
+  std::unique_ptr<urban_nav_live::RoundGate<Add>> rounds_;
 };
 
 }  // namespace laser_mapper

@@ -70,6 +70,36 @@ TEST_F(LiveMapTest, FollowsThePosesOfTheGraphAndRendersOnlyWhatMoved) {
   EXPECT_EQ(map_.counts().updates_missed, 1U);
 }
 
+TEST_F(LiveMapTest, PosesOfAnEarlierRoundAtTheSameTimesAreNotUsed) {
+  const auto announce = [this](const std::string& id) {
+    urban_nav_core::SessionStep step;
+    step.from = trajectory_[0].stamp;
+    step.to = trajectory_[1].stamp;
+    step.session = std::make_shared<const urban_nav_core::OdometrySession>(
+        urban_nav_core::OdometrySession{id, "", "", "", step.from});
+    map_.addStep(step);
+  };
+  const auto place = [this](const std::string& session, double height) {
+    urban_nav_core::GraphUpdate update;
+    update.segments.emplace_back();
+    update.segments.back().session = session;
+    for (const auto& pose : trajectory_)
+      update.segments.back().poses.push_back(
+          {pose.stamp, Pose(Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, height)) * pose.pose});
+    map_.addGraph(update);
+  };
+  drive();
+  announce("first");
+  place("first", 100.0);
+  drive();
+  place("first", 100.0);  // a batch of the graph at the end of the round
+  EXPECT_LT(median(map_.render(), T_odom_room_.inverse()), 0.003) << "nothing is known of the second round yet";
+  place("second", 0.0);
+  announce("second");
+  place("first", 100.0);
+  EXPECT_LT(median(map_.render(), Pose()), 0.003);
+}
+
 TEST_F(LiveMapTest, ASessionThatBeginsAgainForgetsTheOneBefore) {
   drive();
   EXPECT_FALSE(map_.render().empty());

@@ -19,6 +19,7 @@ void LiveLaserOdometry::process(const urban_nav_core::Sweep& sweep) {
   if (!odometry_) {
     odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_);
     ++sessions_;
+    session_ = urban_nav_live::toOdometrySession(namer_.begin(recording_, sweep.reference).session);
   }
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();

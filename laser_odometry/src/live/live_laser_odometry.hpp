@@ -7,6 +7,7 @@
 #include <string>
 
 #include "laser_odometry/laser_odometry.hpp"
+#include "urban_nav_live/session_namer.hpp"
 #include "urban_nav_live/stage_report.hpp"
 
 namespace laser_odometry {
@@ -16,8 +17,10 @@ class LiveLaserOdometry {
  public:
   using Listener = std::function<void(const LaserPose& pose, double process_ms)>;
 
-  LiveLaserOdometry(const Parameters& parameters, Listener listener)
-      : parameters_(parameters), listener_(std::move(listener)) {}
+  /// `robot`, `recording`: parts of the ids of sessions; may be empty.
+  LiveLaserOdometry(const Parameters& parameters, Listener listener, const std::string& robot = "",
+                    std::string recording = "")
+      : parameters_(parameters), listener_(std::move(listener)), recording_(std::move(recording)), namer_(robot) {}
 
   /// Sets where the LiDAR is mounted. Another place than before ends the session.
   void place(const urban_nav_core::Pose& T_base_lidar);
@@ -32,6 +35,8 @@ class LiveLaserOdometry {
   bool isPlaced() const { return is_placed_; }
   bool isRunning() const { return odometry_ != nullptr; }
   std::int64_t sessions() const { return sessions_; }
+  /// Returns the session of the newest sweep; null before the first.
+  const urban_nav_core::OdometrySessionPtr& session() const { return session_; }
   /// Returns the planes of the local map; empty without a session.
   std::vector<MapPoint> localMap() const;
   /// Returns the state for the operator: a warning while there is no session.
@@ -40,6 +45,9 @@ class LiveLaserOdometry {
  private:
   const Parameters parameters_;
   const Listener listener_;
+  const std::string recording_;
+  urban_nav_live::SessionNamer namer_;
+  urban_nav_core::OdometrySessionPtr session_;
   bool is_placed_ = false;
   urban_nav_core::Pose T_base_lidar_;
   std::unique_ptr<LaserOdometry> odometry_;

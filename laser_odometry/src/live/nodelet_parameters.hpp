@@ -11,6 +11,7 @@ namespace laser_odometry {
 /// nodeletTable().
 struct NodeletParameters {
   std::string base_frame, odom_frame;
+  std::string robot, recording;
   bool publish_tf;
   bool deskewed;
   int queue_size;  // messages

@@ -135,14 +135,26 @@ void ClosureVerifier::endSession(const SessionStarted* next) {
   last_step_ = Clock::now();
 }
 
+/// Recognition of places may name the session that begins next before its odometry comes here.
+bool ClosureVerifier::isKnown(const PoseRef& at) {
+  if (at.session.empty() || sessions_.count(at.session) > 0) return true;
+  try {
+    return reader_ && reader_->sessions().find(at.session);
+  } catch (const urban_nav_core::Error&) {
+    return true;  // it is named when the candidate is measured
+  }
+}
+
 /// A candidate is due if neither pose is of the running session, or if the robot has driven on from the later one by
 /// the extent of a cloud (of the keyframe search, without lasers), or has had the time to, or if odometry has ended.
-bool ClosureVerifier::isDue(const Candidate& candidate) const {
+bool ClosureVerifier::isDue(const Candidate& candidate) {
   StampNs later = 0;
   for (const PoseRef* at : {&candidate.closure.a, &candidate.closure.b})
     if (at->session.empty() || at->session == running_) later = std::max(later, at->stamp);
-  if (later == 0) return true;
+  const bool is_known = isKnown(candidate.closure.a) && isKnown(candidate.closure.b);
+  if (later == 0 && is_known) return true;
   if (Clock::now() - std::max(last_step_, candidate.received) >= timeout_) return true;
+  if (!is_known) return false;
   const auto session = sessions_.find(running_);
   if (session == sessions_.end() || session->second.odometry.empty()) return false;
   const StampNs newest = session->second.odometry.newest();
@@ -155,6 +167,7 @@ bool ClosureVerifier::isDue(const Candidate& candidate) const {
 }
 
 bool ClosureVerifier::verifyNext() {
+  openReader();
   const auto due =
       std::find_if(waiting_.begin(), waiting_.end(), [this](const Candidate& each) { return isDue(each); });
   if (due == waiting_.end()) return false;

@@ -88,7 +88,8 @@ class ClosureVerifier {
   void addStep(const urban_nav_core::RelativePose& step);
   void setCamera(const urban_nav_registration::MountedCamera& camera);
   void endSession(const SessionStarted* next);
-  bool isDue(const Candidate& candidate) const;
+  bool isKnown(const urban_nav_core::PoseRef& at);
+  bool isDue(const Candidate& candidate);
   /// Returns false if no candidate is due.
   bool verifyNext();
   /// `by_id`: the running session is named by its id, since another one is about to begin.

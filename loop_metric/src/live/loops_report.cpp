@@ -34,12 +34,19 @@ const char* toString(StageFault fault) {
   return "NoLaserPlace";
 }
 
+std::string givenUp(std::int64_t candidates) {
+  return std::to_string(candidates) +
+         " candidates of loop closures are given up: not measured within drain_s; raise it";
+}
+
 urban_nav_live::StageReport makeReport(const LoopsState& state) {
   urban_nav_live::StageReport report;
   const auto [fault, sentence] = findFault(state);
   if (fault != StageFault::None) report.status = {urban_nav_core::Health::Degraded, static_cast<int>(fault), sentence};
   report.reason_name = toString(fault);
   report.is_error = fault == StageFault::NotStored;
+  if (state.stereo && !state.paused) report.warn(state.camera);
+  state.beams.addTo(report);
   report.add("session", state.recorder.session);
   report.add("parts of its odometry", state.verifier.parts);
   report.add("keyframes stored", state.recorder.keyframes.extracted);

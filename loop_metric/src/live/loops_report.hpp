@@ -6,6 +6,7 @@
 
 #include "live/closure_verifier.hpp"
 #include "live/session_recorder.hpp"
+#include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_live/stage_report.hpp"
 
 namespace loop_metric {
@@ -33,11 +34,14 @@ struct LoopsState {
   std::string odometry_fault, image_fault, laser_fault;  ///< of topics; empty: none
   std::string camera_fault, laser_pose_fault;
   std::string camera;  ///< how it is mounted
+  urban_nav_live::BeamFaults beams;
   std::int64_t candidates = 0, damaged_images = 0;
   std::string last_verdict;
   double last_ms = 0.0;
 };
 
+/// Returns the sentence on candidates that were not measured before the end of the stage.
+std::string givenUp(std::int64_t candidates);
 /// Returns the report: the most severe fault first, then figures.
 urban_nav_live::StageReport makeReport(const LoopsState& state);
 

@@ -9,7 +9,7 @@
 
 namespace loop_metric {
 
-using urban_nav_core::RelativePose;
+using urban_nav_core::SessionStep;
 using urban_nav_core::StampNs;
 using urban_nav_live::SessionNamer;
 using urban_nav_registration::kKeyframeCamera;
@@ -94,8 +94,9 @@ std::vector<std::string> SessionRecorder::unplacedLasers() const {
   return frames;
 }
 
-void SessionRecorder::addStep(const RelativePose& step) {
-  if (!session_ || step_time_.jumpsBack(step.from)) begin(step.from);
+void SessionRecorder::addStep(const SessionStep& step) {
+  const bool is_next = step.session ? step.session->id != announced_ : step_time_.jumpsBack(step.from);
+  if (!session_ || is_next) begin(step);
   std::vector<Node> nodes;
   std::optional<urban_nav_store::Edge> edge;
   if (!odometry_.write(session_->id, step, nodes, edge)) {
@@ -107,12 +108,20 @@ void SessionRecorder::addStep(const RelativePose& step) {
     for (const Node& node : nodes) file.graph().put(session, node);
     file.graph().put(*edge);
   });
-  verifier_.push(step);
+  verifier_.push(static_cast<const urban_nav_core::RelativePose&>(step));
 }
 
-SessionNamer::Named SessionRecorder::nameSession(StampNs start) {
+SessionNamer::Named SessionRecorder::nameSession(const SessionStep& first) {
   odometry_ = OdometryRows();
-  if (!store_.isOpen()) return namer_.begin(options_.recording, start);
+  const StampNs start = first.from;
+  const auto name = [&](const std::vector<Session>& stored, const SessionNamer::EndsAt& endsAt) {
+    if (!first.session) return namer_.begin(options_.recording, start, stored, endsAt);
+    SessionNamer::Named named = namer_.follow(*first.session, stored);
+    named.continues = named.resumed && start > named.session.start;
+    if (named.continues) endsAt(named.session, start);
+    return named;
+  };
+  if (!store_.isOpen()) return name({}, {});
   try {
     Store file(store_.path(), Access::Read);
     const auto endsAt = [&](const Session& session, StampNs stamp) {
@@ -123,18 +132,19 @@ SessionNamer::Named SessionRecorder::nameSession(StampNs start) {
       odometry_.continueFrom(later.front());
       return true;
     };
-    return namer_.begin(options_.recording, start, file.sessions().all(), endsAt);
+    return name(file.sessions().all(), endsAt);
   } catch (const urban_nav_core::Error&) {
-    return namer_.begin(options_.recording, start);  // a store that cannot be read is named when it is written
+    return name({}, {});  // a store that cannot be read is named when it is written
   }
 }
 
-void SessionRecorder::begin(StampNs start) {
+void SessionRecorder::begin(const SessionStep& first) {
   end();
-  const SessionNamer::Named named = nameSession(start);
+  const SessionNamer::Named named = nameSession(first);
   session_ = named.session;
+  announced_ = urban_nav_core::sessionId(first.session);
   step_time_.reset();
-  step_time_.advance(start);
+  step_time_.advance(first.from);
   images_are_next_ = false;
   storeSession();
   verifier_.push(ClosureVerifier::SessionStarted{session_->id, named.continues});

@@ -12,6 +12,7 @@
 #include "live/closure_verifier.hpp"
 #include "live/odometry_rows.hpp"
 #include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_live/session_namer.hpp"
 #include "urban_nav_live/store_writer_link.hpp"
 #include "urban_nav_live/time_jump.hpp"
@@ -19,8 +20,8 @@
 
 namespace loop_metric {
 
-/// Records what candidates may need into the store: keyframes, scans and odometry of the running session. Names the
-/// session, as all stages of a robot do, and reports it to the verifier. Used by one thread.
+/// Records what candidates may need into the store: keyframes, scans and odometry of the running session, which is that
+/// of the odometry, and reports it to the verifier. Used by one thread.
 class SessionRecorder {
  public:
   struct Options {
@@ -49,8 +50,9 @@ class SessionRecorder {
   void setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   /// Returns the frames of lasers that have scans and no pose.
   std::vector<std::string> unplacedLasers() const;
-  /// Appends a step of smoothed odometry. The first one, and one after a jump back in time, begins a session.
-  void addStep(const urban_nav_core::RelativePose& step);
+  /// Appends a step of smoothed odometry. The first one of a session of the odometry begins it here; where odometry
+  /// does not announce sessions, the first one and one after a jump back in time.
+  void addStep(const urban_nav_core::SessionStep& step);
 
   /// Opens the store when an attempt is due. To be called some ten times a second.
   void idle();
@@ -68,9 +70,9 @@ class SessionRecorder {
   };
 
   void storeKeyframes();
-  void begin(urban_nav_core::StampNs start);
+  void begin(const urban_nav_core::SessionStep& first);
   /// Names the session, and prepares the odometry to continue a stored one.
-  urban_nav_live::SessionNamer::Named nameSession(urban_nav_core::StampNs start);
+  urban_nav_live::SessionNamer::Named nameSession(const urban_nav_core::SessionStep& first);
   void storeSession();
   /// Into the running session, or into the one that begins next.
   void store(bool is_next, Write write);
@@ -86,6 +88,7 @@ class SessionRecorder {
   std::map<std::string, Laser> lasers_;  // by frame
   urban_nav_live::SessionNamer namer_;
   std::optional<Session> session_;
+  std::string announced_;  // id of session_ by the odometry; empty: it does not announce it
   OdometryRows odometry_;
   std::deque<Write> before_;  // the session began
   std::int64_t scans_ = 0, refused_steps_ = 0, not_stored_ = 0;

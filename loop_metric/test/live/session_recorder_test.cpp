@@ -42,7 +42,11 @@ class SessionRecorderTest : public ::testing::Test {
                                                   SessionRecorder::Options{"lisa", "begbroke"}, *store_, *verifier_);
     recorder_->idle();
   }
-  void drive(int from, int to, StampNs first = kStart) {
+  static urban_nav_core::OdometrySessionPtr announce(const std::string& recording, StampNs start) {
+    return std::make_shared<const urban_nav_core::OdometrySession>(urban_nav_core::OdometrySession{
+        urban_nav_store::makeSessionId({"bart", recording, start, ""}), recording, "bart", recording, start});
+  }
+  void drive(int from, int to, StampNs first = kStart, const urban_nav_core::OdometrySessionPtr& session = nullptr) {
     for (int i = from; i < to; ++i) {
       RelativePose step;
       step.from = first + i * kPeriod;
@@ -51,7 +55,7 @@ class SessionRecorderTest : public ::testing::Test {
       step.covariance = 1e-4 * urban_nav_core::Matrix6d::Identity();
       step.drift_covariance = 0.25 * step.covariance;
       step.source = "swf_vo";
-      recorder_->addStep(step);
+      recorder_->addStep({step, session});
     }
   }
   std::vector<Session> stored() {
@@ -90,6 +94,31 @@ TEST_F(SessionRecorderTest, AJumpBackInTimeBeginsAnotherSession) {
   ASSERT_EQ(stored().size(), 2U);
   EXPECT_NE(stored()[0].id, stored()[1].id);
   for (const Session& session : stored()) EXPECT_EQ(nodes(session), 6U);
+}
+
+TEST_F(SessionRecorderTest, SessionsAreThoseOfTheOdometry) {
+  const auto first = announce("monday", kStart), second = announce("monday (2)", kStart);
+  drive(0, 5, kStart, first);
+  drive(0, 3, kStart, second);
+  EXPECT_EQ(recorder_->state().session, second->id);
+  drive(10, 12, kStart, second);
+  ASSERT_EQ(stored().size(), 2U) << "a gap is no new session";
+  for (const Session& session : stored()) {
+    EXPECT_TRUE(session.id == first->id || session.id == second->id);
+    EXPECT_EQ(session.robot, "bart");
+    EXPECT_EQ(session.start, kStart);
+    EXPECT_EQ(session.complete, session.id == first->id);
+    EXPECT_EQ(nodes(session), session.id == first->id ? 6U : 7U);
+  }
+}
+
+TEST_F(SessionRecorderTest, ASessionOfTheOdometryGoesOnAfterARestart) {
+  const auto announced = announce("monday", kStart);
+  drive(0, 5, kStart, announced);
+  restart();
+  drive(8, 10, kStart, announced);  // what came between is lost
+  ASSERT_EQ(stored().size(), 1U);
+  EXPECT_EQ(nodes(stored()[0]), 9U);
 }
 
 TEST_F(SessionRecorderTest, OdometryThatContinuesAStoredSessionExtendsIt) {

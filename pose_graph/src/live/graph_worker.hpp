@@ -21,7 +21,7 @@ namespace pose_graph {
 class GraphWorker {
  public:
   using Input =
-      std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure, urban_nav_core::RelativeConstraint,
+      std::variant<urban_nav_core::SessionStep, urban_nav_core::MetricClosure, urban_nav_core::RelativeConstraint,
                    urban_nav_core::StampedPose, SpecificForce, GroundNormal, PositionFix>;
 
   struct Listener {

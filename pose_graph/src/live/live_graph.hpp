@@ -14,6 +14,7 @@
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_core/types/status.hpp"
 #include "urban_nav_live/store_writer_link.hpp"
 
@@ -31,6 +32,7 @@ struct Figures {
   std::int64_t revision = 0;
   std::int64_t sessions = 0, sessions_joined = 0, poses = 0, edges = 0;
   std::int64_t closures = 0, closures_rejected = 0, closures_waiting = 0;
+  std::int64_t closures_given_up = 0;  ///< odometry never reached their poses
   double cost_before = 0.0, cost_after = 0.0, relax_ms = 0.0;
 };
 /// Returns "201 poses, 2 closures, 0 rejected, 0 waiting; cost 41.5 -> 12.1 in 3.2 ms".
@@ -73,7 +75,7 @@ class LiveGraph {
   virtual ~LiveGraph() = default;
 
   /// Adds an input; cheap.
-  virtual void add(const urban_nav_core::RelativePose& step) = 0;
+  virtual void add(const urban_nav_core::SessionStep& step) = 0;
   virtual void add(const urban_nav_core::MetricClosure& closure) = 0;
   virtual void add(const urban_nav_core::RelativeConstraint& constraint) = 0;
   /// Adds T_odom_base as odometry published it.

@@ -69,10 +69,31 @@ LivePoseGraph::~LivePoseGraph() {
   if (writer_) writer_->flush(graph_);
 }
 
-void LivePoseGraph::beginSession(const std::string& name, StampNs start) {
+void LivePoseGraph::follow(const urban_nav_core::SessionStep& step) {
+  const bool is_next =
+      step.session ? step.session->id != announced_ : session_.empty() || odometry_time_.jumpsBack(step.from);
+  if (!is_next) return;
+  prepareSession(step.from);
+  announced_ = urban_nav_core::sessionId(step.session);
+  const std::vector<urban_nav_store::Session> resumable = resumableSessions();
+  const bool is_resumable = graph_.hasSession(announced_) && resumable_.count(announced_) > 0;
+  // An id whose poses were reset, or came from elsewhere, is not used again.
+  if (step.session && (is_resumable || !namer_.isReserved(announced_)))
+    return beginSession(namer_.follow(*step.session, resumable));
+  beginSession(nameSession(step.session ? step.session->recording : recording_, step.from));
+}
+
+void LivePoseGraph::prepareSession(StampNs start) {
   endSession();
   if (!session_.empty()) {
-    held_.clear();
+    std::deque<Held> others;  // closures may name the next session before its odometry comes
+    const auto never_comes = [this](const NodeRef& node) {
+      return node.session.empty() || (node.session == session_ && node.stamp > newest());
+    };
+    for (Held& held : std::exchange(held_, {}))
+      if (never_comes(held.closure.a) || never_comes(held.closure.b)) ++given_up_;
+      else others.push_back(std::move(held));
+    held_ = std::move(others);
     session_ended_ = newest() > 0;
   }
   forces_.beginSession();
@@ -83,15 +104,25 @@ void LivePoseGraph::beginSession(const std::string& name, StampNs start) {
   fixes_at_ = start + kFixesPeriod;
   odometry_time_.reset();
   odometry_time_.advance(start);
+}
 
+std::vector<urban_nav_store::Session> LivePoseGraph::resumableSessions() const {
   std::vector<urban_nav_store::Session> resumable;
   for (const SessionId& id : resumable_)
     if (graph_.hasSession(id)) resumable.push_back(sessions_.at(id));
+  return resumable;
+}
+
+urban_nav_live::SessionNamer::Named LivePoseGraph::nameSession(const std::string& recording, StampNs start) {
   const auto endsAt = [this](const urban_nav_store::Session& session, StampNs stamp) {
     const Track* track = graph_.track(session.id);
     return track != nullptr && !track->stamps.empty() && track->stamps.back() == stamp;
   };
-  const auto named = namer_.begin(name, start, resumable, endsAt);
+  return namer_.begin(recording, start, resumableSessions(), endsAt);
+}
+
+void LivePoseGraph::beginSession(const urban_nav_live::SessionNamer::Named& named) {
+  ++sessions_begun_;
   session_ = named.session.id;
   if (named.resumed) {
     graph_.goOn(session_);
@@ -115,8 +146,8 @@ void LivePoseGraph::endSession() {
   if (writer_) writer_->put(session);
 }
 
-void LivePoseGraph::add(const urban_nav_core::RelativePose& step) {
-  if (session_.empty() || odometry_time_.jumpsBack(step.from)) beginSession(recording_, step.from);
+void LivePoseGraph::add(const urban_nav_core::SessionStep& step) {
+  follow(step);
   odometry_time_.advance(step.to);
   if (!graph_.addOdometry(session_, step)) return;
   const auto& tracks = graph_.tracks();
@@ -169,29 +200,39 @@ void LivePoseGraph::add(const urban_nav_core::MetricClosure& closure) {
 
 void LivePoseGraph::add(const urban_nav_core::RelativeConstraint& constraint) { addOrHold(toClosure(constraint), ""); }
 
-NodeRef LivePoseGraph::toNode(const PoseRef& ref) const {
-  return {ref.session.empty() ? session_ : ref.session, ref.stamp};
+NodeRef LivePoseGraph::toNode(const PoseRef& ref) const { return {findSession(ref.session, ref.stamp), ref.stamp}; }
+
+bool LivePoseGraph::isAhead(const NodeRef& node, int sessions) const {
+  if (node.session.empty()) return true;
+  if (node.session == session_) return node.stamp > newest();
+  return !announced_.empty() && !graph_.hasSession(node.session) && sessions == sessions_begun_;
 }
 
-bool LivePoseGraph::isAhead(const NodeRef& node) const {
-  return node.session.empty() || (node.session == session_ && node.stamp > newest());
+bool LivePoseGraph::isAhead(const Held& held) const {
+  return isAhead(held.closure.a, held.sessions) || isAhead(held.closure.b, held.sessions);
 }
 
-bool LivePoseGraph::isAhead(const Closure& closure) const { return isAhead(closure.a) || isAhead(closure.b); }
+SessionId LivePoseGraph::findSession(const SessionId& named, StampNs stamp) const {
+  if (named.empty()) return session_;
+  if (named != announced_ || announced_ == session_) return named;
+  const Track* before = graph_.track(named);  // until new_session was called
+  return before != nullptr && !before->stamps.empty() && stamp <= before->stamps.back() ? named : session_;
+}
 
 void LivePoseGraph::nameSessions(Closure& closure) const {
-  if (closure.a.session.empty()) closure.a.session = session_;
-  if (closure.b.session.empty()) closure.b.session = session_;
+  closure.a.session = findSession(closure.a.session, closure.a.stamp);
+  closure.b.session = findSession(closure.b.session, closure.b.stamp);
 }
 
 void LivePoseGraph::addOrHold(Closure closure, const std::string& evidence) {
   nameSessions(closure);
-  if (isAhead(closure)) {
-    if (held_.size() == kMaxHeld) held_.pop_front();
-    held_.emplace_back(std::move(closure), evidence);
-    return;
+  Held held{std::move(closure), evidence, sessions_begun_};
+  if (!isAhead(held)) return addClosure(held.closure, held.evidence);
+  if (held_.size() == kMaxHeld) {
+    held_.pop_front();
+    ++given_up_;
   }
-  addClosure(closure, evidence);
+  held_.push_back(std::move(held));
 }
 
 void LivePoseGraph::addClosure(const Closure& closure, const std::string& evidence) {
@@ -209,16 +250,16 @@ void LivePoseGraph::addClosure(const Closure& closure, const std::string& eviden
 }
 
 void LivePoseGraph::addHeldClosures() {
-  std::deque<std::pair<Closure, std::string>> held;
+  std::deque<Held> held;
   std::string refusal;
-  for (auto& [closure, evidence] : std::exchange(held_, {})) {
-    nameSessions(closure);  // of one that arrived before the first odometry of its session
-    if (isAhead(closure)) {
-      held.emplace_back(std::move(closure), std::move(evidence));
+  for (Held& each : std::exchange(held_, {})) {
+    nameSessions(each.closure);  // of one that arrived before the first odometry of its session
+    if (isAhead(each)) {
+      held.push_back(std::move(each));
       continue;
     }
     try {
-      addClosure(closure, evidence);
+      addClosure(each.closure, each.evidence);
     } catch (const UserError& error) {
       refusal = error.what();
     }
@@ -330,6 +371,7 @@ LiveGraph::Outcome LivePoseGraph::finish(const Relaxed& relaxed) {
   updateMapToOdom();
   for (const Relaxed::Run& run : relaxed.moved) revisions_[run.track].setMoved({run.first, run.last}, relaxed.revision);
   Outcome outcome = toOutcome(relaxed, graph_);
+  outcome.figures.closures_given_up = given_up_;
   outcome.status = status();
   outcome.reason_name = toString(static_cast<Trouble>(outcome.status.reason));
   return outcome;
@@ -399,7 +441,9 @@ LiveGraph::DeferredTask LivePoseGraph::save(const std::string& path) {
 
 std::string LivePoseGraph::newSession(const std::string& name) {
   if (session_.empty()) throw UserError("", "no session is being recorded: the first odometry begins one", "");
-  beginSession(name.empty() ? recording_ : name, newest());
+  const StampNs start = newest();
+  prepareSession(start);
+  beginSession(nameSession(name.empty() ? recording_ : name, start));
   return session_;
 }
 
@@ -415,6 +459,7 @@ void LivePoseGraph::reset() {
   }
   graph_ = PoseGraph(parameters_, graph_.revision() + 1);  // must not be taken for the one before
   session_.clear();
+  announced_.clear();
   odometry_time_.reset();
   resumable_.clear();
   held_.clear();

@@ -23,8 +23,9 @@
 
 namespace pose_graph {
 
-/// Pose graph of a live robot: names and resumes sessions (urban_nav_live::SessionNamer), holds closures back until
-/// odometry has reached their poses, converts what a relaxation did to outputs, and writes all of it to a store.
+/// Pose graph of a live robot: follows and resumes the sessions of the odometry (urban_nav_live::SessionNamer), holds
+/// closures back until odometry has reached their poses, converts what a relaxation did to outputs, and writes all of
+/// it to a store.
 class LivePoseGraph : public LiveGraph {
  public:
   /// `store`: path of the file; empty: none. Throws UserError if Parameters::solver names a reference solver.
@@ -32,7 +33,7 @@ class LivePoseGraph : public LiveGraph {
                 const std::string& store = "");
   ~LivePoseGraph() override;
 
-  void add(const urban_nav_core::RelativePose& step) override;
+  void add(const urban_nav_core::SessionStep& step) override;
   void add(const urban_nav_core::MetricClosure& closure) override;
   void add(const urban_nav_core::RelativeConstraint& constraint) override;
   void add(const urban_nav_core::StampedPose& odometry) override;
@@ -67,14 +68,27 @@ class LivePoseGraph : public LiveGraph {
   struct Loaded {
     std::size_t sessions = 0, known = 0, poses = 0, closures = 0, refused = 0;
   };
-  void beginSession(const std::string& name, StampNs start);
+  /// Closure whose poses odometry has not reached.
+  struct Held {
+    Closure closure;
+    std::string evidence;
+    int sessions = 0;  ///< begun when it came
+  };
+  /// Begins the session to which a step belongs, if it belongs to another one than the step before.
+  void follow(const urban_nav_core::SessionStep& step);
+  void prepareSession(StampNs start);
+  void beginSession(const urban_nav_live::SessionNamer::Named& named);
+  urban_nav_live::SessionNamer::Named nameSession(const std::string& recording, StampNs start);
+  std::vector<urban_nav_store::Session> resumableSessions() const;
   void writeSession(const urban_nav_store::Session& session);
   void endSession();
   NodeRef toNode(const urban_nav_core::PoseRef& ref) const;
-  /// Returns true if odometry has not reached the pose yet.
-  bool isAhead(const NodeRef& node) const;
-  bool isAhead(const Closure& closure) const;
-  /// Assigns poses without a session to the running one.
+  /// Returns true if odometry has not reached the pose yet. `sessions`: number of those begun when it was named, since
+  /// a closure may name the next session before its odometry comes.
+  bool isAhead(const NodeRef& node, int sessions) const;
+  bool isAhead(const Held& held) const;
+  /// Returns the session of the graph in which a pose is: the running one if it names none.
+  SessionId findSession(const SessionId& named, StampNs stamp) const;
   void nameSessions(Closure& closure) const;
   void addOrHold(Closure closure, const std::string& evidence);
   void addClosure(const Closure& closure, const std::string& evidence);
@@ -95,11 +109,15 @@ class LivePoseGraph : public LiveGraph {
   urban_nav_live::StoreWriterLink link_;
   std::unique_ptr<GraphStoreWriter> writer_;  // null: no store is open
   urban_nav_live::SessionNamer namer_;
-  SessionId session_;                                       // empty: no odometry yet
+  SessionId session_;    // empty: no odometry yet
+  SessionId announced_;  // of the odometry; session_ is another one after new_session and reset. Empty: it does not
+                         // announce it
+  int sessions_begun_ = 0;
+  std::int64_t given_up_ = 0;                               // closures
   urban_nav_live::TimeJumpDetector odometry_time_;          // of the running session
   std::map<SessionId, urban_nav_store::Session> sessions_;  // of the graph and of the store
   std::set<SessionId> resumable_;                           // begun by an earlier process
-  std::deque<std::pair<Closure, std::string>> held_;        // with their evidence, until odometry reaches their poses
+  std::deque<Held> held_;                                   // until odometry reaches their poses
   std::vector<PoseRevisions> revisions_;                    // of each track
   std::deque<Outcome> ready_;                               // of relaxations that a service made
   bool changed_ = false;                                    // since the last relaxation

@@ -26,7 +26,7 @@ class Note : public LiveGraph {
   };
   explicit Note(std::chrono::milliseconds relaxing) : relaxing_(relaxing) {}
 
-  void add(const urban_nav_core::RelativePose& step) override {
+  void add(const urban_nav_core::SessionStep& step) override {
     if (step.to <= step.from) throw UserError("step", "backwards", "");
     book.steps.push_back(step.to);
   }

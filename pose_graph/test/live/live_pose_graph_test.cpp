@@ -49,9 +49,18 @@ class LivePoseGraphTest : public ::testing::Test {
     graph->syncStore();
     return graph;
   }
-  static void drive(LivePoseGraph& graph, int first, int end) {
-    for (int i = first; i < end; ++i) graph.add(testing::stepAt(i));
+  static void drive(LivePoseGraph& graph, int first, int end) { drive(graph, first, end, nullptr); }
+  static void drive(LivePoseGraph& graph, int first, int end, const urban_nav_core::OdometrySessionPtr& session) {
+    for (int i = first; i < end; ++i) {
+      graph.add(urban_nav_core::SessionStep(testing::stepAt(i), session));
+    }
     graph.syncStore();
+  }
+  /// Returns the announced session of a round of the recording.
+  static urban_nav_core::OdometrySessionPtr announce(int round) {
+    const std::string recording = "monday (" + std::to_string(round) + ")";
+    return std::make_shared<const urban_nav_core::OdometrySession>(urban_nav_core::OdometrySession{
+        urban_nav_store::makeSessionId({"lisa", recording, 0, ""}), recording, "lisa", recording, 0});
   }
   /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is
   /// more than that.
@@ -184,6 +193,54 @@ TEST_F(LivePoseGraphTest, ABagThatIsLoopedIsASessionEachTime) {
   std::size_t steps = 0;
   for (const auto& chain : stored().chains) steps += chain.steps.size();
   EXPECT_EQ(steps, 95u);
+}
+
+TEST_F(LivePoseGraphTest, SessionsAreThoseOfTheOdometry) {
+  auto graph = begin("own name");
+  for (int round = 1; round <= 3; ++round) drive(*graph, 0, 20, announce(round));
+  graph->add(testing::stepAt(25));  // of an odometry that does not announce it: the session before, and a gap
+  graph.reset();
+  const StoredGraph kept = stored();
+  ASSERT_GE(kept.chains.size(), 3u);
+  for (int round = 1; round <= 3; ++round) {
+    const auto chain = std::find_if(kept.chains.begin(), kept.chains.end(),
+                                    [&](const auto& each) { return each.session.id == announce(round)->id; });
+    ASSERT_NE(chain, kept.chains.end()) << round;
+    EXPECT_EQ(chain->session.recording, announce(round)->recording);
+  }
+}
+
+TEST_F(LivePoseGraphTest, ASessionOfTheOdometryGoesOnAfterARestartWhateverWasLost) {
+  begin()->add(urban_nav_core::SessionStep(testing::stepAt(0), announce(1)));
+  auto graph = begin();
+  drive(*graph, 5, 30, announce(1));
+  graph.reset();
+  ASSERT_EQ(stored().chains.size(), 1u);
+  EXPECT_EQ(stored().chains[0].session.id, announce(1)->id);
+}
+
+TEST_F(LivePoseGraphTest, AClosureOfTheNextSessionWaitsForItsOdometry) {
+  auto graph = begin();
+  drive(*graph, 0, kLap, announce(1));
+  auto closure = seenAgain(10, 20, announce(1)->id);
+  closure.b.session = announce(2)->id;
+  EXPECT_NO_THROW(graph->add(closure));
+  drive(*graph, 0, kLap, announce(2));
+  relaxAll(*graph);
+  graph.reset();
+  EXPECT_EQ(stored().closures.size(), 1u);
+}
+
+TEST_F(LivePoseGraphTest, AfterAResetTheSessionOfTheOdometryHasAnIdOfItsOwnHere) {
+  auto graph = begin();
+  drive(*graph, 0, 20, announce(1));
+  graph->reset();
+  drive(*graph, 20, 20 + kLap, announce(1));
+  const SessionId own = graph->trajectory(0, 0, 0).segments.at(0).session;
+  EXPECT_NE(own, announce(1)->id) << "the store has poses of that id";
+  auto closure = seenAgain(25, 30, announce(1)->id);
+  closure.b.session = announce(1)->id;
+  EXPECT_NO_THROW(graph->add(closure)) << "that is the running one";
 }
 
 TEST_F(LivePoseGraphTest, WhatLoopClosureRejectedIsKeptWithItsReason) {

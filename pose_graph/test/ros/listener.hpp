@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/Imu.h>
@@ -38,13 +39,9 @@ class Listener : public urban_nav_ros::testing::Listener {
   }
   bool connected() const { return connected_; }
 
-  /// Forgets what the nodelet has published so far, once nothing more comes.
+  /// Forgets what the nodelet has published so far, once it has come.
   void forgetAll() {
-    do {
-      forget();
-      ros::WallDuration(0.2).sleep();
-      ros::spinOnce();
-    } while (!updates.empty() || !states.empty() || !corrections.empty() || !paths.empty());
+    EXPECT_TRUE(receipts.drain());
     forget();
   }
   void forget() {

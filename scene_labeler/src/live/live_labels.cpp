@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::size_t kMostWaitingScans = 4000, kMostWaitingImages = 40;  // per side
 constexpr std::size_t kMostWaitingClasses = 40;                           // per side
-constexpr double kClassPatience = 2.0;   // s of odometry after an image whose class image has not come
-constexpr double kCameraPatience = 2.0;  // s of scans that wait for the calibration of a camera
+constexpr StampNs kOdometryPatience = 60'000'000'000;  // ns of scans of a new drive that wait for its odometry
+constexpr double kClassPatience = 2.0;                 // s of odometry after an image whose class image has not come
+constexpr double kCameraPatience = 2.0;                // s of scans that wait for the calibration of a camera
 
 StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
   const double seconds = scan.time_step * static_cast<double>(scan.ranges.size());
@@ -30,6 +31,29 @@ LiveLabels::LiveLabels(const Parameters& parameters, LabelModel model, Outputs o
 }
 
 void LiveLabels::reset() {
+  clear();
+  counts_ = {};
+  sortByRound();
+}
+
+void LiveLabels::sortByRound() {
+  urban_nav_live::RoundGate<Add>::Options options;
+  options.leading = {kOdometryStream};
+  options.patience = kOdometryPatience;
+  rounds_ = std::make_unique<urban_nav_live::RoundGate<Add>>(
+      options, urban_nav_live::RoundGate<Add>::Listener{[](Add& add) { add(); }, [this] { beginDrive(); }});
+}
+
+void LiveLabels::beginDrive() {
+  for (LiveSide& side : sides_) {
+    if (side.window) side.window->finish();
+    count(side, counts_);
+  }
+  clear();
+  ++counts_.drives;
+}
+
+void LiveLabels::clear() {
   for (LiveSide& side : sides_) {
     side.drive.reset();
     side.window.reset();
@@ -41,7 +65,6 @@ void LiveLabels::reset() {
   path_.reset();
   trajectory_ = {};
   path_ = std::make_unique<TravelledPath>(trajectory_);
-  counts_ = {};
   teaching_.forgetScenes();
 }
 
@@ -60,6 +83,10 @@ bool LiveLabels::adoptTaughtModel() {
 }
 
 void LiveLabels::addPose(const urban_nav_core::StampedPose& T_odom_base) {
+  rounds_->add(kOdometryStream, T_odom_base.stamp, [this, T_odom_base] { take(T_odom_base); });
+}
+
+void LiveLabels::take(const urban_nav_core::StampedPose& T_odom_base) {
   if (!trajectory_.append(T_odom_base.stamp, T_odom_base.pose)) return;
   ++counts_.poses;
   path_->update();
@@ -73,7 +100,12 @@ void LiveLabels::catchUp() {
 
 void LiveLabels::addScan(std::size_t side, urban_nav_core::PlanarScan scan) {
   ++counts_.scans;
-  sides_[side].scans.push_back(std::move(scan));
+  const StampNs stamp = scan.stamp;
+  rounds_->add(kScanStream + static_cast<int>(side), stamp, [this, side, scan = std::move(scan)] { take(side, scan); });
+}
+
+void LiveLabels::take(std::size_t side, const urban_nav_core::PlanarScan& scan) {
+  sides_[side].scans.push_back(scan);
   if (sides_[side].scans.size() > kMostWaitingScans) {
     sides_[side].scans.pop_front();
     ++counts_.dropped;
@@ -82,16 +114,19 @@ void LiveLabels::addScan(std::size_t side, urban_nav_core::PlanarScan scan) {
 
 void LiveLabels::addImage(std::size_t side, StampNs stamp, Decode decode) {
   ++counts_.images;
-  sides_[side].images.push_back({stamp, std::move(decode)});
-  if (sides_[side].images.size() > kMostWaitingImages) {
+  rounds_->add(kImageStream + static_cast<int>(side), stamp, [this, side, stamp, decode = std::move(decode)] {
+    sides_[side].images.push_back({stamp, decode});
+    if (sides_[side].images.size() <= kMostWaitingImages) return;
     sides_[side].images.pop_front();
     ++counts_.dropped;
-  }
+  });
 }
 
 void LiveLabels::addClasses(std::size_t side, StampNs stamp, const cv::Mat& classes) {
-  sides_[side].classes[stamp] = classes;
-  if (sides_[side].classes.size() > kMostWaitingClasses) sides_[side].classes.erase(sides_[side].classes.begin());
+  rounds_->add(kClassStream + static_cast<int>(side), stamp, [this, side, stamp, classes] {
+    sides_[side].classes[stamp] = classes;
+    if (sides_[side].classes.size() > kMostWaitingClasses) sides_[side].classes.erase(sides_[side].classes.begin());
+  });
 }
 
 bool LiveLabels::workImages(LiveSide& side) {
@@ -141,6 +176,7 @@ void LiveLabels::work(std::size_t number) {
 
 LiveLabels::Counts LiveLabels::counts() const {
   Counts counts = counts_;
+  counts.dropped += static_cast<std::size_t>(rounds_->dropped());
   for (const LiveSide& side : sides_) count(side, counts);
   return counts;
 }

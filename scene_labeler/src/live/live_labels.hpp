@@ -12,11 +12,13 @@
 #include "scene_labeler/drive/drive_labeler.hpp"
 #include "scene_labeler/drive/side_drive.hpp"
 #include "scene_labeler/parameters.hpp"
+#include "urban_nav_live/round_gate.hpp"
 
 namespace scene_labeler {
 
 /// Labels the returns of both side lasers while the robot drives: scans and images wait until odometry covers their
-/// time, and a return is labelled when the robot has left its surroundings. Sides: 0 left, 1 right. Not thread-safe.
+/// time, and a return is labelled when the robot has left its surroundings. Odometry whose stamps jump back begins a
+/// new drive (urban_nav_live::RoundGate). Sides: 0 left, 1 right. Not thread-safe.
 class LiveLabels {
  public:
   /// Decodes an image that is needed.
@@ -30,6 +32,7 @@ class LiveLabels {
   struct Counts {
     std::size_t scans = 0, images = 0, poses = 0;
     std::size_t dropped = 0;  ///< scans and images for which odometry never came
+    std::size_t drives = 0;
     std::size_t frames = 0, imaged_frames = 0, blind_frames = 0, upside_down_frames = 0, class_frames = 0,
                 new_place_frames = 0;
   };
@@ -80,6 +83,14 @@ class LiveLabels {
     std::unique_ptr<DriveWindow> window;
     std::unique_ptr<SideDrive> drive;
   };
+  using Add = std::function<void()>;
+  enum Stream { kOdometryStream = 0, kScanStream = 1, kImageStream = 3, kClassStream = 5 };  // the latter for each side
+  void sortByRound();
+  /// Settles the drive, and begins another one.
+  void beginDrive();
+  void clear();
+  void take(const urban_nav_core::StampedPose& T_odom_base);
+  void take(std::size_t side, const urban_nav_core::PlanarScan& scan);
   void work(std::size_t side);
   void start(std::size_t side);
   void count(const LiveSide& side, Counts& counts) const;
@@ -94,6 +105,7 @@ class LiveLabels {
   std::unique_ptr<TravelledPath> path_;
   std::array<LiveSide, 2> sides_;
   Counts counts_;
+  std::unique_ptr<urban_nav_live::RoundGate<Add>> rounds_;
 };
 
 }  // namespace scene_labeler

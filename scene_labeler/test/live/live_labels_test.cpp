@@ -78,5 +78,27 @@ TEST_F(LiveLabelsOfAWall, ScansThatComeAfterTheLastPoseAreLabelledWithoutAnother
   EXPECT_EQ(labelled_, in_order) << "each is labelled once";
 }
 
+TEST_F(LiveLabelsOfAWall, EachRoundOfARecordingIsLabelledAlike) {
+  const auto drive = [this] {
+    const std::size_t before = labelled_;
+    for (int i = 0; i < kPoses; ++i) {
+      addScan(i);
+      addPose(i);
+    }
+    return labelled_ - before;
+  };
+  const std::size_t first = drive();
+  ASSERT_GT(first, 0U);
+  // Scans of the next round come before its odometry, and those of the round before after it.
+  addScan(0);
+  EXPECT_EQ(labelled_, first);
+  const std::size_t second = drive();
+  addScan(kPoses - 1);
+  const std::size_t third = drive();
+  EXPECT_EQ(labels_->counts().drives, 2U);
+  EXPECT_GE(second, first) << "with what the drive before had not settled yet";
+  EXPECT_NEAR(static_cast<double>(third), static_cast<double>(second), 0.2 * static_cast<double>(second));
+}
+
 }  // namespace
 }  // namespace scene_labeler

@@ -30,6 +30,17 @@ cv::Mat demosaic(const cv::Mat& mosaic, MosaicPattern pattern) {
   return image;
 }
 
+const char* mosaicEncoding(MosaicPattern pattern) {
+  switch (pattern) {
+    case MosaicPattern::None: return "mono8";
+    case MosaicPattern::Rggb: return "bayer_rggb8";
+    case MosaicPattern::Gbrg: return "bayer_gbrg8";
+    case MosaicPattern::Grbg: return "bayer_grbg8";
+    case MosaicPattern::Bggr: return "bayer_bggr8";
+  }
+  return "mono8";
+}
+
 cv::Mat combinePlanes(const cv::Mat planes[4], MosaicPattern pattern) {
   struct Places {
     std::size_t red, green_a, green_b, blue;

@@ -72,7 +72,11 @@ double SimSource::busTime(double elapsed_s) const {
 
 bool SimSource::open(std::string& error) {
   streams_ = false;
-  if (!begin_) begin_ = options_.begin.value_or(clock_.now());
+  if (!begin_) begin_ = options_.begin ? options_.begin() : clock_.now();
+  if (!begin_) {
+    error = "the session of the simulated devices has not begun";
+    return false;
+  }
   if (isGone()) {
     error = "no such camera on the simulated bus";
     return false;
@@ -132,7 +136,7 @@ std::optional<CameraFrame> SimSource::next(TimeNs timeout) {
     SimFrame frame = std::move(*waiting_);
     waiting_.reset();
     const bool lost = isGone() || isOffBus(frame.time) || isFaulty(SimCameraFault::Kind::Silence, frame.time) ||
-                      due < started_ || asked > in_ring_ + kRing;
+                      due < started_ || (!options_.is_paced && asked > in_ring_ + kRing);
     if (!lost) embed(frame);
     ++sequence_;
     if (lost) continue;
@@ -158,7 +162,9 @@ void SimSource::embed(SimFrame& frame) const {
 
 std::optional<CameraCycle> SimSource::readCycle() {
   if (isGone() || !begin_) return std::nullopt;
-  return CameraCycle{busTime(elapsed()), clock_.now()};
+  // One reading of the clock for both: the thread may be preempted between two.
+  const TimeNs now = clock_.now();
+  return CameraCycle{busTime(1e-9 * static_cast<double>(now - *begin_)), now};
 }
 
 }  // namespace segway_drivers

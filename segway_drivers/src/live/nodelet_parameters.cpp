@@ -28,9 +28,17 @@ const Table<NodeletParameters>& nodeletTable() {
           {"session_begin", &P::session_begin, "", "", false, false, {},
            "File in which the simulated devices of a launch agree on the begin of their session, new for each launch; "
            "empty: a camera's session begins when it is opened.", ""},
+          {"session_held", &P::session_held, "", false, false, true, {},
+           "Whether a simulated camera is absent before another process has written the begin, ns of the steady "
+           "clock, to that file.", ""},
+          {"paced_by", &P::paced_by, "", "", false, false, {},
+           "Topic of urban_nav_msgs/VoStatistics that paces a simulated camera: a frame is exposed when odometry has "
+           "taken all but the newest ten; empty: frames come at the times of the recording.", ""},
           {"queue", &P::queue, "messages", 1000, 10, 100000, {},
            "Messages that may wait for publication; beyond that new ones are dropped and counted. Reading never waits.",
            ""},
+          {"image_queue", &P::image_queue, "images", 10, 1, 100000, {},
+           "Images of a camera that may wait for a subscriber; beyond that the oldest are dropped.", ""},
       });
   return rows;
 }

@@ -15,7 +15,10 @@ struct NodeletParameters {
   std::string base_frame;
   bool publish_tf;
   std::string session_begin;
-  int queue;  // messages
+  bool session_held;
+  std::string paced_by;
+  int queue;        // messages
+  int image_queue;  // images
 
   NodeletParameters();
 };

@@ -212,9 +212,35 @@ TEST(SimSource, AMachineThatDecodesSlowlyDelaysTheSessionAndLosesNothing) {
   EXPECT_EQ(camera.counters().gaps, 0);
 }
 
+TEST(SimSource, APacedSessionLosesNothingHoweverSlowItsDriverIs) {
+  SimCameraOptions options = makeStereoOptions({});
+  options.is_paced = true;
+  SteppedCamera stepped(options, Bytes(kBb2FrameSize), 0.05, 100);
+  Bb2Camera camera(stepped.source, {});
+  std::string error;
+  ASSERT_TRUE(camera.start(error));
+  int pairs = 0;
+  for (; !stepped.source.isFinished(); stepped.now += 700'000'000) pairs += camera.next(100'000'000) ? 1 : 0;
+  EXPECT_GE(pairs, 95);  // the driver needs a few to set its clock
+  EXPECT_EQ(camera.counters().gaps, 0);
+}
+
+TEST(SimSource, ThereIsNoCameraBeforeTheSessionHasABegin) {
+  std::optional<TimeNs> begin;
+  SimCameraOptions options = makeStereoOptions({});
+  options.begin = [&begin] { return begin; };
+  SteppedCamera stepped(options, Bytes(kBb2FrameSize), 0.05, 100);
+  Bb2Camera camera(stepped.source, {});
+  std::string error;
+  EXPECT_FALSE(camera.start(error));
+  EXPECT_EQ(error, "the session of the simulated devices has not begun");
+  begin = kSimBegin;
+  EXPECT_TRUE(camera.start(error)) << error;
+}
+
 TEST(SimSource, FramesFromBeforeTheStartAreNotGiven) {
   SimCameraOptions options = makeStereoOptions({});
-  options.begin = kSimBegin - 2'000'000'000;
+  options.begin = [] { return kSimBegin - 2'000'000'000; };
   SteppedCamera stepped(options, Bytes(kBb2FrameSize), 0.05, 100);
   Bb2Camera camera(stepped.source, {});
   std::string error;

@@ -2,6 +2,7 @@
 #include "urban_nav_live/session_namer.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 namespace urban_nav_live {
@@ -39,6 +40,22 @@ SessionNamer::Named SessionNamer::begin(const std::string& recording, StampNs st
     if (const auto again = resume(session.recording, begins_there)) return named(*again, true, false);
     return named(session, false, false);
   }
+}
+
+SessionNamer::Named SessionNamer::follow(const urban_nav_core::OdometrySession& announced,
+                                         const std::vector<Session>& stored) {
+  const auto found =
+      std::find_if(stored.begin(), stored.end(), [&](const Session& session) { return session.id == announced.id; });
+  Named named;
+  named.session = {announced.id, announced.name, announced.robot, announced.recording, announced.start, false};
+  named.resumed = found != stored.end();
+  reserve(announced.id);
+  return named;
+}
+
+urban_nav_core::OdometrySessionPtr toOdometrySession(const urban_nav_store::Session& session) {
+  return std::make_shared<const urban_nav_core::OdometrySession>(
+      urban_nav_core::OdometrySession{session.id, session.name, session.robot, session.recording, session.start});
 }
 
 }  // namespace urban_nav_live

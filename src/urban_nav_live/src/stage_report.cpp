@@ -24,15 +24,19 @@ ReportLevel reportLevel(Health health) {
   return ReportLevel::Error;
 }
 
-std::pair<ReportLevel, std::string> summarise(const StageReport& report, bool paused, const std::string& topic_fault) {
+std::pair<ReportLevel, std::string> summarise(const StageReport& report, bool paused, const std::string& topic_fault,
+                                              ReportLevel topic_level) {
   if (paused) return {ReportLevel::Ok, "paused"};
   ReportLevel level = reportLevel(report.status.health);
-  if (report.is_warning || !topic_fault.empty()) level = std::max(level, ReportLevel::Warning);
+  if (report.is_warning || !report.warnings.empty()) level = std::max(level, ReportLevel::Warning);
+  if (!topic_fault.empty()) level = std::max(level, topic_level);
   if (report.is_error) level = ReportLevel::Error;
   std::string text = report.summary;
   if (text.empty()) text = report.status.sentence;
   if (text.empty()) text = toString(report.status.health);
-  return {level, topic_fault.empty() ? text : text + ": " + topic_fault};
+  if (!topic_fault.empty()) text += ": " + topic_fault;
+  for (const std::string& warning : report.warnings) text += "; " + warning;
+  return {level, text};
 }
 
 }  // namespace urban_nav_live

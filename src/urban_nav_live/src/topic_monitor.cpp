@@ -66,6 +66,18 @@ std::string TopicMonitor::fault(const std::string& group) const {
   return late.empty() ? silent : late;
 }
 
+TopicMonitor::Fault TopicMonitor::worstFault(const std::string& group) const {
+  constexpr double kLongSilence = 2.0;  // s
+  Fault found{ReportLevel::Ok, fault(group)};
+  if (found.sentence.empty()) return found;
+  found.level = ReportLevel::Warning;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [name, topic] : topics_)
+    if (topic.group == group && topic.any && age(topic) > topic.timeout + kLongSilence)
+      found.level = ReportLevel::Error;
+  return found;
+}
+
 std::string TopicMonitor::lateness(const std::string& group) const {
   std::string text;
   for (const auto& [topic, partner] : pairs_) {

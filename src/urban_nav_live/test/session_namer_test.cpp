@@ -112,5 +112,17 @@ TEST(SessionNamer, ReservedIdsAreNotUsed) {
   EXPECT_EQ(namer.begin("monday", kStart).session.id, id);
 }
 
+TEST(SessionNamer, FollowsTheOdometryWhateverItsOwnNamesAre) {
+  SessionNamer odometry("lisa"), stage("other");
+  const auto named = odometry.begin("monday", kStart);
+  const auto announced = toOdometrySession(named.session);
+  const auto followed = stage.follow(*announced);
+  EXPECT_EQ(followed.session, named.session);
+  EXPECT_FALSE(followed.resumed);
+  EXPECT_TRUE(stage.follow(*announced, {named.session}).resumed);
+  EXPECT_TRUE(stage.isReserved(announced->id));
+  EXPECT_NE(toOdometrySession(odometry.begin("monday", kStart).session)->id, announced->id) << "a second round";
+}
+
 }  // namespace
 }  // namespace urban_nav_live

@@ -40,7 +40,7 @@ class LocalizationStage {
   static constexpr const char* name = "localization";
   static constexpr const char* topic = "localization";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, LiveLocaliser::InitialPose>;
+                             urban_nav_core::StampedPose, urban_nav_core::SessionStep, LiveLocaliser::InitialPose>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LocalizationStage(Node& node);
@@ -166,7 +166,9 @@ urban_nav_live::StageReport LocalizationStage::report() const {
   state.camera = inputs_->mountingFault();
   state.initial_poses_refused = initial_poses_refused_;
   state.damaged_images = inputs_->sessions().counts().damaged;
-  return makeReport(state);
+  urban_nav_live::StageReport report = makeReport(state);
+  inputs_->beams().addTo(report);
+  return report;
 }
 
 class LocalizationNodelet : public urban_nav_ros::StageNodelet<LocalizationStage> {};

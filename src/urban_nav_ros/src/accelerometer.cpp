@@ -42,6 +42,8 @@ std::vector<SpecificForce> Accelerometer::takeConverted() {
   std::vector<SpecificForce> converted;
   for (const Sample& sample : std::exchange(waiting_, {})) {
     check_.add(sample.force.force, sample.rate);
+    ++samples_;
+    if (!sample.force.force.allFinite() || !sample.rate.allFinite()) ++not_finite_;
     if (!sample.force.force.allFinite()) continue;
     if (check_.isPlausible(R_base_imu_->transpose().col(2)))
       converted.push_back({sample.force.stamp, *R_base_imu_ * sample.force.force});
@@ -65,10 +67,10 @@ void Accelerometer::addTo(urban_nav_live::StageReport& report) const {
   const std::string fault = verdict().sentence();
   report.add("accelerometer", fault.empty() ? "sound or absent" : fault);
   report.add("specific forces not used", withheld());
-  if (fault.empty()) return;
-  report.is_warning = true;
-  const std::string before = report.summary.empty() ? report.status.sentence : report.summary;
-  report.summary = (before.empty() ? "" : before + "; ") + topics::kImu + " is not used: " + fault;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report.fault_counts.push_back({std::string("measurements on ") + topics::kImu + " were not finite", not_finite_,
+                                 samples_, "check the inertial unit and its driver"});
+  if (!fault.empty()) report.warn(std::string(topics::kImu) + " is not used: " + fault);
 }
 
 }  // namespace urban_nav_ros

@@ -28,9 +28,14 @@ std::vector<PositionFix> GpsFixes::add(const tf2_msgs::TFMessage& message) {
 }
 
 std::vector<PositionFix> GpsFixes::takeConverted() {
-  if (!p_base_ && frame_) {
-    if (const auto T_base_gps = transforms_.lookup(base_frame_, *frame_)) p_base_ = T_base_gps->t();
-    else if (waiting_.size() >= kMostWaitingFixes) p_base_ = Vector3d::Zero();
+  if ((!p_base_ || is_assumed_) && frame_) {
+    if (const auto T_base_gps = transforms_.lookup(base_frame_, *frame_)) {
+      p_base_ = T_base_gps->t();
+      is_assumed_ = false;
+    } else if (!p_base_ && waiting_.size() >= kMostWaitingFixes) {
+      p_base_ = Vector3d::Zero();
+      is_assumed_ = true;
+    }
   }
   if (!p_base_) return {};
   std::vector<PositionFix> made = std::exchange(waiting_, {});

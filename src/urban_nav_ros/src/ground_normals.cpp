@@ -49,9 +49,16 @@ std::vector<GroundNormal> GroundNormals::add(const tf2_msgs::TFMessage& message)
 }
 
 std::vector<GroundNormal> GroundNormals::takeConverted() {
-  if (!T_base_camera_ && frame_) T_base_camera_ = transforms_.lookup(base_frame_, *frame_);
-  if (!T_base_camera_ && frame_ && std::chrono::steady_clock::now() - first_ > kTfTimeout)
+  if ((!T_base_camera_ || is_assumed_) && frame_) {
+    if (const auto known = transforms_.lookup(base_frame_, *frame_)) {
+      T_base_camera_ = known;
+      is_assumed_ = false;
+    }
+  }
+  if (!T_base_camera_ && frame_ && std::chrono::steady_clock::now() - first_ > kTfTimeout) {
     T_base_camera_ = opticalInBody();
+    is_assumed_ = true;
+  }
   if (!T_base_camera_) return {};
   std::vector<GroundNormal> made = std::exchange(waiting_, {});
   for (GroundNormal& normal : made) {

@@ -2,9 +2,11 @@
 #include "urban_nav_ros/pose.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/status.hpp"
+#include "urban_nav_store/stored_ids.hpp"
 
 namespace urban_nav_ros {
 
@@ -105,7 +107,23 @@ void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matri
   message.twist.covariance = toArray36(covariance);
 }
 
-urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative,
+urban_nav_msgs::OdometrySession toOdometrySessionMessage(const urban_nav_core::OdometrySession& session) {
+  urban_nav_msgs::OdometrySession message;
+  message.id = session.id;
+  message.name = session.name;
+  message.robot = session.robot;
+  message.recording = session.recording;
+  message.start = toRosTime(session.start);
+  return message;
+}
+
+urban_nav_core::OdometrySessionPtr toOdometrySession(const urban_nav_msgs::OdometrySession& message) {
+  if (!urban_nav_store::isStoredId(message.id)) return nullptr;
+  return std::make_shared<const urban_nav_core::OdometrySession>(urban_nav_core::OdometrySession{
+      message.id, message.name, message.robot, message.recording, toStampNs(message.start)});
+}
+
+urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::SessionStep& relative,
                                                    const std::string& child_frame) {
   urban_nav_msgs::RelativePose message;
   message.header.stamp = toRosTime(relative.to);
@@ -125,6 +143,7 @@ urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::Relativ
   }
   message.status = toMessage(relative.status.health);
   message.source = relative.source;
+  if (relative.session) message.session = toOdometrySessionMessage(*relative.session);
   return message;
 }
 
@@ -145,6 +164,12 @@ std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs:
   relative.status.health = *health;
   relative.source = message.source;
   return relative;
+}
+
+std::optional<urban_nav_core::SessionStep> toSessionStep(const urban_nav_msgs::RelativePose& message) {
+  auto step = toRelativePose(message);
+  if (!step) return std::nullopt;
+  return urban_nav_core::SessionStep(std::move(*step), toOdometrySession(message.session));
 }
 
 }  // namespace urban_nav_ros

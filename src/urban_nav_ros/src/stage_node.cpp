@@ -2,6 +2,10 @@
 #include "urban_nav_ros/stage_node.hpp"
 
 #include <ros/console.h>
+#include <ros/this_node.h>
+
+#include <algorithm>
+#include <thread>
 
 #include "urban_nav_core/io/printable.hpp"
 #include "urban_nav_ros/status.hpp"
@@ -39,16 +43,29 @@ void StageNode::restartStatus() {
   last_status_.reset();
 }
 
-void StageNode::setReport(urban_nav_live::StageReport report, std::int64_t dropped) {
+void StageNode::setReport(urban_nav_live::StageReport report, std::int64_t dropped, std::int64_t pushed) {
   const std::lock_guard<std::mutex> lock(mutex_);
   report_ = std::move(report);
   dropped_ = dropped;
+  pushed_ = pushed;
 }
 
 void StageNode::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto [level, summary] = urban_nav_live::summarise(report_, gate_.isPaused(), monitor_.fault());
   const urban_nav_live::InputGate::Counts counts = gate_.counts();
+  std::vector<urban_nav_live::StageReport::FaultCount> faults = report_.fault_counts;
+  faults.push_back({"inputs were dropped", dropped_, pushed_,
+                    "this stage is slower than they come; lower their rate, or give it a processor"});
+  faults.push_back({"messages were damaged", counts.invalid, counts.received,
+                    "they are not finite or of an unknown kind; the log names the topic"});
+  rates_.add(faults);
+  const auto [rate_level, rate_sentence] = rates_.summary();
+  const urban_nav_live::TopicMonitor::Fault topics = monitor_.worstFault();
+  auto [level, summary] = urban_nav_live::summarise(report_, gate_.isPaused(), topics.sentence, topics.level);
+  if (!rate_sentence.empty() && !gate_.isPaused()) {
+    level = std::max(level, rate_level);
+    summary += "; " + rate_sentence;
+  }
   status.summary(static_cast<unsigned char>(level), summary);
   status.add("status", std::string(toString(report_.status.health)));
   status.add("reason", report_.reason_name);
@@ -84,8 +101,31 @@ void StageNode::logWarning(const std::string& key, const std::string& text) {
   ROS_WARN("%s: %s", handles_.name.c_str(), printable(text).c_str());
 }
 
+void StageNode::awaitInputs(std::chrono::steady_clock::time_point end) const {
+  constexpr std::chrono::milliseconds kPoll{20}, kQuiet{300};
+  if (awaited_.empty()) return;
+  ros::V_string own;  // stages of this process have finished before
+  ros::this_node::getAdvertisedTopics(own);
+  const auto is_over = [&own](const ros::Subscriber& topic) {
+    return topic.getNumPublishers() == 0 || std::find(own.begin(), own.end(), topic.getTopic()) != own.end();
+  };
+  std::int64_t received = -1;
+  Clock::time_point changed = Clock::now();
+  while (Clock::now() < end) {
+    const std::int64_t now = gate_.counts().received;
+    if (now != received) changed = Clock::now();
+    received = now;
+    if (Clock::now() - changed >= kQuiet && std::all_of(awaited_.begin(), awaited_.end(), is_over)) return;
+    // Sensors may go on: what comes of them does not matter once the awaited topics have ended.
+    if (std::all_of(awaited_.begin(), awaited_.end(), [](const auto& topic) { return topic.getNumPublishers() == 0; }))
+      return;
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
 void StageNode::shutDown() {
   subscribers_.clear();
+  awaited_.clear();
   services_.clear();
 }
 

@@ -6,6 +6,7 @@
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_ros {
 
@@ -36,14 +37,44 @@ void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
   report.add("right images missing", right_missing);
   report.add("images damaged", damaged);
   report.add("images rectified", rectified);
+  report.add("pairs that never came", gaps);
+  report.fault_counts.push_back({"pairs never came", gaps, pairs + gaps,
+                                 "the camera, its connection or the recording leaves them out; check its driver, the "
+                                 "load of this computer and the network"});
+  report.fault_counts.push_back({"pairs lacked an image", left_missing + right_missing, pairs,
+                                 "one camera loses images, or they come later than max_lateness"});
+  report.fault_counts.push_back({"images came too late", late, 2 * pairs, "raise max_lateness, or lower the load"});
+  report.fault_counts.push_back(
+      {"images were damaged", damaged, 2 * pairs, "check the encoding, the size in camera_info and the connection"});
 }
 
 void StereoSessions::handle(const Message& message) {
   if (const auto* info = std::get_if<InfoInput>(&message)) handleInfo(*info);
-  else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&message)) transforms_.add(**transforms);
-  else handleSensor(message);
+  else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&message)) {
+    transforms_.add(**transforms);
+    followPlaces();
+  } else sortByRound(message);
   if (!feed_) tryToBegin();
   if (feed_) deliverPairs();
+}
+
+StereoSessions::Places StereoSessions::findPlaces() const {
+  Places places;
+  if (left_info_) places.T_base_camera = transforms_.lookup(options_.base_frame, left_info_->header.frame_id);
+  if (options_.motion.gyroscope) places.T_base_imu = transforms_.lookup(options_.base_frame, imu_frame_);
+  return places;
+}
+
+void StereoSessions::followPlaces() {
+  if (!feed_) return;
+  const Places now = findPlaces();
+  const auto differs = [](const auto& known, const auto& then) {
+    return known && (!then || !isApprox(*known, *then, 1e-9));
+  };
+  if (differs(now.T_base_camera, places_.T_base_camera))
+    end(places_.T_base_camera ? "the camera is mounted elsewhere" : "the place of the camera is known now");
+  else if (differs(now.T_base_imu, places_.T_base_imu))
+    end(places_.T_base_imu ? "the gyroscope is mounted elsewhere" : "the place of the gyroscope is known now");
 }
 
 void StereoSessions::idle() {
@@ -69,10 +100,22 @@ void StereoSessions::setFault(const std::string& fault) {
   if (listener_.refused) listener_.refused(fault);
 }
 
+void StereoSessions::sortByRound(const Message& message) {
+  if (const auto* image = std::get_if<ImageInput>(&message))
+    return rounds_.add(image->side == Side::Left ? kLeftStream : kRightStream, image->stamp, message);
+  if (const auto* odometry = std::get_if<nav_msgs::OdometryConstPtr>(&message))
+    return rounds_.add(kWheelStream, toStampNs((*odometry)->header.stamp), message);
+  rounds_.add(kGyroStream, toStampNs(std::get<sensor_msgs::ImuConstPtr>(message)->header.stamp), message);
+}
+
+void StereoSessions::goBack() {
+  goes_back_ = true;
+  end("time went back");
+  if (std::exchange(goes_back_, false) && listener_.went_back) listener_.went_back();
+}
+
 void StereoSessions::handleSensor(const Message& message) {
   if (const auto* image = std::get_if<ImageInput>(&message)) {
-    if (images_.jumpsBack(image->stamp)) end("time went back");
-    images_.advance(image->stamp);
     if (!first_image_) first_image_ = Clock::now();
     judge_.add(*image);
   }
@@ -136,13 +179,18 @@ void StereoSessions::begin(bool are_rectified) {
   camera.frame = left_info_->header.frame_id;
   camera.rectifies = calibration->rectifies();
   camera.contradiction = judge_.contradiction();
-  const auto T_base_camera = transforms_.lookup(options_.base_frame, camera.frame);
+  places_ = findPlaces();
+  const auto& T_base_camera = places_.T_base_camera;
   camera.is_mounting_known = T_base_camera.has_value();
   camera.T_base_left = T_base_camera.value_or(opticalInBody()) * calibration->T_optical_rectified();
   camera.mounting = T_base_camera ? "camera at tf " + options_.base_frame + " -> " + camera.frame
                                   : "no static tf from " + options_.base_frame + " to " + camera.frame + ": " +
                                         options_.base_frame + " is taken to be at the left camera (REP-103 axes)";
-  const auto T_base_imu = transforms_.lookup(options_.base_frame, imu_frame_);
+  place_fault_ = T_base_camera ? "" : camera.mounting;
+  const auto& T_base_imu = places_.T_base_imu;
+  if (options_.motion.gyroscope && !T_base_imu)
+    place_fault_ += std::string(place_fault_.empty() ? "" : "; ") + "no static tf from " + options_.base_frame +
+                    " to " + imu_frame_ + ": the axes of the gyroscope are taken to be those of the robot";
   if (listener_.began) listener_.began(camera);
   wheels_.emplace(options_.wheel_noise);
   gyroscope_.emplace(options_.gyro_noise, T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d::Identity());
@@ -155,13 +203,13 @@ void StereoSessions::begin(bool are_rectified) {
 void StereoSessions::deliverPairs() {
   while (auto pair = feed_->take()) {
     ++finished_.pairs;
+    gaps_.add(pair->assembled.pair.stamp);
     finished_.damaged += static_cast<std::int64_t>(pair->faults.size());
     listener_.pair(*pair);
   }
 }
 
 void StereoSessions::end(const std::string& why, bool deliver) {
-  images_.reset();
   first_image_.reset();
   waiting_.clear();
   waiting_images_ = 0;
@@ -171,12 +219,18 @@ void StereoSessions::end(const std::string& why, bool deliver) {
     deliverPairs();
   }
   finished_ = counts();
+  finished_.dropped -= rounds_.dropped();  // which counts() adds
   feed_.reset();
+  gaps_.restart();
+  place_fault_.clear();
+  if (std::exchange(goes_back_, false) && listener_.went_back) listener_.went_back();
   if (listener_.ended) listener_.ended(why);
 }
 
 StereoSessions::Counts StereoSessions::counts() const {
   Counts counts = finished_;
+  counts.dropped += rounds_.dropped();
+  counts.gaps = gaps_.missing();
   if (!feed_) return counts;
   for (const Side side : {Side::Left, Side::Right}) {
     counts.late += feed_->counts(side).late;

@@ -47,6 +47,10 @@ TEST(GpsFixes, TakeTheOriginWhereNobodyTellsThePlace) {
   const auto made = fixes.add(makeFix(60));
   ASSERT_EQ(made.size(), 60U);
   EXPECT_EQ(made[0].p_base, urban_nav_core::Vector3d(0.0, 0.0, 0.0));
+  EXPECT_TRUE(fixes.isAssumed());
+  fixes.add(makeAntenna());
+  EXPECT_FALSE(fixes.isAssumed()) << "better late";
+  EXPECT_EQ(fixes.add(makeFix(61)).at(0).p_base, urban_nav_core::Vector3d(-0.2, 0.1, 1.4));
 }
 
 TEST(GpsFixes, IgnoreMessagesWithoutAFix) {

@@ -56,6 +56,24 @@ TEST(RelativePoseMessage, ComesBackTheSame) {
   EXPECT_EQ(back->source, "swf_vo");
 }
 
+TEST(RelativePoseMessage, CarriesTheSessionUnlessItsIdIsNone) {
+  urban_nav_core::RelativePose relative;
+  relative.to = 1;
+  urban_nav_msgs::RelativePose message = toRelativePoseMessage(relative, "base_link");
+  EXPECT_EQ(toSessionStep(message)->session, nullptr);
+  message.session = toOdometrySessionMessage({"0123456789abcdef0123", "monday (2)", "lisa", "monday", 1'000'000'001});
+  const auto back = toSessionStep(message);
+  ASSERT_TRUE(back && back->session);
+  EXPECT_EQ(back->to, 1);
+  EXPECT_EQ(back->session->id, "0123456789abcdef0123");
+  EXPECT_EQ(back->session->name, "monday (2)");
+  EXPECT_EQ(back->session->robot, "lisa");
+  EXPECT_EQ(back->session->recording, "monday");
+  EXPECT_EQ(back->session->start, 1'000'000'001);
+  message.session.id = "../../../etc/passwd0";
+  EXPECT_EQ(toSessionStep(message)->session, nullptr) << "ids become parts of paths";
+}
+
 TEST(RelativePoseMessage, CarriesConstantsOfTheRig) {
   urban_nav_core::RelativePose relative;
   relative.to = 1;

@@ -46,11 +46,15 @@ tf2_msgs::TFMessageConstPtr mountingAt(double height) {
 
 /// Sessions that keep their events.
 struct Kept {
-  explicit Kept(double tf_timeout = 0.0) {
+  explicit Kept(double tf_timeout = 0.0, urban_nav_core::MotionChoice motion = {}) {
     options.tf_timeout = tf_timeout;
+    options.motion = motion;
     sessions = std::make_unique<StereoSessions>(
         options, StereoSessions::Listener{[this](const StereoSessions::Camera& camera) { cameras.push_back(camera); },
-                                          [this](DecodedPair& pair) { stamps.push_back(pair.assembled.pair.stamp); },
+                                          [this](DecodedPair& pair) {
+                                            stamps.push_back(pair.assembled.pair.stamp);
+                                            motions.push_back(pair.assembled.inputs.size());
+                                          },
                                           [this](const std::string& why) { ends.push_back(why); },
                                           [this](const std::string& fault) { faults.push_back(fault); }});
   }
@@ -66,6 +70,7 @@ struct Kept {
   std::unique_ptr<StereoSessions> sessions;
   std::vector<StereoSessions::Camera> cameras;
   std::vector<StampNs> stamps;
+  std::vector<std::size_t> motions;  // inputs of each pair
   std::vector<std::string> ends, faults;
 };
 
@@ -104,6 +109,27 @@ TEST(StereoSessions, WithoutAMountingTheCameraIsAtTheBase) {
   EXPECT_NE(kept.cameras[0].sentence().find("96x72 px, rectified already; no static tf"), std::string::npos);
 }
 
+TEST(StereoSessions, AMountingThatComesLateOrChangesBeginsTheNextSession) {
+  Kept kept;
+  kept.calibrate();
+  kept.show(kSessionStart);
+  EXPECT_NE(kept.sessions->placeFault().find("no static tf from base_link to left"), std::string::npos);
+  kept.sessions->handle(mountingAt(1.5));
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"the place of the camera is known now"});
+  kept.show(kSessionStart + 50 * kSessionMs);
+  ASSERT_EQ(kept.cameras.size(), 2U);
+  EXPECT_TRUE(kept.cameras[1].is_mounting_known);
+  EXPECT_EQ(kept.cameras[1].T_base_left.t().z(), 1.5);
+  EXPECT_EQ(kept.sessions->placeFault(), "");
+  kept.sessions->handle(mountingAt(1.5));
+  EXPECT_EQ(kept.ends.size(), 1U) << "the same";
+  kept.sessions->handle(mountingAt(1.6));
+  EXPECT_EQ(kept.ends.back(), "the camera is mounted elsewhere");
+  kept.show(kSessionStart + 100 * kSessionMs);
+  EXPECT_EQ(kept.cameras.back().T_base_left.t().z(), 1.6);
+  EXPECT_EQ(kept.stamps.size(), 3U) << "no pair is lost";
+}
+
 TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
   Kept kept;
   kept.calibrate();
@@ -116,6 +142,44 @@ TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
                                       kSessionStart - 2000 * kSessionMs};
   EXPECT_EQ(kept.stamps, expected) << "what waited was delivered first";
   EXPECT_EQ(kept.sessions->counts().right_missing, 1);
+}
+
+TEST(StereoSessions, AnImageThatIsOvertakenByTheJumpBackEndsNoSecondSession) {
+  Kept kept;
+  kept.calibrate();
+  kept.show(kSessionStart);
+  kept.sessions->handle(toImage(Side::Left, kSessionStart + 50 * kSessionMs));
+  kept.sessions->handle(toImage(Side::Left, kSessionStart - 60'000 * kSessionMs));
+  kept.sessions->handle(toImage(Side::Right, kSessionStart + 50 * kSessionMs));
+  kept.sessions->handle(toImage(Side::Left, kSessionStart - 59'950 * kSessionMs));
+  kept.sessions->handle(toImage(Side::Right, kSessionStart - 60'000 * kSessionMs));
+  kept.sessions->handle(toImage(Side::Right, kSessionStart - 59'950 * kSessionMs));
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"time went back"});
+  const std::vector<StampNs> expected{kSessionStart, kSessionStart + 50 * kSessionMs,
+                                      kSessionStart - 60'000 * kSessionMs, kSessionStart - 59'950 * kSessionMs};
+  EXPECT_EQ(kept.stamps, expected);
+  EXPECT_EQ(kept.sessions->counts().right_missing, 0);
+}
+
+TEST(StereoSessions, AMessageOfAGyroscopeFromBeforeAJumpBackDoesNotSilenceIt) {
+  Kept kept(0.0, urban_nav_core::MotionChoice{true, false, false});
+  const auto turn = [&kept](StampNs stamp) {
+    auto message = boost::make_shared<sensor_msgs::Imu>();
+    message->header.stamp = toRosTime(stamp);
+    message->angular_velocity.z = 0.1;
+    kept.sessions->handle(sensor_msgs::ImuConstPtr(message));
+  };
+  kept.calibrate();
+  turn(kSessionStart);
+  kept.show(kSessionStart);
+  const StampNs again = kSessionStart - 60'000 * kSessionMs;
+  kept.show(again);
+  turn(kSessionStart + 10 * kSessionMs);  // late
+  for (int i = 0; i < 10; ++i) turn(again + i * 10 * kSessionMs);
+  kept.show(again + 50 * kSessionMs);
+  kept.show(again + 200 * kSessionMs);
+  ASSERT_EQ(kept.stamps.size(), 3U);
+  EXPECT_EQ(kept.motions[2], 5U) << "increments from the first frame to the second";
 }
 
 TEST(StereoSessions, AnotherCalibrationEndsTheSessionUntilBothSidesHaveIt) {

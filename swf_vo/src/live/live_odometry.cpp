@@ -19,8 +19,12 @@ void LiveOdometry::process(const urban_nav_core::StereoPairWithMotion& pair) {
   process_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   ++frames_;
   status_ = frame.status;
+  if (status_.health == urban_nav_core::Health::Lost) ++lost_frames_;
   statistics_ = frame.statistics;
-  if (frame.frame == 0) begin_ = frame.stamp;
+  if (frame.frame == 0) {
+    begin_ = frame.stamp;
+    session_ = urban_nav_live::toOdometrySession(namer_.begin(recording_, begin_).session);
+  }
   for (std::size_t i = motion_.faults.size(); listener_.warning && i < frame.motion.faults.size(); ++i)
     listener_.warning(describe(frame.motion.faults[i], begin_));
   motion_ = frame.motion;
@@ -59,7 +63,11 @@ urban_nav_live::StageReport LiveOdometry::report() const {
   report.add("ratio of observed to predicted noise", statistics_.noise_scale);
   report.add("time of the last frame (ms)", process_ms_);
   report.add("frames", frames_);
+  report.add("frames lost", lost_frames_);
+  report.fault_counts.push_back({"frames have a pose by prediction alone", lost_frames_, frames_,
+                                 "too little is seen: check lens, light and exposure, or drive more slowly"});
   report.add("sessions", sessions_);
+  report.add("session", urban_nav_core::sessionId(session_));
   return report;
 }
 

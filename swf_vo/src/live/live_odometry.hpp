@@ -8,11 +8,13 @@
 
 #include "swf_vo/swf_vo.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_live/session_namer.hpp"
 #include "urban_nav_live/stage_report.hpp"
 
 namespace swf_vo {
 
-/// Visual odometry of a live robot: one filter for each session, and figures for the operator. Used by one thread.
+/// Visual odometry of a live robot: one filter for each session, and figures for the operator. It names the sessions of
+/// the robot. Used by one thread.
 class LiveOdometry {
  public:
   struct Listener {
@@ -23,8 +25,10 @@ class LiveOdometry {
     std::function<void(const std::string& text)> warning;
   };
 
-  LiveOdometry(const Parameters& parameters, Listener listener)
-      : parameters_(parameters), listener_(std::move(listener)) {}
+  /// `robot`, `recording`: parts of the ids of sessions; may be empty.
+  LiveOdometry(const Parameters& parameters, Listener listener, const std::string& robot = "",
+               std::string recording = "")
+      : parameters_(parameters), listener_(std::move(listener)), recording_(std::move(recording)), namer_(robot) {}
 
   /// Begins a session. `T_base_left`: pose of the rectified left camera. Throws UserError if the calibration is
   /// invalid.
@@ -38,6 +42,8 @@ class LiveOdometry {
 
   bool isRunning() const { return filter_ != nullptr; }
   std::int64_t sessions() const { return sessions_; }
+  /// Returns the session of the newest frame; null before the first.
+  const urban_nav_core::OdometrySessionPtr& session() const { return session_; }
   /// Status of the newest frame.
   const urban_nav_core::Status& status() const { return status_; }
   /// Returns the state for the operator: a warning while there is no session.
@@ -46,13 +52,16 @@ class LiveOdometry {
  private:
   const Parameters parameters_;
   const Listener listener_;
+  const std::string recording_;
+  urban_nav_live::SessionNamer namer_;
+  urban_nav_core::OdometrySessionPtr session_;
   std::unique_ptr<SwfVo> filter_;
   urban_nav_core::Status status_;
   Statistics statistics_;
   MotionEstimates motion_;
   urban_nav_core::StampNs begin_ = 0;  // of the session
   double process_ms_ = 0.0;
-  std::int64_t frames_ = 0, sessions_ = 0;
+  std::int64_t frames_ = 0, lost_frames_ = 0, sessions_ = 0;
   std::string waiting_ = "no images yet", fault_;
 };
 

@@ -21,6 +21,11 @@ const Table<NodeletParameters>& nodeletTable() {
                "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
               {"publish_tf", &P::publish_tf, "", true, false, true, {},
                "Whether to publish odom_frame to base_frame on /tf.", "REP-105"},
+              {"robot", &P::robot, "", "", false, false, {},
+               "Name of the robot, a part of the ids of its sessions.", "docs/architecture.md"},
+              {"recording", &P::recording, "", "", false, false, {},
+               "Name of the recording, a part of the ids of its sessions; a second round of it is \"NAME (2)\".",
+               "docs/architecture.md"},
           },
           200)));
   return rows;

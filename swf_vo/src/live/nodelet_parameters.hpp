@@ -13,6 +13,7 @@ namespace swf_vo {
 /// per row of nodeletTable().
 struct NodeletParameters : urban_nav_live::StereoInputParameters, urban_nav_core::MotionInputParameters {
   std::string odom_frame;
+  std::string robot, recording;
   bool publish_tf;
 
   NodeletParameters();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "live/tracks_picture.hpp"
@@ -84,6 +86,22 @@ TEST(LiveOdometry, EachSessionStartsAtTheOrigin) {
   EXPECT_EQ(live.odometry.sessions(), 2);
   EXPECT_EQ(live.frames.back().frame, 1);
   EXPECT_LT(live.frames[3].T_odom_base.pose.t().norm(), 1e-12) << "m; but for rounding";
+}
+
+TEST(LiveOdometry, EachRoundOfARecordingHasAnIdOfItsOwn) {
+  RenderedSequence sequence = liveRoom();
+  Recorded live;
+  EXPECT_EQ(live.odometry.session(), nullptr);
+  std::set<std::string> ids;
+  for (int round = 0; round < 3; ++round) {
+    live.odometry.begin(makeCamera(sequence.options().camera), Pose());
+    live.play(sequence, 0, 2);
+    ASSERT_TRUE(live.odometry.session());
+    EXPECT_EQ(live.odometry.session()->start, sequence.stamp(0));
+    ids.insert(live.odometry.session()->id);
+    live.odometry.end("time went back");
+  }
+  EXPECT_EQ(ids.size(), 3U);
 }
 
 TEST(LiveOdometry, ReportsWhyThereIsNoSession) {

@@ -32,11 +32,8 @@ class SwfVoNodelet : public ::testing::Test {
     graph().place(mounting());
     ASSERT_TRUE(graph().call("reset"));
     // What the session before still had in its window comes first.
-    do {
-      graph().forget();
-      ros::WallDuration(0.1).sleep();
-      ros::spinOnce();
-    } while (!graph().frames.empty() || !graph().relative.empty());
+    ASSERT_TRUE(graph().receipts().drain());
+    graph().forget();
   }
   Graph& graph() { return *graph_; }
   RenderedSequence& sequence() { return *sequence_; }
@@ -103,8 +100,11 @@ TEST_F(SwfVoNodelet, AgreesWithTheCoreToTheLastBit) {
   for (std::size_t i = 1; i < settled.size(); ++i) {
     urban_nav_msgs::RelativePose expected = urban_nav_ros::toRelativePoseMessage(settled[i].from_previous, "base_link");
     expected.header.seq = graph().relative[i - 1].header.seq;
+    expected.session = graph().relative[0].session;
     EXPECT_EQ(graph().relative[i - 1], expected) << "settled frame " << i;
   }
+  EXPECT_EQ(urban_nav_ros::toStampNs(graph().relative[0].session.start), sequence().stamp(0));
+  EXPECT_EQ(graph().relative[0].session.id.size(), 20U);
   EXPECT_GT(urban_nav_core::distanceBetween(settled.front().T_odom_base.pose, settled.back().T_odom_base.pose), 0.3)
       << "it did move";
 }
@@ -140,8 +140,7 @@ TEST_F(SwfVoNodelet, TimeGoingBackBeginsANewSession) {
   EXPECT_EQ(graph().frames.back().frame, 4U) << "counts from 0 again";
   // Topics come one by one: the frame may overtake what belongs to it.
   const ros::Time last = urban_nav_ros::toRosTime(sequence().stamp(4));
-  EXPECT_TRUE(
-      Graph::until([&] { return !graph().odometry.empty() && graph().odometry.back().header.stamp == last; }));
+  EXPECT_TRUE(Graph::until([&] { return !graph().odometry.empty() && graph().odometry.back().header.stamp == last; }));
   EXPECT_TRUE(Graph::until([&] { return graph().relative.size() == 4U; })) << "the session before was flushed";
 }
 

@@ -13,6 +13,9 @@ enum class MosaicPattern { None, Rggb, Gbrg, Grbg, Bggr };
 /// "RGGB" ... "YYYY". Returns nullopt for other text.
 std::optional<MosaicPattern> parseMosaicPattern(const std::string& text);
 
+/// Returns the name of the pattern in sensor_msgs/Image: "bayer_rggb8", ..., "mono8".
+const char* mosaicEncoding(MosaicPattern pattern);
+
 /// BGR image of a mosaic of 8 bits; the image itself if the pattern is None.
 cv::Mat demosaic(const cv::Mat& mosaic, MosaicPattern pattern);
 

@@ -46,14 +46,17 @@ struct SimCameraOptions {
   double transfer = 0.02;              ///< s from the middle of the exposure to the arrival
   double bus_begin = 0.0;              ///< s, time of the bus when the session begins
   double bus_skew = 0.0;               ///< bus seconds per second less 1
-  std::optional<TimeNs> begin;         ///< of the session by the clock, ns; nullopt: when the camera is first opened
+  /// Begin of the session by the clock, ns; empty while it has none: there is no camera yet. Asked until it has one.
+  /// Without the function a session begins when the camera is first opened.
+  std::function<std::optional<TimeNs>()> begin;
+  bool is_paced = false;  ///< `read` waits until a frame is wanted: what is late is not lost in the ring of buffers
   std::vector<SimCameraFault> faults;
 };
 
 /// A camera on a simulated bus: a map of registers, frames at their times, and the clock of the bus, which wraps after
 /// 128 s. A frame holds the embedded words that its register asks for. `read` gives the frames in order of time, and
 /// nothing after the last; its own duration delays frames. Frames that nobody fetched for 0.4 s are lost, as in a ring
-/// of buffers, and so are those from before the stream was started. Not thread-safe.
+/// of buffers, unless the session is paced, and so are those from before the stream was started. Not thread-safe.
 class SimSource : public FrameSource {
  public:
   SimSource(FrameReader read, SimCameraOptions options, SimClock clock);

@@ -30,6 +30,12 @@ std::string writeProposal(const std::string& path, const std::string& text) {
   return "";
 }
 
+std::int64_t readNumber(const std::string& path) {
+  const auto agreed = parseInteger(readTextFile(path));
+  if (!agreed) throw UserError(path, "holds no number", "a name that is new for each agreement");
+  return *agreed;
+}
+
 }  // namespace
 
 std::int64_t agreeOnNumber(const std::string& path, std::int64_t proposal) {
@@ -40,9 +46,13 @@ std::int64_t agreeOnNumber(const std::string& path, std::int64_t proposal) {
   const int error = !file.empty() && ::link(file.c_str(), path.c_str()) == 0 ? 0 : errno;
   if (!file.empty()) ::unlink(file.c_str());
   if (error != 0 && error != EEXIST) throw UserError(path, std::strerror(error), "a folder that can be written");
-  const auto agreed = parseInteger(readTextFile(path));
-  if (!agreed) throw UserError(path, "holds no number", "a name that is new for each agreement");
-  return *agreed;
+  return readNumber(path);
+}
+
+std::optional<std::int64_t> findAgreedNumber(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+  return readNumber(path);
 }
 
 }  // namespace urban_nav_core

@@ -30,6 +30,14 @@ TEST_F(AgreedNumber, TheFirstProposalHoldsForAll) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "new"), {}), 1) << "no proposal is left";
 }
 
+TEST_F(AgreedNumber, IsFoundOnceItIsWritten) {
+  EXPECT_EQ(findAgreedNumber(file), std::nullopt);
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "a search makes no folder";
+  agreeOnNumber(file, 7);
+  EXPECT_EQ(findAgreedNumber(file), 7);
+  EXPECT_EQ(agreeOnNumber(file, 1), 7);
+}
+
 TEST_F(AgreedNumber, ThreadsOfOneProcessAgree) {
   std::vector<std::int64_t> agreed(16);
   std::vector<std::thread> threads;
@@ -46,6 +54,7 @@ TEST_F(AgreedNumber, AFileOfSomethingElseIsRefused) {
   std::filesystem::create_directories(folder / "new");
   std::ofstream(file) << "soon";
   EXPECT_THROW(agreeOnNumber(file, 1), UserError);
+  EXPECT_THROW(findAgreedNumber(file), UserError);
 }
 
 TEST_F(AgreedNumber, AFolderThatCannotBeMadeIsNamed) {

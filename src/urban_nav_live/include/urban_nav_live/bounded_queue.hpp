@@ -22,6 +22,7 @@ class BoundedQueue {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (closed_) return;
+      ++pushed_;
       if (items_.size() >= capacity_) {
         items_.pop_front();
         ++dropped_;
@@ -67,6 +68,11 @@ class BoundedQueue {
     const std::lock_guard<std::mutex> lock(mutex_);
     return closed_;
   }
+  /// Number of items pushed, those dropped included.
+  std::int64_t pushed() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return pushed_;
+  }
   /// Number of items dropped because the queue was full.
   std::int64_t dropped() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -78,7 +84,7 @@ class BoundedQueue {
   std::condition_variable arrived_;
   std::deque<Item> items_;
   std::size_t capacity_;
-  std::int64_t dropped_ = 0;
+  std::int64_t pushed_ = 0, dropped_ = 0;
   bool closed_ = false, woken_ = false;
 };
 

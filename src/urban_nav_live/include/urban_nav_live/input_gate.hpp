@@ -11,6 +11,7 @@ class InputGate {
  public:
   struct Counts {
     std::int64_t paused_dropped = 0;  ///< messages that arrived during a pause
+    std::int64_t received = 0;        ///< messages, those that did not pass included
     std::int64_t invalid = 0;         ///< messages that could not be converted: not finite, unknown enumerators, ...
   };
 
@@ -20,16 +21,18 @@ class InputGate {
 
   /// Returns true if a message may pass; otherwise it is counted as dropped.
   bool pass() {
+    countReceived();
     if (!paused_) return true;
     ++paused_dropped_;
     return false;
   }
+  void countReceived() { ++received_; }
   void countInvalid() { ++invalid_; }
-  Counts counts() const { return {paused_dropped_, invalid_}; }
+  Counts counts() const { return {paused_dropped_, received_, invalid_}; }
 
  private:
   std::atomic<bool> paused_{false};
-  std::atomic<std::int64_t> paused_dropped_{0}, invalid_{0};
+  std::atomic<std::int64_t> paused_dropped_{0}, received_{0}, invalid_{0};
 };
 
 }  // namespace urban_nav_live

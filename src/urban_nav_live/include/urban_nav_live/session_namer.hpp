@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_store/session.hpp"
 
 namespace urban_nav_live {
 
-/// Names the live sessions of one robot and decides which stored session is resumed. All stages of a robot name by this
-/// rule, each without knowledge of the others: stores of one robot merge only if the ids agree. Not thread-safe.
+/// Names the live sessions of one robot and decides which stored session is resumed. The odometry names by this rule,
+/// and all other stages follow it (OdometrySession); without announced sessions, each stage names
+/// by this rule alone. Stores of one robot merge only if the ids agree. Not thread-safe.
 ///
 /// A stored session with the same robot and recording is resumed if it begins at the same time (the recording is played
 /// again) or if its newest pose is at the start (odometry continues). Otherwise a new session begins. A recording that
@@ -36,6 +38,8 @@ class SessionNamer {
   /// that an earlier process left in the store.
   Named begin(const std::string& recording, urban_nav_core::StampNs start, const std::vector<Session>& stored = {},
               const EndsAt& endsAt = {});
+  /// Returns the session that the odometry announces. It is resumed if it is one of the stored sessions.
+  Named follow(const urban_nav_core::OdometrySession& announced, const std::vector<Session>& stored = {});
   /// An id that no session that begins may have: used, or of a session that came by other means.
   void reserve(const SessionId& id) { used_.insert(id); }
   bool isReserved(const SessionId& id) const { return used_.count(id) > 0; }
@@ -46,5 +50,8 @@ class SessionNamer {
   const std::string robot_;
   std::set<SessionId> used_;
 };
+
+/// Returns what an odometry announces of the session that it has named.
+urban_nav_core::OdometrySessionPtr toOdometrySession(const urban_nav_store::Session& session);
 
 }  // namespace urban_nav_live

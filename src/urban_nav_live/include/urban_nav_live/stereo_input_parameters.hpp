@@ -20,6 +20,7 @@ struct StereoInputParameters {
   double max_lateness;    // s
   double sync_tolerance;  // s
   double tf_timeout;      // s
+  double drain_s;         // s
 };
 
 /// Returns `own` rows followed by those of StereoInputParameters. `queue_size`: default, messages.
@@ -93,9 +94,19 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        3600.0,
        {},
        "Time that the first images wait for the camera's pose on /tf_static; after it base_frame is taken to be at the "
-       "left camera.",
+       "left camera, with a warning, until that pose arrives and a new session begins.",
        "REP-103",
-       {"tf_wait"}}};
+       {"tf_wait"}},
+      {"drain_s",
+       &P::drain_s,
+       "s",
+       5.0,
+       0.0,
+       3600.0,
+       {},
+       "Time after an interrupt within which what the stage still holds is published or decided; what is given up is "
+       "logged.",
+       "docs/architecture.md"}};
   own.insert(own.end(), rows.begin(), rows.end());
   return own;
 }

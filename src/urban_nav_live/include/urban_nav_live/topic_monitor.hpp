@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_live/stage_report.hpp"
 
 namespace urban_nav_live {
 
@@ -40,6 +41,13 @@ class TopicMonitor {
   /// not come yet, /b has not come yet"), then a late partner ("/right lags /left by 40 ms"), then silent topics ("/a
   /// has been silent for 12.0 s"); only the first kind of fault is returned.
   std::string fault(const std::string& group = "") const;
+  /// Fault of the topics of a group with its level: an error once a topic has been silent for 2 s longer
+  /// than its timeout, a fifth of the last 10 s.
+  struct Fault {
+    ReportLevel level = ReportLevel::Ok;
+    std::string sentence;  ///< empty: nothing
+  };
+  Fault worstFault(const std::string& group = "") const;
 
  private:
   struct Topic {

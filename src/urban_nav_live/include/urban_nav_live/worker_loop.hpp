@@ -53,6 +53,8 @@ class WorkerLoop {
   /// Starts the next round at once.
   void wake() { queue_.wake(); }
   bool isStopping() const { return queue_.isClosed(); }
+  /// Number of inputs and questions pushed, those dropped included.
+  std::int64_t pushed() const { return queue_.pushed(); }
   /// Number of inputs and questions dropped because the queue was full.
   std::int64_t dropped() const { return queue_.dropped(); }
 

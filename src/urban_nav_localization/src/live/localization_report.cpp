@@ -47,6 +47,7 @@ urban_nav_live::StageReport makeReport(const StageState& state) {
   }
   report.reason_name = toString(fault);
   report.is_error = fault == StageFault::NoMap;
+  if (!state.paused) report.warn(state.camera);
   report.add("state", toString(estimate.state));
   report.add("why", toString(estimate.reason));
   report.add("supporting matches", estimate.supporting_matches);

@@ -54,9 +54,10 @@ class Accelerometer {
   std::optional<std::string> frame_;
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
   std::vector<Sample> waiting_;
-  mutable std::mutex mutex_;  // guards R_base_imu_ and the two below
+  mutable std::mutex mutex_;  // guards R_base_imu_ and what follows
   urban_nav_core::AccelerometerCheck check_;
   std::int64_t withheld_ = 0;
+  std::int64_t samples_ = 0, not_finite_ = 0;
 };
 
 }  // namespace urban_nav_ros

@@ -4,6 +4,7 @@
 #include <sensor_msgs/NavSatFix.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,13 +16,15 @@ namespace urban_nav_ros {
 
 /// Converts gps/fix to fixes with the place of the antenna, by the static tf of the frame in the first message. Earlier
 /// messages wait for the tf; where it has not come with the sixtieth, the antenna counts as being at the robot's
-/// origin, as offline. Messages without a fix are ignored.
+/// origin, as offline, until the tf comes. Messages without a fix are ignored.
 class GpsFixes {
  public:
   explicit GpsFixes(std::string base_frame) : base_frame_(std::move(base_frame)) {}
   /// Returns the fixes that can be converted now, in the order of arrival.
   std::vector<urban_nav_core::PositionFix> add(const sensor_msgs::NavSatFix& message);
   std::vector<urban_nav_core::PositionFix> add(const tf2_msgs::TFMessage& message);
+  /// Returns whether the place of the antenna is assumed. Thread-safe.
+  bool isAssumed() const { return is_assumed_; }
 
  private:
   std::vector<urban_nav_core::PositionFix> takeConverted();
@@ -30,6 +33,7 @@ class GpsFixes {
   StaticTransforms transforms_;
   std::optional<std::string> frame_;
   std::optional<urban_nav_core::Vector3d> p_base_;
+  std::atomic<bool> is_assumed_{false};
   std::vector<urban_nav_core::PositionFix> waiting_;
 };
 

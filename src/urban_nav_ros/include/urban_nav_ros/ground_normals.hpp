@@ -4,6 +4,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/GroundPlane.h>
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -15,14 +16,16 @@
 namespace urban_nav_ros {
 
 /// Converts stereo/ground_plane to normals in the axes of the robot, by the static tf of the frame in the first
-/// message. Earlier messages wait a second for the tf; without one, base_frame is at the camera, as elsewhere. Messages
-/// without a plane and messages that are not finite are ignored.
+/// message. Earlier messages wait a second for the tf; without one, base_frame is at the camera, as elsewhere, until
+/// the tf comes. Messages without a plane and messages that are not finite are ignored.
 class GroundNormals {
  public:
   explicit GroundNormals(std::string base_frame) : base_frame_(std::move(base_frame)) {}
   /// Returns the normals that can be converted now, in the order of arrival.
   std::vector<urban_nav_core::GroundNormal> add(const urban_nav_msgs::GroundPlane& message);
   std::vector<urban_nav_core::GroundNormal> add(const tf2_msgs::TFMessage& message);
+  /// Returns whether the place of the camera is assumed. Thread-safe.
+  bool isAssumed() const { return is_assumed_; }
 
  private:
   std::vector<urban_nav_core::GroundNormal> takeConverted();
@@ -32,6 +35,7 @@ class GroundNormals {
   std::optional<std::string> frame_;
   std::chrono::steady_clock::time_point first_;  ///< arrival of the first message
   std::optional<urban_nav_core::Pose> T_base_camera_;
+  std::atomic<bool> is_assumed_{false};
   std::vector<urban_nav_core::GroundNormal> waiting_;  ///< in the axes of the camera, and its height
 };
 

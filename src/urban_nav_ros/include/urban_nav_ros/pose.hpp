@@ -5,6 +5,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Transform.h>
 #include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/OdometrySession.h>
 #include <urban_nav_msgs/RelativePose.h>
 
 #include <boost/array.hpp>
@@ -12,6 +13,7 @@
 #include <string>
 
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_ros {
@@ -37,8 +39,13 @@ nav_msgs::Odometry toOdometryMessage(urban_nav_core::StampNs stamp,
 void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance,
               nav_msgs::Odometry& message);
 
-urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative,
+urban_nav_msgs::OdometrySession toOdometrySessionMessage(const urban_nav_core::OdometrySession& session);
+/// Returns null where the id cannot be one.
+urban_nav_core::OdometrySessionPtr toOdometrySession(const urban_nav_msgs::OdometrySession& message);
+
+urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::SessionStep& relative,
                                                    const std::string& child_frame);
 std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs::RelativePose& message);
+std::optional<urban_nav_core::SessionStep> toSessionStep(const urban_nav_msgs::RelativePose& message);
 
 }  // namespace urban_nav_ros

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "urban_nav_core/trajectory/trajectory.hpp"
-#include "urban_nav_core/types/pose_with_covariance.hpp"
-#include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_core/types/odometry_session.hpp"
+#include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/stereo_sessions.hpp"
 
@@ -35,11 +35,7 @@ class RobotInputs {
         listener_(std::move(listener)),
         sessions_(options, stereoListener()) {}
 
-  void handle(const ImageInput& image) {
-    images_jumped_ = image_time_.add(image.stamp);
-    sessions_.handle(image);
-    if (std::exchange(images_jumped_, false)) sink_.restartImages();  // no stereo session was running
-  }
+  void handle(const ImageInput& image) { sessions_.handle(image); }
   void handle(const InfoInput& info) { sessions_.handle(info); }
   void handle(const tf2_msgs::TFMessageConstPtr& transforms) {
     sessions_.handle(transforms);
@@ -48,15 +44,17 @@ class RobotInputs {
   void handle(const sensor_msgs::LaserScanConstPtr& message) {
     const auto planar = toPlanarScan(*message);
     if (!planar) return listener_.invalid_scan();
+    beams_.add(*planar);
     sink_.addScan(message->header.frame_id, urban_nav_core::toScan(*planar));
     placeLasers();
   }
   void handle(const urban_nav_core::StampedPose& odometry) { sink_.addOdometry(odometry); }
-  void handle(const urban_nav_core::RelativePose& step) { sink_.addStep(step); }
+  void handle(const urban_nav_core::SessionStep& step) { sink_.addStep(step); }
   /// Begins a session whose wait for /tf_static is over. To be called some ten times a second.
   void idle() { sessions_.idle(); }
 
   const StereoSessions& sessions() const { return sessions_; }
+  const urban_nav_live::BeamFaults& beams() const { return beams_; }
   /// Returns a sentence if the camera's mounting is not known; else nothing.
   const std::string& mountingFault() const { return mounting_fault_; }
   /// Returns a sentence that names a laser whose place is not known; else nothing.
@@ -74,10 +72,8 @@ class RobotInputs {
       sink_.setCamera(MountedCamera{camera.camera, camera.T_base_left});
     };
     listener.pair = [this](DecodedPair& pair) { sink_.addPair(std::move(pair.assembled)); };
-    listener.ended = [this](const std::string&) {
-      if (std::exchange(images_jumped_, false)) sink_.restartImages();
-      sink_.setCamera(std::nullopt);
-    };
+    listener.ended = [this](const std::string&) { sink_.setCamera(std::nullopt); };
+    listener.went_back = [this] { sink_.restartImages(); };
     listener.refused = [this](const std::string& fault) {
       if (!fault.empty()) listener_.refused(fault);
     };
@@ -94,9 +90,8 @@ class RobotInputs {
   Sink& sink_;
   const Listener listener_;
   StereoSessions sessions_;
-  urban_nav_live::TimeJumpDetector image_time_;
-  bool images_jumped_ = false;
   std::string mounting_fault_;
+  urban_nav_live::BeamFaults beams_;
 };
 
 }  // namespace urban_nav_ros

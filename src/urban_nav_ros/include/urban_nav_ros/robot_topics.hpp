@@ -21,7 +21,7 @@ constexpr double kRobotTopicTimeout = 5.0;
 
 /// Subscribes to both poses of the odometry, to /tf_static, to the stereo camera if `stereo`, and to both lasers if
 /// `lasers`. Requires that Input can be made from ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr,
-/// sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and urban_nav_core::RelativePose (smoothed).
+/// sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and urban_nav_core::SessionStep (smoothed).
 /// Odometry is received in a pause too, so that it has no gap.
 template <typename Input>
 void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool compressed, bool lasers) {
@@ -52,9 +52,10 @@ void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool com
         if (!T_odom_base) return std::nullopt;
         return urban_nav_core::StampedPose{toStampNs(message->header.stamp), *T_odom_base};
       });
+  options.is_awaited = true;
   node.template subscribeInput<urban_nav_msgs::RelativePose>(
       topics::kVoRelativePose, options,
-      [](const urban_nav_msgs::RelativePoseConstPtr& message) { return toRelativePose(*message); });
+      [](const urban_nav_msgs::RelativePoseConstPtr& message) { return toSessionStep(*message); });
 }
 
 }  // namespace urban_nav_ros

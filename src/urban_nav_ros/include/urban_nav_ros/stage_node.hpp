@@ -20,6 +20,7 @@
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/status.hpp"
+#include "urban_nav_live/fault_rates.hpp"
 #include "urban_nav_live/input_gate.hpp"
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/store_writer_link.hpp"
@@ -37,6 +38,8 @@ struct TopicOptions {
   bool is_monitored = true;                                   ///< a topic on which nothing need arrive is not
   bool is_paused = true;  ///< messages are dropped in a pause; odometry must not have a gap
   int queue = 100;        ///< messages
+  /// When the process is interrupted, this topic may still bring what the stage before it held.
+  bool is_awaited = false;
 };
 
 /// ROS side of a live stage apart from its topics: handles, monitored subscriptions, services, the latched status
@@ -82,8 +85,8 @@ class StageNode {
                      urban_nav_core::StampNs stamp);
   /// Publishes the next status even if it has not changed.
   void restartStatus();
-  /// Sets what update() publishes. `dropped`: inputs for which the queue had no room.
-  void setReport(urban_nav_live::StageReport report, std::int64_t dropped);
+  /// Sets what update() publishes. `dropped`: inputs for which the queue had no room; `pushed`: all.
+  void setReport(urban_nav_live::StageReport report, std::int64_t dropped, std::int64_t pushed);
   /// Publishes /diagnostics.
   void update() { updater_.force_update(); }
 
@@ -94,6 +97,13 @@ class StageNode {
   bool followStore(const urban_nav_live::StoreState& state);
   /// Logs a warning, at most one in five seconds for each `key`.
   void logWarning(const std::string& key, const std::string& text);
+
+  /// Sets and returns the time within which a stage ends that is interrupted.
+  void setDrainTime(double seconds) { drain_ = std::chrono::milliseconds(static_cast<int>(1e3 * seconds)); }
+  std::chrono::milliseconds drainTime() const { return drain_; }
+  /// Waits until no other process publishes the awaited topics and no message has come for a moment; at the latest
+  /// until `end`.
+  void awaitInputs(std::chrono::steady_clock::time_point end) const;
 
   /// Ends subscriptions and services: no callback runs after it.
   void shutDown();
@@ -106,7 +116,8 @@ class StageNode {
   const std::string stage_;
   urban_nav_live::TopicMonitor monitor_;
   urban_nav_live::InputGate gate_;
-  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::Subscriber> subscribers_, awaited_;
+  std::chrono::milliseconds drain_{5000};
   std::vector<ros::ServiceServer> services_;
   ros::Publisher status_publisher_;
   std::string store_fault_;  // of the thread that calls followStore()
@@ -114,7 +125,8 @@ class StageNode {
   mutable std::mutex mutex_;  // guards what follows but updater_
   std::optional<urban_nav_msgs::StageStatus> last_status_;
   urban_nav_live::StageReport report_;
-  std::int64_t dropped_ = 0;
+  std::int64_t dropped_ = 0, pushed_ = 0;
+  mutable urban_nav_live::FaultRates rates_;  // followed as the report is published
   std::map<std::string, Clock::time_point> warned_;
   diagnostic_updater::Updater updater_;
 };
@@ -125,8 +137,11 @@ class StageNodeWith : public StageNode {
  public:
   using StageNode::StageNode;
 
-  /// Sets the number of inputs that may wait for the worker.
-  void setQueueSize(int inputs) { loop_.setCapacity(static_cast<std::size_t>(inputs)); }
+  /// Sets the number of inputs that may wait for the worker, and the time, s, within which an interrupted stage ends.
+  void setQueueSize(int inputs, double drain_s = 5.0) {
+    loop_.setCapacity(static_cast<std::size_t>(inputs));
+    setDrainTime(drain_s);
+  }
   void push(Input input) { loop_.push(std::move(input)); }
   /// Subscribes, and queues what `convert` makes of each message: an Input, or an optional one. A message for which it
   /// is empty is counted as invalid, with a warning.
@@ -168,9 +183,11 @@ void StageNode::subscribe(const std::string& topic, const TopicOptions& options,
         urban_nav_core::StampNs stamp = 0;
         if constexpr (ros::message_traits::HasHeader<Message>::value) stamp = toStampNs(message->header.stamp);
         monitor_.received(name, stamp);
+        if (!is_paused) gate_.countReceived();
         if (!is_paused || gate_.pass()) callback(message);
       };
   subscribers_.push_back(handles_.nh.subscribe<Message>(topic, static_cast<std::uint32_t>(options.queue), received));
+  if (options.is_awaited) awaited_.push_back(subscribers_.back());
 }
 
 template <typename Service>

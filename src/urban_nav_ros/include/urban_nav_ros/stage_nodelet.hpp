@@ -5,9 +5,14 @@
 #include <ros/this_node.h>
 #include <std_srvs/Trigger.h>
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
+#include "urban_nav_ros/orderly_end.hpp"
 #include "urban_nav_ros/stage_node.hpp"
 
 namespace urban_nav_ros {
@@ -38,6 +43,11 @@ namespace urban_nav_ros {
 ///       bool idle() { return false; }
 ///       std::string reset() { counter_ = {}; return "the count is 0"; }
 ///       void close() {}                                      // before the nodelet ends
+///       // Optional. The process is interrupted: what the stage still holds is published or decided within `limit`.
+///       // Before that all has come that the topics with TopicOptions::is_awaited bring.
+///       void finish(std::chrono::milliseconds limit);
+///       // Optional. Stages with a smaller number finish before others of the same process; 0 is that of an odometry.
+///       static constexpr int kFinishOrder = 1;
 ///       urban_nav_live::StageReport report() const;          // after each idle()
 ///      private:
 ///       ...
@@ -51,6 +61,7 @@ class StageNodelet : public nodelet::Nodelet {
  public:
   ~StageNodelet() override {
     if (!node_) return;
+    if (number_) OrderlyEnd::ofProcess().remove(*number_);
     timer_.stop();
     node_->shutDown();
     node_->loop().stop();
@@ -72,6 +83,7 @@ class StageNodelet : public nodelet::Nodelet {
       throw;
     }
     start();
+    number_ = OrderlyEnd::ofProcess().add(finishOrder(0), [this] { finish(0); });
     advertiseServices();
     timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
                                              [this](const ros::WallTimerEvent&) { node_->update(); });
@@ -88,7 +100,7 @@ class StageNodelet : public nodelet::Nodelet {
 
   bool idle() {
     const bool busy = stage_->idle();
-    node_->setReport(stage_->report(), node_->loop().dropped());
+    node_->setReport(stage_->report(), node_->loop().dropped(), node_->loop().pushed());
     return busy;
   }
 
@@ -107,8 +119,34 @@ class StageNodelet : public nodelet::Nodelet {
     });
   }
 
+  // Members of the stage are preferred: an int needs no conversion.
+  template <typename S = Stage>
+  static constexpr auto finishOrder(int) -> decltype(S::kFinishOrder + 0) {
+    return S::kFinishOrder;
+  }
+  static constexpr int finishOrder(long) { return 1; }
+
+  template <typename S = Stage>
+  auto finish(int) -> decltype(std::declval<S&>().finish(std::chrono::milliseconds())) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + node_->drainTime();
+    node_->awaitInputs(end);
+    const auto left = std::max(std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()), kLeastDrain);
+    const auto done = node_->loop().ask(
+        [this, left] {
+          stage_->finish(left);
+          return true;
+        },
+        left + kLeastDrain);
+    if (!done) node_->logError("not all that waited was decided within drain_s; it is given up");
+  }
+  void finish(long) {}
+
+  static constexpr std::chrono::milliseconds kLeastDrain{500};
+
   std::unique_ptr<Node> node_;
   std::unique_ptr<Stage> stage_;  // uses the node
+  std::optional<int> number_;     // in OrderlyEnd
   ros::WallTimer timer_;
 };
 

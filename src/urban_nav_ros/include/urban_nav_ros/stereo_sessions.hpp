@@ -14,8 +14,9 @@
 #include <variant>
 
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_live/frame_gaps.hpp"
+#include "urban_nav_live/round_gate.hpp"
 #include "urban_nav_live/stage_report.hpp"
-#include "urban_nav_live/time_jump.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/rectification_judge.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
@@ -24,11 +25,14 @@
 namespace urban_nav_ros {
 
 /// Divides the messages of a stereo camera, and of a motion sensor, into sessions: each has one calibration, one
-/// mounting and stamps that do not jump back. Pairs are the same as offline. Used by one thread.
+/// mounting and stamps that do not jump back (urban_nav_live::RoundGate). Pairs are the same as offline. Used by one
+/// thread.
 ///
 /// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest
 /// `tf_timeout` after the first image; earlier images are kept. Without the transform the left camera is taken to be at
-/// the base, with axes as in REP 103. Where it is not certain that images are rectified, the first pairs are awaited.
+/// the base, with axes as in REP 103: placeFault() names that, and when the transform arrives, or another one, the
+/// session ends and the next begins with it. The gyroscope's axes are treated alike. Where it is not certain that
+/// images are rectified, the first pairs are awaited.
 class StereoSessions {
  public:
   using Message = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, nav_msgs::OdometryConstPtr,
@@ -64,21 +68,26 @@ class StereoSessions {
     std::function<void(const std::string& why)> ended;  ///< after the last pair of the session
     /// The calibration makes no session, for this reason; empty: another calibration has arrived.
     std::function<void(const std::string& fault)> refused;
+    /// Stamps have jumped back: after the last pair from before it, and before `ended`. Called without a session, too.
+    std::function<void()> went_back = {};
   };
   struct Counts {
     std::int64_t late = 0, duplicate = 0;  ///< images refused by the queue
     std::int64_t left_missing = 0, right_missing = 0;
     std::int64_t damaged = 0;    ///< images that do not decode or have a wrong size
-    std::int64_t dropped = 0;    ///< messages before a session began
+    std::int64_t dropped = 0;    ///< images before a session began, and messages from before a jump back in time
     std::int64_t rectified = 0;  ///< images
     std::int64_t pairs = 0, sessions = 0;
+    std::int64_t gaps = 0;  ///< pairs that never came, by the gaps between stamps
     void addTo(urban_nav_live::StageReport& report) const;
   };
 
   StereoSessions(Options options, Listener listener)
       : options_(std::move(options)),
         listener_(std::move(listener)),
-        judge_(options_.rectified, options_.judges_images, options_.sync_tolerance) {}
+        judge_(options_.rectified, options_.judges_images, options_.sync_tolerance),
+        rounds_(urban_nav_live::RoundGate<Message>::Options{{kLeftStream, kRightStream}},
+                {[this](Message& message) { handleSensor(message); }, [this] { goBack(); }}) {}
 
   /// Handles a message; calls the listener.
   void handle(const Message& message);
@@ -89,6 +98,8 @@ class StereoSessions {
   void end(const std::string& why, bool deliver = true);
 
   bool isRunning() const { return feed_.has_value(); }
+  /// Returns which places of sensors the running session assumes; empty: none, or no session.
+  const std::string& placeFault() const { return place_fault_; }
   /// Returns why the calibration makes no session; empty: nothing is wrong with it.
   const std::string& fault() const { return fault_; }
   const StaticTransforms& transforms() const { return transforms_; }
@@ -96,6 +107,9 @@ class StereoSessions {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr int kLeftStream = 0, kRightStream = 1, kWheelStream = 2, kGyroStream = 3;
+  void sortByRound(const Message& message);
+  void goBack();
   void handleInfo(const InfoInput& info);
   void handleSensor(const Message& message);
   void feed(const Message& message);
@@ -104,6 +118,12 @@ class StereoSessions {
   void tryToBegin();
   void begin(bool are_rectified);
   void deliverPairs();
+  /// Places of the sensors by /tf_static; empty: not known.
+  struct Places {
+    std::optional<urban_nav_core::Pose> T_base_camera, T_base_imu;
+  };
+  Places findPlaces() const;
+  void followPlaces();
 
   const Options options_;
   const Listener listener_;
@@ -114,11 +134,14 @@ class StereoSessions {
   int waiting_images_ = 0;       // of these
   RectificationJudge judge_;
   std::optional<Clock::time_point> first_image_;
-  urban_nav_live::TimeJumpDetector images_;
-  std::string fault_;
+  urban_nav_live::RoundGate<Message> rounds_;
+  bool goes_back_ = false;  // the session that ends does so because of it
+  std::string fault_, place_fault_;
+  Places places_;  // of the running session
   std::optional<StereoFeed> feed_;
   std::optional<WheelMotion> wheels_;
   std::optional<GyroMotion> gyroscope_;
+  urban_nav_live::FrameGaps gaps_;
   Counts finished_;  // of the sessions that have ended, and what no feed counts
 };
 

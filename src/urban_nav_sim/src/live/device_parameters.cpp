@@ -40,6 +40,10 @@ const Table<DeviceParameters>& deviceTable() {
            ""},
           {"begin", &P::begin, "", "", false, false, {},
            "File in which devices agree on the begin of their session, new for each launch; empty: at once.", ""},
+          {"held", &P::held, "", false, false, true, {},
+           "Whether there is no port before another process has written the begin, ns of the steady clock, to that "
+           "file.",
+           ""},
           {"truth", &P::truth, "", "", false, false, {},
            "File for sequence,true_ns of each measurement, written at the end; empty: none.", ""},
           {"seed", &P::seed, "", 1, 0, std::int64_t{std::numeric_limits<int>::max()}, {}, "Of delays and faults.", ""},
@@ -58,6 +62,8 @@ SimulatedDeviceJob simulatedDeviceJob(const DeviceParameters& parameters, const 
   if (job.tcp == 0 && job.link.empty()) throw UserError(where + "link", "is empty", "a path");
   job.truth = parameters.truth;
   job.begin = parameters.begin;
+  job.held = parameters.held;
+  if (job.held && job.begin.empty()) throw UserError(where + "begin", "is empty, and the session is held", "a path");
   job.options.seed = static_cast<std::uint64_t>(parameters.seed);
   for (const std::string& word : splitWords(parameters.fault))
     job.options.faults.push_back(parseDeviceFault(word, where + "fault"));

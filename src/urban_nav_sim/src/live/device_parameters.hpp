@@ -16,6 +16,7 @@ struct DeviceParameters {
   std::string fault;  // faults as parseDeviceFault takes them
   std::string clock, delay;
   std::string begin, truth;
+  bool held;
   int seed;
 
   DeviceParameters();

@@ -58,6 +58,7 @@ void expectError(const std::function<void(DeviceParameters&)>& spoil, const std:
 TEST(DeviceParameters, WhatIsWrongIsNamedWithItsKey) {
   expectError([](DeviceParameters& p) { p.bag.clear(); }, "/laser/bag");
   expectError([](DeviceParameters& p) { p.link.clear(); }, "/laser/link");
+  expectError([](DeviceParameters& p) { p.held = true; }, "/laser/begin");
   expectError([](DeviceParameters& p) { p.tcp = 2947; }, "/laser/tcp");
   expectError([](DeviceParameters& p) { p.fault = "melt:1:2"; }, "/laser/fault melt:1:2");
   expectError([](DeviceParameters& p) { p.clock = "soon"; }, "/laser/clock");

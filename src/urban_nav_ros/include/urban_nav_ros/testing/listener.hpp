@@ -19,9 +19,9 @@ class Listener {
   /// `node`: the nodelet's name, under which its services are.
   explicit Listener(std::string node) : node_(std::move(node)) { keep("/diagnostics", diagnostics); }
 
-  /// Spins until it is so; false after a minute, which is ample on a machine that has other work.
+  /// Spins until it is so; false after five minutes, which is ample on a machine that has other work.
   static bool until(const std::function<bool()>& so) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(300.0);
     while (ros::ok() && ros::WallTime::now() < end) {
       ros::spinOnce();
       if (so()) return true;

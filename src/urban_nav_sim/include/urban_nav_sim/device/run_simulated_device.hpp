@@ -16,6 +16,7 @@ struct SimulatedDeviceJob {
   int tcp = 0;        ///< gps: port at which gpsd's protocol is served instead; 0: none
   std::string truth;  ///< file of `sequence,true_ns`, or empty
   std::string begin;  ///< file in which devices agree on the begin of the session; empty: at once
+  bool held = false;  ///< there is no port before another process has written that file
   DeviceOptions options;
 };
 

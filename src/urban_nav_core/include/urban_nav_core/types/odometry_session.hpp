@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_core {
+
+/// Session of a live odometry, which decides when it begins and what its id is. All other stages follow.
+struct OdometrySession {
+  std::string id;  ///< 20 hexadecimal digits
+  std::string name, robot, recording;
+  StampNs start = 0;  ///< of its first frame
+};
+
+/// Shared by the steps of a session; null where an odometry does not announce it.
+using OdometrySessionPtr = std::shared_ptr<const OdometrySession>;
+
+/// Step of a live odometry, and the session to which both of its poses belong.
+struct SessionStep : RelativePose {
+  SessionStep() = default;
+  SessionStep(RelativePose step, OdometrySessionPtr announced = nullptr)  // implicit: a step whose session is unknown
+      : RelativePose(std::move(step)), session(std::move(announced)) {}
+  OdometrySessionPtr session;
+};
+
+/// Returns the id; empty: not announced.
+inline const std::string& sessionId(const OdometrySessionPtr& session) {
+  static const std::string none;
+  return session ? session->id : none;
+}
+
+}  // namespace urban_nav_core

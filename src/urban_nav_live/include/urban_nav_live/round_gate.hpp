@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "urban_nav_core/sequence/time_jump.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_live {
+
+/// Passes on the items of several streams round by round. A round ends when stamps jump back: a recording begins again,
+/// or a clock is set back. Each stream has a connection of its own, so that stamps of one jump back before those of
+/// another: items of the next round wait until the leading streams have arrived there, and items of the round before
+/// are then dropped. So one jump of the clock is one end of a session, whatever overtakes what. Not thread-safe.
+template <typename Item>
+class RoundGate {
+ public:
+  using StampNs = urban_nav_core::StampNs;
+  struct Options {
+    /// The next round begins when all of these that have come in this one have arrived there.
+    std::set<int> leading;
+    /// ... or when its items cover this time, ns: a leading stream is silent.
+    StampNs patience = urban_nav_core::kMaxStepBack;
+    std::size_t capacity = 100'000;  ///< items that wait; beyond that the oldest is dropped
+  };
+  struct Listener {
+    std::function<void(Item&)> item;        ///< of the present round
+    std::function<void()> next_round = {};  ///< the items that follow are of the next round
+  };
+
+  RoundGate(Options options, Listener listener) : options_(std::move(options)), listener_(std::move(listener)) {}
+
+  /// Adds an item of a stream. Calls the listener.
+  void add(int stream, StampNs stamp, Item item) {
+    const int round = toRound(stream, stamp);
+    if (round < round_) {
+      ++dropped_;
+      return;
+    }
+    if (round == round_) return listener_.item(item);
+    waiting_.push_back({round, stamp, std::move(item)});
+    if (waiting_.size() > options_.capacity) {
+      waiting_.pop_front();
+      ++dropped_;
+    }
+    if (isDue()) beginNext();
+  }
+  /// Begins the next round if items of it wait.
+  void flush() {
+    while (!waiting_.empty()) beginNext();
+  }
+
+  /// Returns the number of times that stamps have jumped back.
+  int round() const { return round_; }
+  std::int64_t dropped() const { return dropped_; }
+
+ private:
+  struct Stream {
+    int round = 0;
+    StampNs newest = 0;
+  };
+  struct Waiting {
+    int round = 0;
+    StampNs stamp = 0;
+    Item item;
+  };
+
+  /// Returns the round of an item. A stream that missed its own jump, as one with few items may, is in the newest round
+  /// as soon as its stamps are not ahead of that round.
+  int toRound(int stream, StampNs stamp) {
+    const auto [found, is_new] = streams_.try_emplace(stream, Stream{newest_round_, stamp});
+    Stream& known = found->second;
+    if (!is_new && urban_nav_core::jumpsBack(stamp, known.newest)) {
+      ++known.round;
+      known.newest = stamp;
+    } else if (known.round < newest_round_ && stamp <= newest_) {
+      known = {newest_round_, stamp};
+    }
+    known.newest = std::max(known.newest, stamp);
+    if (known.round > newest_round_) {
+      newest_round_ = known.round;
+      newest_ = stamp;
+    } else if (known.round == newest_round_) {
+      newest_ = std::max(newest_, stamp);
+    }
+    return known.round;
+  }
+
+  bool isDue() const {
+    const bool all_there = std::all_of(options_.leading.begin(), options_.leading.end(), [this](int stream) {
+      const auto found = streams_.find(stream);
+      return found == streams_.end() || found->second.round > round_;
+    });
+    if (all_there) return true;
+    StampNs first = std::numeric_limits<StampNs>::max(), last = std::numeric_limits<StampNs>::min();
+    for (const Waiting& each : waiting_) {
+      if (each.round != waiting_.front().round) continue;
+      first = std::min(first, each.stamp);
+      last = std::max(last, each.stamp);
+    }
+    return last - first > options_.patience;
+  }
+
+  void beginNext() {
+    round_ = std::min_element(waiting_.begin(), waiting_.end(), [](const Waiting& a, const Waiting& b) {
+               return a.round < b.round;
+             })->round;
+    if (listener_.next_round) listener_.next_round();
+    for (Waiting& each : std::exchange(waiting_, {})) {
+      if (each.round == round_) listener_.item(each.item);
+      else waiting_.push_back(std::move(each));
+    }
+  }
+
+  const Options options_;
+  const Listener listener_;
+  std::map<int, Stream> streams_;
+  int round_ = 0, newest_round_ = 0;
+  StampNs newest_ = 0;  // of the newest round
+  std::deque<Waiting> waiting_;
+  std::int64_t dropped_ = 0;
+};
+
+}  // namespace urban_nav_live
