@@ -15,8 +15,8 @@ struct ConstantMeasurement {
   double value = 0.0, sigma = 1.0;  ///< sigma > 0
 };
 
-/// Detects that a constant has changed, from measurements in order of time, by the two-sided cumulative sum (Page 1954) of
-/// their recursive residuals (Brown, Durbin and Evans 1975):
+/// Detects that a constant has changed, from measurements in order of time, by the two-sided cumulative sum (Page 1954)
+/// over their recursive residuals (Brown, Durbin and Evans 1975):
 ///   w_k = (y_k - m) / sqrt(sigma_k^2 + s^2),  S+ = max(0, S+ + w_k - 1/2),  S- = max(0, S- - w_k - 1/2),
 /// with m and s the weighted mean of the segment so far and its standard deviation. While the constant does not change,
 /// w_k are independent and standard normal, whatever the constant is and however the sigmas differ.
