@@ -30,22 +30,32 @@ ChangeDetector::ChangeDetector(double false_alarm, std::int64_t horizon) {
   threshold_ = high;
 }
 
-void ChangeDetector::addToSegment(const ConstantMeasurement& measurement) {
-  const double weight = 1.0 / (measurement.sigma * measurement.sigma);
-  const double variance = measurement.sigma * measurement.sigma + (weight_ > 0.0 ? 1.0 / weight_ : 0.0);
-  const double residual = weight_ > 0.0 ? (measurement.value - weighted_ / weight_) / std::sqrt(variance) : 0.0;
-  open_.push_back(measurement);
-  weight_ += weight;
-  weighted_ += weight * measurement.value;
-  rise_ = std::max(0.0, rise_ + residual - kReference);
-  fall_ = std::max(0.0, fall_ - residual - kReference);
+void ChangeDetector::Sums::add(const ConstantMeasurement& measurement) {
+  if (count++ == 0) interval.from = measurement.interval.from;
+  interval.to = measurement.interval.to;
+  const double share = 1.0 / (measurement.sigma * measurement.sigma);
+  weight += share;
+  weighted += share * measurement.value;
 }
 
-void ChangeDetector::restart(std::size_t first) {
-  std::vector<ConstantMeasurement> after(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end());
-  open_.clear();
-  weight_ = weighted_ = rise_ = fall_ = 0.0;
-  for (const ConstantMeasurement& measurement : after) addToSegment(measurement);
+ChangeDetector::Segment ChangeDetector::Sums::toSegment() const {
+  return {interval, count, weighted / weight, 1.0 / std::sqrt(weight)};
+}
+
+void ChangeDetector::addToSegment(const ConstantMeasurement& measurement) {
+  double residual = 0.0;
+  if (open_.count > 0) {
+    const double variance = measurement.sigma * measurement.sigma + 1.0 / open_.weight;
+    residual = (measurement.value - open_.weighted / open_.weight) / std::sqrt(variance);
+  }
+  open_.add(measurement);
+  recent_.push_back(measurement);
+  if (recent_.size() > kRecent) {
+    past_.add(recent_.front());
+    recent_.pop_front();
+  }
+  rise_ = std::max(0.0, rise_ + residual - kReference);
+  fall_ = std::max(0.0, fall_ - residual - kReference);
 }
 
 bool ChangeDetector::add(const ConstantMeasurement& measurement) {
@@ -56,49 +66,39 @@ bool ChangeDetector::add(const ConstantMeasurement& measurement) {
   const double sum = std::max(rise_, fall_);
   largest_ = std::max(largest_, sum);
   if (sum <= threshold_) return false;
-  const std::size_t change = findChange();
-  closed_.push_back(summarise(0, change));
-  restart(change);
+  split();
   return true;
 }
 
-std::size_t ChangeDetector::findChange() const {
-  std::size_t change = 1;
-  double before = 0.0, before_weighted = 0.0, largest = -1.0;
-  for (std::size_t i = 1; i < open_.size(); ++i) {
-    const double weight = 1.0 / (open_[i - 1].sigma * open_[i - 1].sigma);
-    before += weight;
-    before_weighted += weight * open_[i - 1].value;
-    const double after = weight_ - before;
-    if (!(after > 0.0)) break;
-    const double difference = before_weighted / before - (weighted_ - before_weighted) / after;
-    const double distance = difference * difference / (1.0 / before + 1.0 / after);
-    if (distance > largest) {
-      largest = distance;
-      change = i;
+void ChangeDetector::split() {
+  Sums before = past_, best_before = past_;
+  std::size_t change = 0;
+  double largest = -1.0;
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    const double after = open_.weight - before.weight;
+    if (before.count > 0 && after > 0.0) {
+      const double difference = before.weighted / before.weight - (open_.weighted - before.weighted) / after;
+      const double distance = difference * difference / (1.0 / before.weight + 1.0 / after);
+      if (distance > largest) {
+        largest = distance;
+        change = i;
+        best_before = before;
+      }
     }
+    before.add(recent_[i]);
   }
-  return change;
-}
-
-ChangeDetector::Segment ChangeDetector::summarise(std::size_t begin, std::size_t end) const {
-  Segment segment;
-  double weight = 0.0, weighted = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    const ConstantMeasurement& measurement = open_[i];
-    weight += 1.0 / (measurement.sigma * measurement.sigma);
-    weighted += measurement.value / (measurement.sigma * measurement.sigma);
-  }
-  segment.interval = {open_[begin].interval.from, open_[end - 1].interval.to};
-  segment.measurements = static_cast<std::int64_t>(end - begin);
-  segment.mean = weighted / weight;
-  segment.sigma = 1.0 / std::sqrt(weight);
-  return segment;
+  if (best_before.count == 0) return;
+  closed_.push_back(best_before.toSegment());
+  const std::deque<ConstantMeasurement> after(recent_.begin() + static_cast<std::ptrdiff_t>(change), recent_.end());
+  past_ = open_ = Sums();
+  recent_.clear();
+  rise_ = fall_ = 0.0;
+  for (const ConstantMeasurement& each : after) addToSegment(each);
 }
 
 std::vector<ChangeDetector::Segment> ChangeDetector::segments() const {
   std::vector<Segment> all = closed_;
-  if (!open_.empty()) all.push_back(summarise(0, open_.size()));
+  if (open_.count > 0) all.push_back(open_.toSegment());
   return all;
 }
 

@@ -102,6 +102,24 @@ TEST(ChangeDetector, EstimatesTheConstantBeforeAndAfter) {
   }
 }
 
+TEST(ChangeDetector, OfALongSegmentTheMeanIsThatOfAll) {
+  ChangeDetector detector(1e-6, 10000);
+  Drive drive(5);
+  double weight = 0.0, weighted = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const ConstantMeasurement measurement = drive.measure(0.3);
+    weight += 1.0 / (measurement.sigma * measurement.sigma);
+    weighted += measurement.value / (measurement.sigma * measurement.sigma);
+    ASSERT_FALSE(detector.add(measurement));
+  }
+  for (int k = 0; k < 40; ++k) detector.add(drive.measure(1.3));
+  const std::vector<ChangeDetector::Segment> segments = detector.segments();
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].measurements, 3000);
+  EXPECT_EQ(segments[0].interval.from, 0);
+  EXPECT_NEAR(segments[0].mean, weighted / weight, 1e-12);
+}
+
 TEST(ChangeDetector, IgnoresWhatIsNoMeasurement) {
   ChangeDetector detector(1e-4, 100);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <deque>
 #include <vector>
 
 #include "urban_nav_trust/consistency_test.hpp"
@@ -22,10 +22,11 @@ struct ConstantMeasurement {
 /// w_k are independent and standard normal, whatever the constant is and however the sigmas differ.
 ///
 /// An alarm ends a segment where the means before and after differ by most standard deviations, which is where the
-/// likelihood of one change is largest (Hinkley 1970). There a new segment begins, with a prior of its own. Not
-/// thread-safe.
+/// likelihood of one change is largest (Hinkley 1970). There a new segment begins, with a prior of its own. A
+/// change further back than kRecent measurements is dated there. Memory is bounded. Not thread-safe.
 class ChangeDetector {
  public:
+  static constexpr std::size_t kRecent = 2048;
   /// `false_alarm`: probability of an alarm in `horizon` measurements of a constant that does not change; in (0, 1).
   ChangeDetector(double false_alarm, std::int64_t horizon);
 
@@ -47,17 +48,23 @@ class ChangeDetector {
   double threshold() const { return threshold_; }
 
  private:
-  Segment summarise(std::size_t begin, std::size_t end) const;
-  /// Returns the number of measurements of the open segment before its most likely change.
-  std::size_t findChange() const;
-  void restart(std::size_t first);
+  /// Measurements as sums.
+  struct Sums {
+    Interval interval;
+    std::int64_t count = 0;
+    double weight = 0.0, weighted = 0.0;  ///< of 1 / sigma^2 and of value / sigma^2
+    void add(const ConstantMeasurement& measurement);
+    Segment toSegment() const;
+  };
   void addToSegment(const ConstantMeasurement& measurement);
+  /// Ends the open segment where its most likely change is.
+  void split();
 
   double threshold_, largest_ = 0.0;
   std::int64_t count_ = 0;
   std::vector<Segment> closed_;
-  std::vector<ConstantMeasurement> open_;  // the segment that is still open
-  double weight_ = 0.0, weighted_ = 0.0;   // sums over it: 1 / sigma^2, and of value / sigma^2
+  Sums past_, open_;                        // the open segment: before its recent measurements, and all of it
+  std::deque<ConstantMeasurement> recent_;  // at most kRecent
   double rise_ = 0.0, fall_ = 0.0;
 };
 
