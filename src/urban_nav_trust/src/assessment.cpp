@@ -54,7 +54,10 @@ FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& f
     const double drift = 0.01 * parameters.unexplained_drift * failure.distance;
     covariance.diagonal().array() += drift * drift;
   }
-  for (std::size_t k = 0; k < kRadii.size(); ++k) trust.probabilities[k] = probabilityWithin(kRadii[k], covariance);
+  for (std::size_t k = 0; k < kRadii.size(); ++k) {
+    trust.probabilities[k] = probabilityWithin(kRadii[k], covariance);
+    if (k > 0) trust.probabilities[k] = std::max(trust.probabilities[k], trust.probabilities[k - 1]);  // last bits
+  }
   return trust;
 }
 

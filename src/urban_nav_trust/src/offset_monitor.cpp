@@ -25,8 +25,10 @@ OffsetMonitor::OffsetMonitor(const Parameters& parameters)
     : false_alarm_(parameters.false_alarm), detector_(false_alarm_, kHorizon) {}
 
 bool OffsetMonitor::add(StampNs stamp, double step_px, double sigma_px) {
+  if (!any_frame_) first_ = last_ = stamp;
+  any_frame_ = true;
   if (!std::isfinite(step_px) || !(sigma_px > 0.0) || !std::isfinite(sigma_px)) return false;
-  if (frames_++ == 0) first_ = last_ = stamp;
+  ++frames_;
   const Interval interval{last_, stamp};
   last_ = stamp;
   if (stamp < quiet_until_) return false;

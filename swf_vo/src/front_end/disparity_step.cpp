@@ -45,7 +45,8 @@ std::vector<Difference> listDifferences(const StereoCamera& camera, const Pose& 
     const double u = match.left.pixel.x() / camera.left.width, v = match.left.pixel.y() / camera.left.height;
     Difference difference;
     difference.px = match.left.pixel.x() - match.right.pixel.x() - camera.disparity_offset - disparity;
-    difference.slope = {1.0, disparity * disparity / (camera.left.fx * camera.baseline)};
+    const double x = (match.left.pixel.x() - camera.left.cx) / camera.left.fx;
+    difference.slope = {1.0 + x * x, disparity * disparity / (camera.left.fx * camera.baseline)};
     difference.cell = static_cast<std::size_t>(std::clamp(static_cast<int>(v * kRows), 0, kRows - 1) * kColumns +
                                                std::clamp(static_cast<int>(u * kColumns), 0, kColumns - 1));
     differences.push_back(difference);

@@ -12,8 +12,9 @@ namespace swf_vo {
 
 /// Returns by how much the disparities of the landmarks in both images exceed those that the map of earlier frames
 /// predicts:
-///   d - d(T_camera_odom) = step + (d(T_camera_odom) / z) t + error,
-/// with t an error of the camera's place along its axis, which is estimated too. Where the rig has not changed since
+///   d - d(T_camera_odom) = (1 + x^2) step + (d(T_camera_odom) / z) t + error,
+/// with x the tangent of the direction along the rows: a turn of the right camera about its y axis by step / fx. t is
+/// an error of the camera's place along its axis, estimated too. Where the rig has not changed since
 /// the landmarks were measured, the step is zero. `matches`: before any was rejected for its disparity;
 /// `T_camera_odom`: mostly by measurements in one image each.
 ///

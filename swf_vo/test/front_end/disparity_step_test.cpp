@@ -15,10 +15,10 @@ using urban_nav_core::StereoCamera;
 
 StereoCamera stepCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.3, 0.02}; }
 
-/// Landmarks of earlier frames as a camera sees them whose right image is displaced.
+/// Landmarks of earlier frames as a pair sees them whose right camera was turned about its y axis.
 class DisplacedView {
  public:
-  /// `shift`: px, by which disparities are larger; `sigma`: of each pixel coordinate, px.
+  /// `shift`: px, by which disparities in the middle are larger; `sigma`: of each pixel coordinate, px.
   DisplacedView(unsigned seed, int count, double shift, double sigma, const Pose& T_camera_odom) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0.0, 1.0);
@@ -34,7 +34,8 @@ class DisplacedView {
       match.p_odom << p, 1.0;
       match.left.found = match.right.found = true;
       match.left.pixel = {z.x() + sigma * normal(random), z.y()};
-      match.right.pixel = {z.z() - shift + sigma * normal(random), z.y()};
+      const double x = (z.x() - camera.left.cx) / camera.left.fx;
+      match.right.pixel = {z.z() - (1.0 + x * x) * shift + sigma * normal(random), z.y()};
       matches.push_back(match);
     }
   }

@@ -41,6 +41,7 @@ class OffsetMonitor {
   ChangeDetector detector_;
   std::int64_t frames_ = 0;
   double largest_ = 0.0;
+  bool any_frame_ = false;
   urban_nav_core::StampNs first_ = 0, last_ = 0, quiet_until_ = 0;
   std::vector<Change> changes_;
 };
