@@ -96,6 +96,8 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   message.landmarks_in_prior = static_cast<std::uint32_t>(figures.landmarks_in_prior);
   message.disparity_offset_px = figures.disparity_offset_px;
   message.disparity_offset_sigma_px = figures.disparity_offset_sigma_px;
+  message.disparity_step_px = figures.disparity_step.px;
+  message.disparity_step_sigma_px = figures.disparity_step.sigma_px;
   message.process_ms = process_ms;
   message.latency_ms = (ros::Time::now() - message.header.stamp).toSec() * 1e3;
   frame_.publish(message);

@@ -135,7 +135,10 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   frame_.statistics.disparity_offset_sigma_px = window.disparityOffsetSigma();
   frame_.statistics.row_offset_px = row_offset;
   frame_.statistics.noise_scale = noise_scale;
-  if (seen != nullptr) frame_.rig = seen->rig;
+  if (seen != nullptr) {
+    frame_.rig = seen->rig;
+    frame_.statistics.disparity_step = seen->disparity_step;
+  }
   frame_.rig.scale_sigma = window.scaleSigma();
   Waiting waiting;
   waiting.frame = frame;
@@ -151,6 +154,7 @@ const Frame& Output::refused(StampNs stamp) {
   frame_.stamp = stamp;
   frame_.accepted = false;
   frame_.status = {urban_nav_core::Health::Degraded, static_cast<int>(Reason::BadStamp), sentence(Reason::BadStamp)};
+  frame_.statistics.disparity_step = {};
   frame_.settled.clear();
   frame_.features.clear();
   return frame_;

@@ -87,6 +87,12 @@ struct MotionEstimates {
   std::vector<MotionSensorFault> faults;                        ///< in order of their beginnings
 };
 
+/// Excess of disparities over those predicted from earlier frames; zero while the cameras keep their mounting.
+struct DisparityStep {
+  double px = 0.0, sigma_px = 0.0;  ///< sigma 0: not measured
+  int landmarks = 0;                ///< that it rests on
+};
+
 /// Figures of one frame. Times are measured by the caller: a core reads no clock.
 struct Statistics {
   int corners = 0;                 ///< FAST corners found in the left image, all levels
@@ -100,6 +106,7 @@ struct Statistics {
   double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now: what its calibration left
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
   double row_offset_px = 0.0;  ///< by how much the right image shows everything lower than the left, as known by now
+  DisparityStep disparity_step;
   double noise_scale =
       1.0;  ///< errors of measurements in standard deviations of their alignments, as usual by now; 1 at least
 };

@@ -7,6 +7,7 @@
 
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
+#include "front_end/disparity_step.hpp"
 #include "front_end/match.hpp"
 #include "front_end/noise_scale.hpp"
 #include "front_end/patch_residual_test.hpp"
@@ -136,7 +137,7 @@ class FrontEnd::Implementation {
     return result_;
   }
 
-  /// What the next frame finds; everything else is made anew in each.
+  /// The state that the next frame finds; everything else is made anew in each.
   void archive(urban_nav_core::Archive& archive) {
     archive(corners_, rotation_);
     tracks_.archive(archive, parameters_.pyramid_levels);
@@ -156,6 +157,7 @@ class FrontEnd::Implementation {
     result_.localised = result_.turned = false;
     result_.corners = result_.candidates = 0;
     result_.inlier_share = result_.reprojection_px = 0.0;
+    result_.disparity_step = {};
   }
 
   /// New landmarks. The first frame is looked at twice where the rows of its images turn out to differ: its landmarks
@@ -254,9 +256,7 @@ class FrontEnd::Implementation {
     matchTemporal(corners_, camera_, T_turned_odom, radius_.px(), matches_, rows_.px());
     for (Match& match : matches_) measure(match);
     starts_.assign({T_predicted_odom, T_turned_odom});
-    PoseEstimatorOptions options;
-    options.slack_px = kCoarseSlackPx;
-    options.least_inliers = parameters_.lost_features;
+    const PoseEstimatorOptions options{kCoarseSlackPx, parameters_.lost_features};
     return pose_estimator_.locate(starts_, options, matches_);
   }
 
@@ -300,10 +300,7 @@ class FrontEnd::Implementation {
     matchAnywhere(corners_, camera_, T_turned_odom, radius_.anywhere(), matches_, rows_.px());
     for (Match& match : matches_) measure(match);
     starts_.assign({T_turned_odom});
-    PoseEstimatorOptions options;
-    options.slack_px = kCoarseSlackPx;
-    options.least_inliers = parameters_.lost_features;
-    options.samples = kWideSamples;
+    const PoseEstimatorOptions options{kCoarseSlackPx, parameters_.lost_features, kWideSamples};
     const PoseEstimate guess = pose_estimator_.locate(starts_, options, matches_);
     if (guess.found) {
       const PoseEstimate coarse = matchCoarsely(guess.T_camera_odom, guess.T_camera_odom);
@@ -313,7 +310,7 @@ class FrontEnd::Implementation {
     return std::nullopt;
   }
 
-  /// How wide to search next time: by what this frame's inliers were away from where they had been expected.
+  /// Learns the width of the next search from what this frame's inliers were away from where they had been expected.
   void learnRadius(const Pose& T_expected_odom) {
     errors_.clear();
     for (const Match& match : matches_) {
@@ -335,6 +332,7 @@ class FrontEnd::Implementation {
       dropMisfits(match);
       measure(match);
     }
+    if (coarse.found) result_.disparity_step = measureDisparityStep(camera_, coarse.T_camera_odom, matches_);
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     PoseEstimatorOptions options;
     options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
@@ -398,7 +396,7 @@ class FrontEnd::Implementation {
            corners_.count(Side::Right) > enough;
   }
 
-  /// What this frame says of a landmark's future.
+  /// Decides the future of a landmark.
   void follow(FrameId frame, Match& match) {
     Track& track = *match.track;
     if (match.inlier) {

@@ -31,6 +31,7 @@ struct FrontEndResult {
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
   double row_offset_px = 0.0;    ///< RowOffset, as known by now
   double noise_scale = 1.0;      ///< NoiseScale::typical(), in standard deviations
+  DisparityStep disparity_step;  ///< sigma 0 where nothing was compared
   RigConstants rig;              ///< RigRows, as known by now
 };
 

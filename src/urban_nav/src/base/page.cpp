@@ -34,6 +34,11 @@ const char* toMark(Grade grade) {
   return "i";
 }
 
+/// Returns the attribute by which programs read a verdict, " data-verdict=..."; empty for a plain one.
+std::string verdictAttribute(Grade grade) {
+  return grade == Grade::Plain ? "" : " data-verdict=\"" + std::string(classify(grade)) + "\"";
+}
+
 std::string makeTiles(const std::vector<Tile>& tiles) {
   const std::size_t across = tiles.size() <= kMostTilesAcross ? tiles.size() : (tiles.size() + 1) / 2;
   std::string html =
@@ -49,8 +54,9 @@ std::string makeTiles(const std::vector<Tile>& tiles) {
 std::string formatVerdicts(const std::vector<Verdict>& verdicts) {
   std::string html = "<ul class=\"verdicts\">";
   for (const Verdict& verdict : verdicts) {
-    html += "<li class=\"" + std::string(classify(verdict.grade)) + "\"><span class=\"mark\">" + toMark(verdict.grade) +
-            "</span><div><b>" + escapeHtml(verdict.headline) + "</b> " + escapeHtml(verdict.sentence) + "</div></li>";
+    html += "<li class=\"" + std::string(classify(verdict.grade)) + "\"" + verdictAttribute(verdict.grade) +
+            "><span class=\"mark\">" + toMark(verdict.grade) + "</span><div><b>" + escapeHtml(verdict.headline) +
+            "</b> " + escapeHtml(verdict.sentence) + "</div></li>";
   }
   return html + "</ul>\n";
 }

@@ -10,6 +10,7 @@
 #include "topics/loops/loops.hpp"
 #include "topics/places/places.hpp"
 #include "topics/stereo/stereo.hpp"
+#include "topics/trust/trust.hpp"
 #include "topics/vo/vo.hpp"
 
 namespace urban_nav {
@@ -29,6 +30,7 @@ AllStages makeStages() {
   stages.push_back(makeLasersStage(calibrations));
   stages.push_back(makeLabelsStage());
   stages.push_back(makeLocalizationStage());
+  stages.push_back(makeTrustStage());
   return stages;
 }
 

@@ -4,6 +4,7 @@
 #include "base/parameters.hpp"
 #include "map/map_pipeline.hpp"
 #include "map/stage_list.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
 
@@ -54,7 +55,8 @@ MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
           arguments.get("localise"),
           parseOdometryOption(arguments.get("odometry")),
           arguments.has("calibrate"),
-          mcapPath(arguments)};
+          mcapPath(arguments),
+          arguments.has("strict")};
 }
 
 std::string stagesSentence(const AllStages& stages) {
@@ -138,6 +140,7 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        false,
        {}},
       calibrateOption(),
+      {"--strict", "", "exit status 1 if a consistency test fails; all files are written", false, false, {}},
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
       mcapOption(),
       {"--so-far",
@@ -168,8 +171,10 @@ Command mapCommand(StageFactory make_stages, ResultRecorder record) {
     AllStages stages = make_stages();
     const MapOptions options = readOptions(arguments, stages);
     for (const std::string& warning : parameterWarnings(options.parameters)) console.warn(warning);
-    runMap(options, std::move(stages), console, record);
-    return 0;
+    const std::vector<std::string> failed = runMap(options, std::move(stages), console, record);
+    if (failed.empty()) return 0;
+    console.warn("consistency tests failed: " + urban_nav_core::joined(failed) + "; section Trust of report.html");
+    return options.strict ? 1 : 0;
   };
   return command;
 }

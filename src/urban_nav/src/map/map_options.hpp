@@ -30,8 +30,9 @@ struct MapOptions {
   bool overwrite = false;     ///< replaces the run of other inputs that `out` holds
   std::string localise = {};  ///< session store whose map is only read; empty: none
   OdometryOption odometry = OdometryOption::Auto;
-  bool calibrate = false;     ///< estimates delay and mounting of the lasers before the map is rendered
-  std::string mcap = {};      ///< file for the results as MCAP; empty: none
+  bool calibrate = false;  ///< estimates delay and mounting of the lasers before the map is rendered
+  std::string mcap = {};   ///< file for the results as MCAP; empty: none
+  bool strict = false;     ///< a consistency test that fails makes the exit status 1
 };
 
 /// Returns whether --stages allows a stage: it is listed, or the list is empty.

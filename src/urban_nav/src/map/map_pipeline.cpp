@@ -52,7 +52,8 @@ class MapRun {
     }
   }
 
-  void run() {
+  /// Returns the names of the consistency tests that failed.
+  std::vector<std::string> run() {
     RunCheckpoint checkpoint(context_.options, stages_, context_.sessions, folder_.file("session.db"),
                              context_.console);
     context_.store = &checkpoint.store();
@@ -69,6 +70,7 @@ class MapRun {
     writeResults();
     if (record_ && !context_.options.mcap.empty()) recordResults();
     checkpoint.endRun();
+    return failed_tests_;
   }
 
  private:
@@ -140,6 +142,8 @@ class MapRun {
     const double progress = options.so_far.value_or(1.0);
     const MapState state{context_, stages_, usage_, progress < 1.0, progress};
     const std::vector<StageResult> results = stageResults(state);
+    for (const StageResult& result : results)
+      failed_tests_.insert(failed_tests_.end(), result.failed_tests.begin(), result.failed_tests.end());
     writeOutputFiles(folder_, context_, all_stages_, stages_, results);
     folder_.write("report.html", renderPage(mapPage(state, results)));
     const std::string summary = mapSummary(state, results).print();
@@ -173,13 +177,15 @@ class MapRun {
   const StageList stages_;  // those that this run has
   const OutputFolder folder_;
   const ResultRecorder& record_;
+  std::vector<std::string> failed_tests_;
   double reported_s_ = 0.0;  // when the report was written last
 };
 
 }  // namespace
 
-void runMap(const MapOptions& options, AllStages stages, Console& console, const ResultRecorder& record) {
-  MapRun(options, std::move(stages), record, console).run();
+std::vector<std::string> runMap(const MapOptions& options, AllStages stages, Console& console,
+                                const ResultRecorder& record) {
+  return MapRun(options, std::move(stages), record, console).run();
 }
 
 }  // namespace urban_nav

@@ -144,6 +144,7 @@ Page mapPage(const MapState& state, const std::vector<StageResult>& results) {
   std::vector<PlacedSection> sections;
   const auto add = [&](const StageResult& result) {
     page.tiles.insert(page.tiles.end(), result.tiles.begin(), result.tiles.end());
+    if (result.answer) page.verdicts.insert(page.verdicts.begin(), *result.answer);
     page.verdicts.insert(page.verdicts.end(), result.verdicts.begin(), result.verdicts.end());
     sections.insert(sections.end(), result.sections.begin(), result.sections.end());
   };

@@ -25,6 +25,8 @@ struct OdometryFrame {
   bool accepted = true;  ///< false: dropped because of its stamp
   urban_nav_core::Status status;
   urban_nav_core::Pose T_odom_base;  ///< filtered, as live odometry publishes it
+  /// Excess of disparities over those predicted from earlier frames, px; sigma 0: not measured.
+  double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
 };
 
 /// Odometry of one frame as files and later stages use it.

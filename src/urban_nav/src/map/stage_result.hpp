@@ -22,7 +22,8 @@ std::string fileSuffix(std::size_t session);
 
 /// Order of sections in the report, lowest first. Sections of equal place keep the order of their stages.
 namespace report_place {
-constexpr int kMap = 100, kClosures = 200, kTruth = 300, kLocalization = 400, kOdometry = 500, kMethod = 900;
+constexpr int kTrust = 50, kMap = 100, kClosures = 200, kTruth = 300, kLocalization = 400, kOdometry = 500,
+              kMethod = 900;
 }
 
 struct PlacedSection {
@@ -34,13 +35,15 @@ struct PlacedSection {
 struct StageResult {
   std::string method;  ///< word of the report's subtitle: "visual odometry"
   std::vector<Tile> tiles;
+  std::optional<Verdict> answer;  ///< whether the map can be trusted: first of all verdicts
   std::vector<Verdict> verdicts;
   std::vector<PlacedSection> sections;
   std::vector<std::string> data_faults;  ///< what is wrong with the data, for the report's table of warnings
   std::vector<OutputFile> files;         ///< besides the trajectories, which the pipeline writes
   std::vector<std::string>
-      written_files;            ///< that run() has written into the output folder itself, too large for memory
-  std::optional<Json> summary;  ///< object of summary.json under Stage::Description::key
+      written_files;  ///< that run() has written into the output folder itself, too large for memory
+  std::vector<std::string> failed_tests;  ///< names of consistency tests
+  std::optional<Json> summary;            ///< object of summary.json under Stage::Description::key
 };
 
 }  // namespace urban_nav

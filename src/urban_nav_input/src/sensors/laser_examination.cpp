@@ -92,6 +92,18 @@ std::string LaserExamination::share(std::int64_t count) const {
   return std::to_string(count) + " of " + std::to_string(scans_) + " scans";
 }
 
+namespace {
+
+/// Returns the likely cause of a median range in unknown units; `repair`: m per unit, 1 if none fits.
+std::string unitCause(double median, double repair) {
+  if (repair == 0.001) return ": the ranges are in millimetres";
+  if (repair != 0.01) return ", farther than any planar laser measures";
+  return ": the ranges are in centimetres (in millimetres the median would be " + formatNumber(0.001 * median, 3) +
+         " m)";
+}
+
+}  // namespace
+
 Finding LaserExamination::unitFinding() const {
   Finding finding{FindingKind::Lasers, "", ""};
   const bool is_angle = unit_fault_ == static_cast<std::int64_t>(ScanFault::AngleUnit);
@@ -101,11 +113,7 @@ Finding LaserExamination::unitFinding() const {
                    " rad, more than a turn (2 pi)" + (unit_repair_ != 1.0 ? ": the angles are in degrees" : "");
   else
     finding.text = topic_ + ": the median range of " + share(unit_scans_) + " is " + formatNumber(unit_value_, 4) +
-                   " m" +
-                   (unit_repair_ == 0.001  ? ": the ranges are in millimetres"
-                    : unit_repair_ == 0.01 ? ": the ranges are in centimetres (in millimetres, scale 0.001, it would be " +
-                                                 formatNumber(0.001 * unit_value_, 3) + " m)"
-                                           : ", farther than any planar laser measures");
+                   " m" + unitCause(unit_value_, unit_repair_);
   finding.text += "; these scans are not used";
   if (unit_repair_ == 1.0) {
     finding.remedy = "check the driver of this laser";

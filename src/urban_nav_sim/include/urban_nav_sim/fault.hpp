@@ -17,20 +17,21 @@ enum class FaultKind : std::uint8_t {
   Corrupt,  ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
   Jump,     ///< stamps are later by value in s (default 10; may be below zero)
   Unplug,   ///< nothing comes
-  Nan       ///< numbers are NaN; pictures, which have none, are black
+  Nan,      ///< numbers are NaN; pictures, which have none, are black
+  Knock     ///< stereo alone: the right camera is turned about its y axis by value in deg (default 0.2)
 };
-/// "drop", "freeze", "swap", "corrupt", "jump", "unplug", "nan".
+/// "drop", "freeze", "swap", "corrupt", "jump", "unplug", "nan", "knock".
 const char* toString(FaultKind kind);
 std::string faultList();
 
-/// A fault of one sensor for some time, s since the session began.
+/// A fault of one sensor for some time, s since the session began. A duration of 0 lasts to the end.
 struct Fault {
   FaultKind kind = FaultKind::Drop;
   Sensor sensor = Sensor::Stereo;
   double start = 0.0, duration = 1.0;
   std::optional<double> value;
 
-  bool isActive(double t) const { return t >= start && t < start + duration; }
+  bool isActive(double t) const { return t >= start && (duration == 0.0 || t < start + duration); }
 };
 
 /// "KIND:SENSOR:START_S:DURATION_S[:VALUE]". Throws UserError that says what is wrong and what is allowed; `option`:

@@ -14,8 +14,9 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::array<FaultKind, 7> kAllKinds = {FaultKind::Drop, FaultKind::Freeze, FaultKind::Swap, FaultKind::Corrupt,
-                                                FaultKind::Jump, FaultKind::Unplug, FaultKind::Nan};
+constexpr std::array<FaultKind, 8> kAllKinds = {FaultKind::Drop, FaultKind::Freeze, FaultKind::Swap, FaultKind::Corrupt,
+                                                FaultKind::Jump, FaultKind::Unplug, FaultKind::Nan,  FaultKind::Knock};
+constexpr double kLargestTurn = 10.0;  // deg
 constexpr const char* kForm = "KIND:SENSOR:START_S:DURATION_S[:VALUE], as in drop:stereo:10:2:0.5";
 
 FaultKind parseKind(std::string_view word, const std::string& where) {
@@ -45,6 +46,7 @@ const char* toString(FaultKind kind) {
     case FaultKind::Jump: return "jump";
     case FaultKind::Unplug: return "unplug";
     case FaultKind::Nan: return "nan";
+    case FaultKind::Knock: return "knock";
   }
   return "";
 }
@@ -62,11 +64,14 @@ Fault parseFault(const std::string& text, const std::string& option) {
   fault.kind = parseKind(parts[0], where);
   if (parts.size() < 4 || parts.size() > 5) throw UserError(where, "incomplete", kForm);
   fault.sensor = parseSensor(std::string(parts[1]), where);
+  if (fault.kind == FaultKind::Knock && fault.sensor != Sensor::Stereo)
+    throw UserError(where, std::string("knock of \"") + toString(fault.sensor) + "\"", "stereo");
   fault.start = within(parts[2], "start", 0.0, 1e6, where);
   fault.duration = within(parts[3], "duration", 0.0, 1e6, where);
   if (parts.size() == 5) {
     if (isShare(fault.kind)) fault.value = within(parts[4], "share", 0.0, 1.0, where);
     else if (fault.kind == FaultKind::Jump) fault.value = within(parts[4], "jump", -1e6, 1e6, where);
+    else if (fault.kind == FaultKind::Knock) fault.value = within(parts[4], "turn", -kLargestTurn, kLargestTurn, where);
     else throw UserError(where, std::string(toString(fault.kind)) + " takes no value", kForm);
   }
   return fault;

@@ -15,6 +15,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr double kDefaultDrop = 0.3, kDefaultCorrupt = 0.3, kDefaultJump = 10.0;
+constexpr double kDefaultKnock = 0.2;  // deg
 
 struct Origin {
   std::optional<Sensor> operator()(const StereoMeasurement&) const { return Sensor::Stereo; }
@@ -36,8 +37,8 @@ int partIndex(const Measurement& measurement) {
 
 }  // namespace
 
-FaultFilter::FaultFilter(std::vector<Fault> faults, std::uint64_t seed, StampNs begin)
-    : faults_(std::move(faults)), seed_(seed), begin_(begin) {}
+FaultFilter::FaultFilter(std::vector<Fault> faults, std::uint64_t seed, StampNs begin, const Lens& right_lens)
+    : faults_(std::move(faults)), seed_(seed), begin_(begin), right_lens_(right_lens) {}
 
 void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& measurement) {
   const auto freeze = [&] {
@@ -56,7 +57,17 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
     case FaultKind::Jump:
       return setStamp(toStamp(measurement) + std::llround(1e9 * fault.value.value_or(kDefaultJump)), measurement);
     case FaultKind::Nan: return blank(measurement);
+    case FaultKind::Knock: return knock(fault.value.value_or(kDefaultKnock), measurement);
   }
+}
+
+void FaultFilter::knock(double degrees, Measurement& measurement) {
+  auto* pair = std::get_if<StereoMeasurement>(&measurement);
+  if (pair == nullptr || pair->right.empty()) return;
+  const auto [turn, is_new] = turns_.try_emplace(degrees);
+  if (is_new)
+    turn->second = TurnedView(right_lens_, Eigen::AngleAxisd(degrees * M_PI / 180.0, Eigen::Vector3d::UnitY()));
+  pair->right = turn->second.apply(pair->right);
 }
 
 std::optional<Measurement> FaultFilter::apply(Measurement measurement, StampNs taken) {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "camera/lens.hpp"
+#include "faults/turned_view.hpp"
 #include "urban_nav_sim/fault.hpp"
 #include "urban_nav_sim/measurement.hpp"
 
@@ -15,7 +17,9 @@ namespace urban_nav_sim {
 /// Lets measurements through, faults included. The same seed and measurements give the same result. Not thread-safe.
 class FaultFilter {
  public:
-  FaultFilter(std::vector<Fault> faults, std::uint64_t seed, urban_nav_core::StampNs begin);
+  /// `right_lens`: of the right stereo camera, which a knock turns.
+  FaultFilter(std::vector<Fault> faults, std::uint64_t seed, urban_nav_core::StampNs begin,
+              const Lens& right_lens = {});
 
   /// The measurement as it arrives; none if it was lost. They come in the order in which they were `taken`, whatever
   /// their stamps say. The truth has no faults.
@@ -26,11 +30,14 @@ class FaultFilter {
   using Stream = std::pair<Sensor, int>;
 
   void spoil(const Fault& fault, const Stream& stream, Measurement& measurement);
+  void knock(double degrees, Measurement& measurement);
 
   std::vector<Fault> faults_;
   std::uint64_t seed_, count_ = 0;
   urban_nav_core::StampNs begin_;
+  Lens right_lens_;
   std::map<Stream, Measurement> last_good_;
+  std::map<double, TurnedView> turns_;  // the right camera turned, by deg
 };
 
 }  // namespace urban_nav_sim

@@ -73,7 +73,7 @@ class Session::Implementation {
         begin_(kFirstDay + (options_.day - 1) * kOneDay),
         noise_(Noise(options_.seed, "session").of(static_cast<std::uint64_t>(options_.day))),
         timeline_(options_.duration),
-        faults_(options_.faults, options_.seed, begin_) {
+        faults_(options_.faults, options_.seed, begin_, bumblebee(stereoImages(options_.defects))[1].lens) {
     addTruth();
     if (has(Sensor::Imu)) addImu();
     if (has(Sensor::Wheels)) addWheels();

@@ -62,7 +62,7 @@ std::string statsCsv(const std::vector<const VoRun*>& runs) {
   std::string text =
       "session,frame,stamp_ns,accepted,status,reason,corners,features,tracked,track_length_mean,reprojection_px,"
       "iterations,landmarks,landmarks_in_prior,disparity_offset_px,disparity_offset_sigma_px,row_offset_px,noise_scale,"
-      "now_x,now_y,now_z,now_qx,now_qy,now_qz,now_qw,swf_vo_ms\n";
+      "disparity_step_px,disparity_step_sigma_px,now_x,now_y,now_z,now_qx,now_qy,now_qz,now_qw,swf_vo_ms\n";
   for (std::size_t session = 0; session < runs.size(); ++session) {
     for (std::size_t i = 0; i < runs[session]->frames.size(); ++i) {
       const OdometryFrame& row = runs[session]->frames[i];
@@ -76,7 +76,8 @@ std::string statsCsv(const std::vector<const VoRun*>& runs) {
         appendNumber(text, value);
       }
       for (const int value : {s.iterations, s.landmarks, s.landmarks_in_prior}) text += "," + std::to_string(value);
-      for (const double value : {s.disparity_offset_px, s.disparity_offset_sigma_px, s.row_offset_px, s.noise_scale}) {
+      for (const double value : {s.disparity_offset_px, s.disparity_offset_sigma_px, s.row_offset_px, s.noise_scale,
+                                 row.disparity_step_px, row.disparity_step_sigma_px}) {
         text += ',';
         appendNumber(text, value);
       }

@@ -132,6 +132,8 @@ const OdometryFrame& VoRecorder::process(const urban_nav_input::SourceItem& inpu
   row.accepted = frame.accepted;
   row.status = frame.status;
   row.T_odom_base = frame.T_odom_base.pose;
+  row.disparity_step_px = frame.statistics.disparity_step.px;
+  row.disparity_step_sigma_px = frame.statistics.disparity_step.sigma_px;
   if (frame.accepted) {
     run_.rig = frame.rig;
     run_.motion = frame.motion;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/vo/vo_run_state.hpp"
 
+#include <tuple>
+#include <utility>
+
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -16,7 +19,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr const char* kVoRunName = "visual odometry of a session";
-constexpr std::uint32_t kVoRunVersion = 6;
+constexpr std::uint32_t kVoRunVersion = 7;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
@@ -37,11 +40,15 @@ struct StoredRun {
   std::vector<swf_vo::Settled> settled;
   std::vector<VoLandmark> landmarks;
   std::vector<urban_nav_core::ConsideredConstants> constants;  // of each step of `settled`
+  std::vector<std::pair<double, double>> disparity_steps;      // one for each row, px: step and standard deviation
 };
 
 StoredRun toStored(const VoRun& run) {
   StoredRun stored;
-  for (std::size_t i = 0; i < run.frames.size(); ++i) stored.rows.push_back({run.frames[i], run.figures[i]});
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    stored.rows.push_back({run.frames[i], run.figures[i]});
+    stored.disparity_steps.emplace_back(run.frames[i].disparity_step_px, run.frames[i].disparity_step_sigma_px);
+  }
   for (const SmoothedFrame& frame : run.settled)
     stored.settled.push_back({frame.frame, frame.stamp, frame.T_odom_base, frame.from_previous, frame.status});
   for (const SmoothedFrame& frame : run.settled) stored.constants.push_back(frame.from_previous.constants);
@@ -59,6 +66,8 @@ void fromStored(const StoredRun& stored, VoRun& run) {
   for (const VoLandmark& landmark : stored.landmarks) run.landmarks.emplace(landmark.landmark.id, landmark);
   for (std::size_t i = 0; i < stored.constants.size(); ++i)
     run.settled[i].from_previous.constants = stored.constants[i];
+  for (std::size_t i = 0; i < stored.disparity_steps.size(); ++i)
+    std::tie(run.frames[i].disparity_step_px, run.frames[i].disparity_step_sigma_px) = stored.disparity_steps[i];
 }
 
 /// Reads the content of version 2: poses with the translation first, matrices row by row.
@@ -116,8 +125,11 @@ void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& sto
   if (version > 3) archive(run.rig);
   if (version > 4) archive(stored.constants);
   if (version > 5) archive(run.motion);
+  if (version > 6) archive(stored.disparity_steps);
   archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
                   "constants of the rig are not those of the steps");
+  archive.require(stored.disparity_steps.empty() || stored.disparity_steps.size() == stored.rows.size(),
+                  "disparity steps are not those of the frames");
 }
 
 VoRun readVoRun(std::string_view bytes) {

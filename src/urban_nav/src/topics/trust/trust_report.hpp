@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/page.hpp"
+#include "topics/trust/trust_run.hpp"
+
+namespace urban_nav {
+
+/// Returns the first line of the report: whether the map can be trusted.
+Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& parameters);
+/// Returns the section with the tests, what was not there to compare, and the probabilities over time.
+Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& parameters);
+
+}  // namespace urban_nav

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/trust/trust_run.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_trust/trust_monitor.hpp"
+
+namespace urban_nav {
+
+using urban_nav_trust::ConsistencyTest;
+using urban_nav_trust::FrameEvidence;
+using urban_nav_trust::FrameTrust;
+using urban_nav_trust::TestResults;
+
+namespace {
+
+constexpr double kUnknownVariance = 1e6;  // m^2, of a pose without covariance
+
+TestResults testSession(const SessionOdometry& run, bool is_named, const urban_nav_trust::Parameters& parameters) {
+  urban_nav_trust::TrustMonitor monitor(parameters);
+  for (const OdometryFrame& frame : run.frames)
+    if (frame.accepted) monitor.addDisparityStep(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px);
+  TestResults results = monitor.results();
+  if (is_named)
+    for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
+  return results;
+}
+
+void append(TestResults results, TestResults& all) {
+  for (ConsistencyTest& test : results.tests) all.tests.push_back(std::move(test));
+  for (urban_nav_trust::ConstantSegment& segment : results.segments) all.segments.push_back(std::move(segment));
+  for (urban_nav_trust::AbsentMeasurement& absent : results.absent) {
+    const auto is_same = [&](const auto& known) { return known.name == absent.name && known.reason == absent.reason; };
+    if (std::none_of(all.absent.begin(), all.absent.end(), is_same)) all.absent.push_back(std::move(absent));
+  }
+}
+
+std::vector<FrameEvidence> listFrames(const SessionOdometry& run, const SessionTrajectory& session,
+                                      std::size_t first_map) {
+  std::vector<FrameEvidence> frames;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < session.T_map_base.size(); ++i) {
+    FrameEvidence frame;
+    frame.stamp = session.T_map_base[i].stamp;
+    frame.covariance = kUnknownVariance * Eigen::Matrix3d::Identity();
+    if (i < session.covariances.size()) frame.covariance = session.covariances[i].topLeftCorner<3, 3>();
+    if (i > 0)
+      frame.travelled =
+          frames.back().travelled + (session.T_map_base[i].pose.t() - session.T_map_base[i - 1].pose.t()).norm();
+    while (next < run.settled.size() && run.settled[next].stamp < frame.stamp) ++next;
+    frame.is_lost = next < run.settled.size() && run.settled[next].status.health == urban_nav_core::Health::Lost;
+    frame.is_joined = session.map == first_map;
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+bool hasClosures(const MapContext& context) {
+  return std::any_of(context.assessments.begin(), context.assessments.end(), [](const ClosureAssessment& closure) {
+    return closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
+  });
+}
+
+}  // namespace
+
+TrustRun assessTrust(const MapContext& context, const urban_nav_trust::Parameters& parameters) {
+  TrustRun result;
+  const std::vector<const SessionOdometry*> runs = context.runs();
+  const std::vector<SessionTrajectory>& sessions = context.trajectories;
+  std::vector<TestResults> by_session;
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    by_session.push_back(testSession(*runs[s], sessions.size() > 1, parameters));
+    append(by_session.back(), result.results);
+  }
+  const bool spreads = hasClosures(context);
+  for (std::size_t first = 0; first < sessions.size(); ++first)
+    for (std::size_t s = first; s < sessions.size(); ++s) {
+      if (sessions[s].map != first || !sessions[first].written) continue;
+      const std::vector<FrameEvidence> frames = listFrames(*runs[s], sessions[s], sessions.front().map);
+      for (FrameTrust& frame : assessFrames(frames, by_session[s], spreads, parameters))
+        result.frames.push_back(std::move(frame));
+    }
+  result.map = assessMap(result.frames, result.results, parameters);
+  return result;
+}
+
+}  // namespace urban_nav

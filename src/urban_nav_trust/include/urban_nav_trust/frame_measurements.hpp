@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_trust {
+
+/// Comparisons of a stereo frame with other measurements, as odometry makes them. A sigma of 0: not compared. Errors
+/// are what is left after the corrections that odometry has estimated (bias, scale, delay); sigmas are their standard
+/// deviations.
+struct FrameMeasurements {
+  urban_nav_core::StampNs stamp = 0;
+  /// Excess of disparities over those predicted from earlier frames, px.
+  double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
+  /// Rotation by images less that by the gyroscope over one step, rad, about the axes of base_link; sigma of each axis.
+  Eigen::Vector3d turn_error = Eigen::Vector3d::Zero();
+  double turn_sigma = 0.0;
+  /// Motion by images along x and y of base_link over one step, m, its excess along x over that by wheels, and the
+  /// standard deviation of either coordinate.
+  double forward = 0.0, sideways = 0.0, forward_error = 0.0, forward_sigma = 0.0;
+  /// Delay of the IMU's stamps on the clock of the cameras as estimated by now, s.
+  double imu_delay = 0.0, imu_delay_sigma = 0.0;
+};
+
+}  // namespace urban_nav_trust

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_trust/change_detector.hpp"
+#include "urban_nav_trust/consistency_test.hpp"
+#include "urban_nav_trust/frame_measurements.hpp"
+#include "urban_nav_trust/parameters.hpp"
+
+namespace urban_nav_trust {
+
+constexpr const char* kTurnTest = "gyroscope_turn";
+constexpr const char* kSpeedTest = "wheel_speed";
+constexpr const char* kDirectionTest = "wheel_direction";
+constexpr const char* kClockTest = "imu_clock";
+
+/// Tests stereo odometry against the gyroscope and the wheels in windows of a second: turns must agree, by the largest
+/// chi-square of all windows; constants (ratio of lengths, direction of travel in base_link, delay of the clocks) must
+/// not change. Derivation: docs/derivations/trust.md. Not thread-safe.
+class MotionMonitor {
+ public:
+  explicit MotionMonitor(const Parameters& parameters);
+
+  /// Adds a frame, in order of time. Returns whether it shows a change.
+  bool add(const FrameMeasurements& frame);
+  std::vector<ConsistencyTest> tests() const;
+  std::vector<AbsentMeasurement> absent() const;
+
+ private:
+  /// Sums over the steps of a window.
+  struct Window {
+    Interval interval;
+    Eigen::Vector3d turn_error = Eigen::Vector3d::Zero();
+    double turn_variance = 0.0, forward = 0.0, sideways = 0.0, forward_error = 0.0, forward_variance = 0.0;
+    int turns = 0, moves = 0;
+  };
+  /// A constant that is measured in windows.
+  struct Constant {
+    explicit Constant(const Parameters& parameters);
+    ChangeDetector detector;
+    bool add(const ConstantMeasurement& measurement) { return detector.add(measurement); }
+  };
+  struct Wording {
+    const char *name, *quantity, *unit, *remedy;
+    double per_unit;
+  };
+  bool closeTurnWindow();
+  bool closeMoveWindow();
+  bool addClock(const FrameMeasurements& frame);
+  static std::optional<ConsistencyTest> makeTest(const Wording& wording, const Constant& constant);
+  std::optional<ConsistencyTest> turnTest() const;
+
+  double false_alarm_;
+  Window turn_, move_;
+  std::int64_t turn_windows_ = 0;
+  double largest_turn_ = 0.0;  // chi-square of the worst window
+  Window worst_turn_;
+  Interval turn_span_;
+  Constant speed_, direction_, clock_;
+  urban_nav_core::StampNs last_ = 0, clock_due_ = 0;
+  bool any_frame_ = false;
+};
+
+}  // namespace urban_nav_trust

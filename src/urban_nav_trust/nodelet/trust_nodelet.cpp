@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/Trust.h>
+#include <urban_nav_msgs/VoStatistics.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <variant>
+
+#include "live/live_trust.hpp"
+#include "live/nodelet_parameters.hpp"
+#include "trust_message.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/status.hpp"
+#include "urban_nav_ros/topics.hpp"
+
+namespace urban_nav_trust {
+
+namespace topics = urban_nav_ros::topics;
+namespace topics_of_trust {
+constexpr const char* kTrustState = "trust/state";
+}
+
+namespace {
+
+constexpr double kOdometryTimeout = 1.0;  // s
+
+std::optional<LiveFrame> toFrame(const urban_nav_msgs::VoStatistics& message) {
+  const std::optional<urban_nav_core::Health> health = urban_nav_ros::toHealth(message.status);
+  if (!health) return std::nullopt;
+  return LiveFrame{urban_nav_ros::toStampNs(message.header.stamp), message.accepted != 0, *health,
+                   message.disparity_step_px, message.disparity_step_sigma_px};
+}
+
+std::optional<LivePose> toLivePose(const nav_msgs::Odometry& message) {
+  const std::optional<urban_nav_core::Pose> pose = urban_nav_ros::toPose(message.pose.pose);
+  if (!pose) return std::nullopt;
+  return LivePose{urban_nav_ros::toStampNs(message.header.stamp),
+                  {*pose, urban_nav_ros::toMatrix6(message.pose.covariance)}};
+}
+
+}  // namespace
+
+/// Consistency tests on topics.
+class TrustStage {
+ public:
+  static constexpr const char* name = "trust";
+  static constexpr const char* topic = "trust";
+  using Input = std::variant<LiveFrame, LivePose>;
+  using Node = urban_nav_ros::StageNodeWith<Input>;
+
+  explicit TrustStage(Node& node) : node_(node) {
+    std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
+    node.setQueueSize(nodelet_.queue_size);
+    publisher_ = node.nh().advertise<urban_nav_msgs::Trust>(topics_of_trust::kTrustState, 10, true);
+    trust_ = std::make_unique<LiveTrust>(parameters_, [this](const LiveEstimate& estimate) {
+      publisher_.publish(toMessage(estimate, parameters_, nodelet_.map_frame));
+    });
+    urban_nav_ros::TopicOptions options;
+    options.queue = nodelet_.queue_size;
+    options.is_paused = false;
+    options.timeout = kOdometryTimeout;
+    node.subscribeInput<nav_msgs::Odometry>(topics::kVoOdometry, options,
+                                            [](const auto& message) { return toLivePose(*message); });
+    options.is_monitored = false;
+    node.subscribeInput<urban_nav_msgs::VoStatistics>(topics::kVoStatistics, options,
+                                                      [](const auto& message) { return toFrame(*message); });
+  }
+
+  void handle(Input& input) {
+    std::visit(
+        [this](const auto& item) {
+          trust_->add(item);
+          const urban_nav_core::Status status = trust_->status();
+          node_.publishStatus(status, toString(static_cast<Reason>(status.reason)), item.stamp);
+        },
+        input);
+  }
+  bool idle() { return false; }
+  std::string reset() {
+    trust_->reset();
+    return "the tests begin anew";
+  }
+  void close() {}
+  urban_nav_live::StageReport report() const { return trust_->report(); }
+
+ private:
+  Node& node_;
+  NodeletParameters nodelet_;
+  Parameters parameters_;
+  ros::Publisher publisher_;
+  std::unique_ptr<LiveTrust> trust_;
+};
+
+class TrustNodelet : public urban_nav_ros::StageNodelet<TrustStage> {};
+
+}  // namespace urban_nav_trust
+
+PLUGINLIB_EXPORT_CLASS(urban_nav_trust::TrustNodelet, nodelet::Nodelet)

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/assessment.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_trust/position_probability.hpp"
+
+namespace urban_nav_trust {
+
+namespace {
+
+/// Returns the distance travelled at a stamp, m. Requires frames.
+double travelledAt(const std::vector<FrameEvidence>& frames, urban_nav_core::StampNs stamp) {
+  const auto after = std::lower_bound(frames.begin(), frames.end(), stamp,
+                                      [](const FrameEvidence& frame, auto wanted) { return frame.stamp < wanted; });
+  return after == frames.end() ? frames.back().travelled : after->travelled;
+}
+
+TrustState classify(const FrameEvidence& frame, bool has_failures, bool is_compared) {
+  if (frame.is_lost) return TrustState::Lost;
+  if (has_failures || !is_compared) return TrustState::Unsure;
+  return frame.is_joined ? TrustState::Known : TrustState::New;
+}
+
+std::size_t count(const std::vector<FrameTrust>& frames, TrustState state) {
+  return static_cast<std::size_t>(
+      std::count_if(frames.begin(), frames.end(), [state](const FrameTrust& frame) { return frame.state == state; }));
+}
+
+}  // namespace
+
+const char* toString(TrustState state) {
+  switch (state) {
+    case TrustState::Known: return "KNOWN";
+    case TrustState::New: return "NEW";
+    case TrustState::Unsure: return "UNSURE";
+    case TrustState::Lost: return "LOST";
+  }
+  return "";
+}
+
+bool hasFailed(const ConsistencyTest& test, const Parameters& parameters) {
+  return !(test.p_value >= parameters.false_alarm);
+}
+
+FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures, bool is_compared,
+                       const Parameters& parameters) {
+  FrameTrust trust;
+  trust.stamp = frame.stamp;
+  trust.state = classify(frame, !failures.empty(), is_compared);
+  Eigen::Matrix3d covariance = frame.covariance;
+  for (const Failure& failure : failures) {
+    trust.tests += (trust.tests.empty() ? "" : " ") + failure.test;
+    const double drift = 0.01 * parameters.unexplained_drift * failure.distance;
+    covariance.diagonal().array() += drift * drift;
+  }
+  for (std::size_t k = 0; k < kRadii.size(); ++k) {
+    trust.probabilities[k] = probabilityWithin(kRadii[k], covariance);
+    if (k > 0) trust.probabilities[k] = std::max(trust.probabilities[k], trust.probabilities[k - 1]);  // last bits
+  }
+  return trust;
+}
+
+std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, const TestResults& results, bool spreads,
+                                     const Parameters& parameters) {
+  if (frames.empty()) return {};
+  std::vector<const ConsistencyTest*> failed;
+  for (const ConsistencyTest& test : results.tests)
+    if (hasFailed(test, parameters) && test.interval.from <= frames.back().stamp &&
+        test.interval.to >= frames.front().stamp)
+      failed.push_back(&test);
+  std::vector<FrameTrust> trusts;
+  for (const FrameEvidence& frame : frames) {
+    std::vector<Failure> failures;
+    for (const ConsistencyTest* test : failed) {
+      if (!spreads && frame.stamp < test->interval.from) continue;
+      const urban_nav_core::StampNs end = spreads ? test->interval.to : std::min(frame.stamp, test->interval.to);
+      failures.push_back({test->name, travelledAt(frames, end) - travelledAt(frames, test->interval.from)});
+    }
+    trusts.push_back(assessFrame(frame, failures, !results.tests.empty(), parameters));
+  }
+  return trusts;
+}
+
+MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& results, const Parameters& parameters) {
+  MapTrust map;
+  for (const FrameTrust& frame : frames)
+    for (std::size_t k = 0; k < kRadii.size(); ++k)
+      map.probabilities[k] += frame.probabilities[k] / static_cast<double>(frames.size());
+  std::string failed;
+  for (const ConsistencyTest& test : results.tests)
+    if (hasFailed(test, parameters)) failed += (failed.empty() ? "" : "; ") + test.sentence;
+  if (frames.empty()) {
+    map.reason = "there is no pose";
+  } else if (2 * count(frames, TrustState::Lost) > frames.size()) {
+    map.state = TrustState::Lost;
+    map.reason = "odometry is lost in more than half of the frames";
+  } else if (!failed.empty()) {
+    map.reason = failed;
+  } else if (results.tests.empty()) {
+    map.reason = "nothing could be compared: each quantity was measured by one sensor only";
+  } else if (count(frames, TrustState::Known) == 0) {
+    map.state = TrustState::New;
+    map.reason = "no session is joined to the first one";
+  } else {
+    map.state = TrustState::Known;
+  }
+  return map;
+}
+
+}  // namespace urban_nav_trust

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_core/types/status.hpp"
+#include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_trust/trust_monitor.hpp"
+
+namespace urban_nav_trust {
+
+/// A stereo frame as odometry publishes it.
+struct LiveFrame {
+  urban_nav_core::StampNs stamp = 0;
+  bool accepted = true;
+  urban_nav_core::Health health = urban_nav_core::Health::Ok;
+  double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;  ///< OffsetMonitor::add
+};
+
+/// A pose of odometry with its covariance.
+struct LivePose {
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::PoseWithCovariance T_odom_base;
+};
+
+/// Trust in the pose of now.
+struct LiveEstimate {
+  FrameTrust frame;
+  std::string reason;  ///< why it is not KNOWN; empty: it is
+  TestResults results;
+};
+
+/// Why the stage is not OK.
+enum class Reason { None = 0, CalibrationChanged = 1, OdometryLost = 2 };
+/// "none", "calibration_changed", "odometry_lost".
+const char* toString(Reason reason);
+
+/// Trust in the poses of a live robot. Stamps that jump back begin a new session. Keeps no history of poses. Used by
+/// one thread.
+class LiveTrust {
+ public:
+  using Listener = std::function<void(const LiveEstimate&)>;
+  /// `listener`: gets an estimate with each pose when state or tests have changed, and after a second otherwise.
+  LiveTrust(const Parameters& parameters, Listener listener);
+
+  void add(const LiveFrame& frame);
+  void add(const LivePose& pose);
+  /// Begins a new session.
+  void reset();
+  /// Returns DEGRADED (calibration_changed) from a change on until the session ends, and LOST while odometry is.
+  urban_nav_core::Status status() const;
+  urban_nav_live::StageReport report() const;
+
+ private:
+  LiveEstimate assess(const LivePose& pose) const;
+
+  const Parameters parameters_;
+  const Listener listener_;
+  TrustMonitor monitor_;
+  urban_nav_core::StampNs newest_ = 0, published_ = 0;
+  urban_nav_core::Health health_ = urban_nav_core::Health::Ok;
+  std::optional<Eigen::Vector3d> position_;
+  double travelled_ = 0.0;            // m
+  std::optional<double> changed_at_;  // travelled_ at the first change of a constant
+  std::optional<LiveEstimate> last_;  // that was published
+  std::int64_t frames_ = 0, poses_ = 0;
+};
+
+}  // namespace urban_nav_trust

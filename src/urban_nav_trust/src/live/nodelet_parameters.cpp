@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/nodelet_parameters.hpp"
+
+#include <cstdint>
+
+#include "urban_nav_core/types/frames.hpp"
+
+namespace urban_nav_trust {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"map_frame", &P::map_frame, "", urban_nav_core::frames::kMap, false, false, {},
+           "Frame in which the positions are that the probabilities are about.", "REP-105"},
+          {"queue_size", &P::queue_size, "messages", std::int64_t{200}, std::int64_t{2}, std::int64_t{1000000}, {},
+           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace urban_nav_trust

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/motion_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace urban_nav_trust {
+
+using urban_nav_core::formatNumber;
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr std::int64_t kWindowsPerHour = 3600;
+constexpr StampNs kWindow = 1'000'000'000;        // ns
+constexpr StampNs kClockSpacing = 2'000'000'000;  // ns, between estimates of the delay that count as one each
+constexpr double kLeastForward = 0.3;             // m of a window, below which a ratio means nothing
+// Differences of sound sensors in a second beyond noise: misalignment and scale errors of gyroscopes (0.2 % of a turn
+// of 1 rad), slip of tyres (0.5 % of the distance) and a wheel's play across (3 mrad).
+constexpr double kTurnFloor = 2e-3, kSlip = 5e-3, kPlay = 3e-3;
+constexpr double kClockFloor = 2e-3;     // s, jitter of stamps
+constexpr double kKnownDelay = 0.01;  // s, sigma from which on the delay counts as known
+
+/// Returns the probability that one of so many windows has at least this chi-square, at most (Bonferroni).
+double turnProbability(double chi2, std::int64_t windows) {
+  return std::min(1.0, static_cast<double>(windows) * (1.0 - urban_nav_core::chiSquareProbability(chi2, 3.0)));
+}
+
+}  // namespace
+
+MotionMonitor::Constant::Constant(const Parameters& parameters) : detector(parameters.false_alarm, kWindowsPerHour) {}
+
+MotionMonitor::MotionMonitor(const Parameters& parameters)
+    : false_alarm_(parameters.false_alarm), speed_(parameters), direction_(parameters), clock_(parameters) {}
+
+bool MotionMonitor::add(const FrameMeasurements& frame) {
+  if (!any_frame_) last_ = frame.stamp;
+  any_frame_ = true;
+  bool changed = false;
+  if (frame.turn_sigma > 0.0 && std::isfinite(frame.turn_sigma) && frame.turn_error.allFinite()) {
+    if (turn_.turns++ == 0) turn_.interval.from = last_;
+    turn_.interval.to = frame.stamp;
+    turn_.turn_error += frame.turn_error;
+    turn_.turn_variance += frame.turn_sigma * frame.turn_sigma;
+    if (turn_.interval.to - turn_.interval.from >= kWindow) changed |= closeTurnWindow();
+  }
+  if (frame.forward_sigma > 0.0 && std::isfinite(frame.forward_sigma) && std::isfinite(frame.forward_error) &&
+      std::isfinite(frame.forward) && std::isfinite(frame.sideways)) {
+    if (move_.moves++ == 0) move_.interval.from = last_;
+    move_.interval.to = frame.stamp;
+    move_.forward += frame.forward;
+    move_.sideways += frame.sideways;
+    move_.forward_error += frame.forward_error;
+    move_.forward_variance += frame.forward_sigma * frame.forward_sigma;
+    if (move_.interval.to - move_.interval.from >= kWindow) changed |= closeMoveWindow();
+  }
+  changed |= addClock(frame);
+  last_ = frame.stamp;
+  return changed;
+}
+
+bool MotionMonitor::closeTurnWindow() {
+  const double chi2 = turn_.turn_error.squaredNorm() / (turn_.turn_variance + kTurnFloor * kTurnFloor);
+  if (turn_windows_++ == 0) turn_span_.from = turn_.interval.from;
+  turn_span_.to = turn_.interval.to;
+  if (chi2 > largest_turn_) {
+    largest_turn_ = chi2;
+    worst_turn_ = turn_;
+  }
+  turn_ = Window();
+  return turnProbability(chi2, kWindowsPerHour) < false_alarm_;
+}
+
+bool MotionMonitor::closeMoveWindow() {
+  bool changed = false;
+  if (std::abs(move_.forward) > kLeastForward) {
+    const double noise = std::sqrt(move_.forward_variance) / std::abs(move_.forward);
+    changed |= speed_.add({move_.interval, move_.forward_error / move_.forward, std::hypot(noise, kSlip)});
+    changed |= direction_.add({move_.interval, move_.sideways / move_.forward, std::hypot(noise, kPlay)});
+  }
+  move_ = Window();
+  return changed;
+}
+
+bool MotionMonitor::addClock(const FrameMeasurements& frame) {
+  if (!(frame.imu_delay_sigma > 0.0 && frame.imu_delay_sigma < kKnownDelay) || !std::isfinite(frame.imu_delay) ||
+      frame.stamp < clock_due_)
+    return false;
+  clock_due_ = frame.stamp + kClockSpacing;
+  return clock_.add({{last_, frame.stamp}, frame.imu_delay, std::hypot(frame.imu_delay_sigma, kClockFloor)});
+}
+
+std::optional<ConsistencyTest> MotionMonitor::turnTest() const {
+  if (turn_windows_ < 2) return std::nullopt;
+  static constexpr double kDegrees = 180.0 / M_PI;
+  ConsistencyTest test;
+  test.name = kTurnTest;
+  test.interval = turn_span_;
+  test.statistic = largest_turn_;
+  test.degrees_of_freedom = 3.0;
+  test.p_value = turnProbability(largest_turn_, turn_windows_);
+  if (test.p_value < false_alarm_) test.interval = worst_turn_.interval;
+  test.sentence = "Turns by stereo and by the gyroscope differ by up to " +
+                  formatNumber(kDegrees * worst_turn_.turn_error.norm()) + " deg in a second, of " +
+                  std::to_string(turn_windows_) + " seconds.";
+  test.remedy = "The stereo head or the IMU has moved, or one of them fails: check their mounting and clocks.";
+  return test;
+}
+
+std::optional<ConsistencyTest> MotionMonitor::makeTest(const Wording& wording, const Constant& constant) {
+  const std::int64_t count = constant.detector.measurements();
+  if (count < 2) return std::nullopt;
+  const std::vector<ChangeDetector::Segment> segments = constant.detector.segments();
+  const bool has_changed = segments.size() > 1;
+  ConsistencyTest test;
+  test.name = wording.name;
+  test.interval = {has_changed ? segments[1].interval.from : segments.front().interval.from,
+                   segments.back().interval.to};
+  test.statistic = constant.detector.statistic();
+  test.degrees_of_freedom = static_cast<double>(count);
+  test.p_value = changeProbability(test.statistic, count);
+  test.remedy = wording.remedy;
+  const auto value = [&](const ChangeDetector::Segment& segment) {
+    return formatNumber(wording.per_unit * segment.mean) + " " + wording.unit + " (+-" +
+           formatNumber(wording.per_unit * segment.sigma, 2) + ")";
+  };
+  if (!has_changed)
+    test.sentence = std::string(wording.quantity) + " stays at " + value(segments.front()) + " in " +
+                    std::to_string(count) + " windows.";
+  else
+    test.sentence =
+        std::string(wording.quantity) + " changed from " + value(segments.front()) + " to " + value(segments[1]) + ".";
+  return test;
+}
+
+std::vector<ConsistencyTest> MotionMonitor::tests() const {
+  static constexpr double kDegrees = 180.0 / M_PI;
+  static constexpr Wording kSpeed = {
+      kSpeedTest, "Lengths by stereo relative to those by wheels", "%",
+      "The scale of stereo or of the wheels has changed: calibrate the stereo pair; check tyres and slip.", 100.0};
+  static constexpr Wording kDirection = {
+      kDirectionTest, "The direction of travel by stereo in the robot's frame, where wheels roll straight ahead,",
+      "deg", "The stereo head has turned on its mount: fasten it and measure its mounting (/tf_static).", kDegrees};
+  static constexpr Wording kClock = {
+      kClockTest, "The delay of the IMU's stamps on the clock of the cameras", "ms",
+      "The clock of the cameras or of the IMU drifts: synchronise their stamps (input.imu_delay for a constant one).",
+      1e3};
+  std::vector<ConsistencyTest> tests;
+  const auto append = [&](std::optional<ConsistencyTest> test) {
+    if (test) tests.push_back(std::move(*test));
+  };
+  append(turnTest());
+  append(makeTest(kSpeed, speed_));
+  append(makeTest(kDirection, direction_));
+  append(makeTest(kClock, clock_));
+  return tests;
+}
+
+std::vector<AbsentMeasurement> MotionMonitor::absent() const {
+  std::vector<AbsentMeasurement> absent;
+  const auto check = [&](const char* name, const Constant& constant, const char* reason) {
+    if (constant.detector.measurements() < 2) absent.push_back({name, reason});
+  };
+  if (turn_windows_ < 2) absent.push_back({kTurnTest, "no gyroscope with the images for two seconds"});
+  check(kSpeedTest, speed_, "no wheels with the images for two seconds of motion");
+  check(kDirectionTest, direction_, "no wheels with the images for two seconds of motion");
+  check(kClockTest, clock_, "no gyroscope, or too few turns to know its delay");
+  return absent;
+}
+
+}  // namespace urban_nav_trust

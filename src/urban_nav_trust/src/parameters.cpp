@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/parameters.hpp"
+
+namespace urban_nav_trust {
+
+using urban_nav_core::Table;
+
+Parameters::Parameters() { table().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<Parameters>& table() {
+  using P = Parameters;
+  static const Table<Parameters> rows(
+      "trust",
+      {
+          {"false_alarm", &P::false_alarm, "", 1e-5, 1e-12, 0.5, {},
+           "Probability that a test fails although both measurements are right.",
+           "docs/derivations/trust.md"},
+          {"unexplained_drift", &P::unexplained_drift, "%", 5.0, 0.0, 100.0, {},
+           "Standard deviation that positions gain per distance travelled while a test fails.",
+           "docs/derivations/trust.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace urban_nav_trust

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_trust.hpp"
+
+#include <gtest/gtest.h>
+
+namespace urban_nav_trust {
+namespace {
+
+using urban_nav_core::Health;
+
+constexpr urban_nav_core::StampNs kLiveFrame = 50'000'000;
+
+/// A robot at 1 m/s whose odometry has 20 frames a second.
+class LiveTrustTest : public ::testing::Test {
+ protected:
+  void drive(int frames, double step_px = 0.0, Health health = Health::Ok, double sigma_px = 0.03) {
+    for (int i = 0; i < frames; ++i) {
+      ++k_;
+      trust.add(LiveFrame{k_ * kLiveFrame, true, health, step_px + (k_ % 2 == 0 ? 0.01 : -0.01), sigma_px});
+      LivePose pose;
+      pose.stamp = k_ * kLiveFrame;
+      pose.T_odom_base.pose =
+          urban_nav_core::Pose(Eigen::Quaterniond::Identity(), {0.05 * static_cast<double>(k_), 0.0, 0.0});
+      pose.T_odom_base.covariance = 1e-4 * urban_nav_core::Matrix6d::Identity();
+      trust.add(pose);
+    }
+  }
+
+  std::vector<LiveEstimate> estimates;
+  LiveTrust trust{Parameters(), [this](const LiveEstimate& estimate) { estimates.push_back(estimate); }};
+  urban_nav_core::StampNs k_ = 0;
+};
+
+TEST_F(LiveTrustTest, IsUnsureUntilSomethingIsComparedAndThenKnown) {
+  EXPECT_TRUE(trust.report().is_warning);
+  drive(1);
+  ASSERT_EQ(estimates.size(), 1U);
+  EXPECT_EQ(estimates[0].frame.state, TrustState::Unsure);
+  EXPECT_FALSE(estimates[0].reason.empty());
+  EXPECT_FALSE(estimates[0].results.absent.empty());
+  drive(1);
+  ASSERT_EQ(estimates.size(), 2U);
+  EXPECT_EQ(estimates[1].frame.state, TrustState::Known);
+  EXPECT_GT(estimates[1].frame.probabilities[0], 0.99);
+  drive(100);
+  EXPECT_EQ(estimates.size(), 7U) << "one a second while nothing changes";
+  EXPECT_EQ(trust.status().health, Health::Ok);
+}
+
+TEST_F(LiveTrustTest, AKnockDegradesWithinASecondAndStays) {
+  drive(200);
+  estimates.clear();
+  drive(10, -1.36);
+  drive(200);
+  ASSERT_FALSE(estimates.empty());
+  EXPECT_LE(estimates[0].frame.stamp, 220 * kLiveFrame);
+  for (const LiveEstimate& estimate : estimates) {
+    EXPECT_EQ(estimate.frame.state, TrustState::Unsure);
+    EXPECT_EQ(estimate.frame.tests, kOffsetTest);
+  }
+  EXPECT_LT(estimates.back().frame.probabilities[0], estimates.front().frame.probabilities[0]);
+  const urban_nav_core::Status status = trust.status();
+  EXPECT_EQ(status.health, Health::Degraded);
+  EXPECT_STREQ(toString(static_cast<Reason>(status.reason)), "calibration_changed");
+  trust.reset();
+  EXPECT_EQ(trust.status().health, Health::Ok);
+}
+
+TEST_F(LiveTrustTest, IsNeverKnownWhileOdometryIsLost) {
+  drive(50);
+  drive(10, 0.0, Health::Lost, 0.0);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Lost);
+  EXPECT_EQ(trust.status().health, Health::Lost);
+  drive(30);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Known);
+}
+
+TEST_F(LiveTrustTest, TimeGoingBackBeginsANewSession) {
+  drive(200);
+  drive(10, -1.36);
+  k_ = 0;
+  drive(20);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Known);
+  EXPECT_EQ(trust.status().health, Health::Ok);
+}
+
+}  // namespace
+}  // namespace urban_nav_trust

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/motion_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace urban_nav_trust {
+namespace {
+
+constexpr urban_nav_core::StampNs kStep = 50'000'000;
+
+/// A robot at 1 m/s, whose sensors differ by noise and by what is given.
+class MeasuredDrive {
+ public:
+  explicit MeasuredDrive(unsigned seed) : random_(seed) {}
+  double yaw = 0.0, jump = 0.0, slip = 0.0, delay = 0.01;
+
+  void drive(MotionMonitor& monitor, double seconds) {
+    for (int i = 0; i < std::lround(20.0 * seconds); ++i) {
+      FrameMeasurements frame;
+      frame.stamp = ++k_ * kStep;
+      frame.turn_sigma = 5e-4;
+      frame.turn_error = 5e-4 * Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_));
+      frame.turn_error.z() += jump;
+      jump = 0.0;
+      frame.forward_sigma = 2e-3;
+      frame.forward = 0.05 + 2e-3 * normal_(random_);
+      frame.forward_error = 0.05 * slip + 2e-3 * normal_(random_);
+      frame.sideways = 0.05 * std::tan(yaw) + 2e-3 * normal_(random_);
+      frame.imu_delay = delay + 1e-3 * normal_(random_);
+      frame.imu_delay_sigma = 1e-3;
+      monitor.add(frame);
+    }
+  }
+  urban_nav_core::StampNs now() const { return k_ * kStep; }
+
+ private:
+  std::mt19937 random_;
+  std::normal_distribution<double> normal_{0.0, 1.0};
+  urban_nav_core::StampNs k_ = 0;
+};
+
+std::vector<std::string> failedNames(const MotionMonitor& monitor) {
+  std::vector<std::string> names;
+  for (const ConsistencyTest& test : monitor.tests())
+    if (test.p_value < Parameters().false_alarm) names.push_back(test.name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(MotionMonitor, IsSilentInFiftyDrivesOfAMinute) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    MotionMonitor monitor({});
+    MeasuredDrive(seed).drive(monitor, 60.0);
+    EXPECT_EQ(failedNames(monitor), Names()) << seed;
+    EXPECT_EQ(monitor.tests().size(), 4U);
+    EXPECT_TRUE(monitor.absent().empty());
+  }
+}
+
+TEST(MotionMonitor, NamesWhatHasChangedAndWhen) {
+  const auto check = [](const char* name, const auto& change) {
+    MotionMonitor monitor({});
+    MeasuredDrive drive(7);
+    drive.drive(monitor, 20.0);
+    const urban_nav_core::StampNs at = drive.now();
+    change(drive);
+    drive.drive(monitor, 20.0);
+    EXPECT_EQ(failedNames(monitor), Names{name});
+    for (const ConsistencyTest& test : monitor.tests())
+      if (test.name == name) {
+        EXPECT_LT(std::abs(urban_nav_core::secondsBetween(at, test.interval.from)), 2.6) << name;
+        EXPECT_FALSE(test.remedy.empty());
+      }
+  };
+  check(kTurnTest, [](MeasuredDrive& drive) { drive.jump = 0.035; });
+  check(kSpeedTest, [](MeasuredDrive& drive) { drive.slip = 0.1; });
+  check(kDirectionTest, [](MeasuredDrive& drive) { drive.yaw = 0.035; });
+  check(kClockTest, [](MeasuredDrive& drive) { drive.delay = 0.06; });
+}
+
+TEST(MotionMonitor, WithoutSensorsOrWithNumbersThatAreNoneTestsAreAbsent) {
+  MotionMonitor monitor({});
+  FrameMeasurements frame;
+  for (int i = 0; i < 100; ++i) {
+    frame.stamp += kStep;
+    frame.turn_error.setConstant(std::numeric_limits<double>::quiet_NaN());
+    frame.turn_sigma = frame.forward_sigma = i % 2 == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+    frame.imu_delay_sigma = 0.05;  // the prior
+    EXPECT_FALSE(monitor.add(frame));
+  }
+  EXPECT_TRUE(monitor.tests().empty());
+  EXPECT_EQ(monitor.absent().size(), 4U);
+}
+
+}  // namespace
+}  // namespace urban_nav_trust

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include "live/nodelet_parameters.hpp"
+#include "urban_nav_core/testing/parameter_tables.hpp"
+
+namespace urban_nav_trust {
+namespace {
+
+TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
+}
+
+}  // namespace
+}  // namespace urban_nav_trust

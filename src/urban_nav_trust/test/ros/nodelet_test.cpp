@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/StageStatus.h>
+#include <urban_nav_msgs/Trust.h>
+#include <urban_nav_msgs/VoStatistics.h>
+
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
+#include "urban_nav_ros/testing/receipts.hpp"
+
+namespace urban_nav_trust {
+namespace {
+
+using urban_nav_msgs::Trust;
+
+constexpr urban_nav_core::StampNs kFrame = 50'000'000;
+
+/// Odometry of a robot, and what the nodelet states of it.
+class TrustGraph : public urban_nav_ros::testing::Listener {
+ public:
+  TrustGraph() : Listener("trust"), receipts_("trust") {
+    keep("trust/state", states);
+    keep("trust/status", statuses);
+  }
+  void drive(int frames, double step_px) {
+    for (int i = 0; i < frames; ++i) {
+      ++k_;
+      urban_nav_msgs::VoStatistics statistics;
+      statistics.header.stamp = urban_nav_ros::toRosTime(k_ * kFrame);
+      statistics.accepted = 1;
+      statistics.status = urban_nav_msgs::VoStatistics::OK;
+      statistics.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
+      statistics.disparity_step_sigma_px = 0.03;
+      const nav_msgs::Odometry odometry = urban_nav_ros::toOdometryMessage(
+          k_ * kFrame,
+          {urban_nav_core::Pose(Eigen::Quaterniond::Identity(), {0.05 * static_cast<double>(k_), 0.0, 0.0}),
+           1e-4 * urban_nav_core::Matrix6d::Identity()},
+          "odom", "base_link");
+      EXPECT_TRUE(receipts_.await({{"vo/statistics", 1}}, [&] { statistics_.publish(statistics); }));
+      EXPECT_TRUE(receipts_.await({{"vo/odometry", 1}}, [&] { odometry_.publish(odometry); }));
+    }
+  }
+
+  std::vector<Trust> states;
+  std::vector<urban_nav_msgs::StageStatus> statuses;
+
+ private:
+  const urban_nav_ros::testing::Receipts receipts_;
+  ros::Publisher statistics_ = advertise<urban_nav_msgs::VoStatistics>("vo/statistics");
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
+  urban_nav_core::StampNs k_ = 100;
+};
+
+TEST(TrustNodelet, StatesWhatAKnockToACameraIsWorth) {
+  TrustGraph graph;
+  ASSERT_TRUE(TrustGraph::until([&] { return graph.isConnected(); }));
+  graph.drive(60, 0.0);
+  ASSERT_TRUE(TrustGraph::until([&] { return !graph.states.empty() && graph.states.back().state == Trust::KNOWN; }));
+  const Trust known = graph.states.back();
+  EXPECT_EQ(known.header.frame_id, "map");
+  ASSERT_EQ(known.probabilities.size(), 3U);
+  ASSERT_EQ(known.radii.size(), 3U);
+  EXPECT_GT(known.probabilities[0], 0.9);
+  ASSERT_FALSE(known.tests.empty());
+  EXPECT_FALSE(known.tests[0].failed);
+
+  graph.drive(5, -1.36);
+  ASSERT_TRUE(TrustGraph::until([&] { return graph.states.back().state == Trust::UNSURE; }));
+  const Trust unsure = graph.states.back();
+  EXPECT_FALSE(unsure.reason.empty());
+  ASSERT_FALSE(unsure.tests.empty());
+  EXPECT_TRUE(unsure.tests[0].failed);
+  EXPECT_FALSE(unsure.tests[0].remedy.empty());
+  EXPECT_TRUE(TrustGraph::until(
+      [&] { return !graph.statuses.empty() && graph.statuses.back().reason_name == "calibration_changed"; }));
+
+  EXPECT_TRUE(graph.call("reset"));
+  graph.drive(3, 0.0);
+  EXPECT_TRUE(TrustGraph::until([&] { return graph.states.back().state == Trust::KNOWN; }));
+}
+
+}  // namespace
+}  // namespace urban_nav_trust
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "urban_nav_trust_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}

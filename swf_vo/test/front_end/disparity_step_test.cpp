@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/disparity_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+StereoCamera stepCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.3, 0.02}; }
+
+/// Landmarks of earlier frames as a pair sees them whose right camera was turned about its y axis.
+class DisplacedView {
+ public:
+  /// `shift`: px, by which disparities in the middle are larger; `sigma`: of each pixel coordinate, px.
+  DisplacedView(unsigned seed, int count, double shift, double sigma, const Pose& T_camera_odom) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::uniform_real_distribution<double> u(30.0, 480.0), v(30.0, 350.0), inverse(0.02, 0.3);
+    const StereoCamera camera = stepCamera();
+    tracks_.resize(static_cast<std::size_t>(count));
+    for (Track& track : tracks_) {
+      const Eigen::Vector3d p = camera.left.ray({u(random), v(random)}) / inverse(random);
+      const Eigen::Vector3d z = *camera.project(T_camera_odom * p);
+      track.seen = 3;
+      Match match;
+      match.track = &track;
+      match.p_odom << p, 1.0;
+      match.left.found = match.right.found = true;
+      match.left.pixel = {z.x() + sigma * normal(random), z.y()};
+      const double x = (z.x() - camera.left.cx) / camera.left.fx;
+      match.right.pixel = {z.z() - (1.0 + x * x) * shift + sigma * normal(random), z.y()};
+      matches.push_back(match);
+    }
+  }
+  std::vector<Match> matches;
+
+ private:
+  std::vector<Track> tracks_;
+};
+
+const Pose kStepPlace(Eigen::Quaterniond(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY())), {0.1, 0.0, -0.4});
+
+TEST(DisparityStep, IsExactWithoutNoise) {
+  for (const double shift : {-1.4, 0.0, 0.3}) {
+    const DisplacedView view(1, 60, shift, 0.0, kStepPlace);
+    const DisparityStep step = measureDisparityStep(stepCamera(), kStepPlace, view.matches);
+    EXPECT_NEAR(step.px, shift, 1e-9);
+    EXPECT_GT(step.sigma_px, 0.0);
+    EXPECT_EQ(step.landmarks, 60);
+  }
+}
+
+TEST(DisparityStep, AnErrorOfThePlaceAlongTheAxisIsNoStep) {
+  const Pose off(kStepPlace.q(), kStepPlace.t() + Eigen::Vector3d(0.0, 0.0, 0.02));
+  const DisplacedView view(2, 100, -0.5, 0.0, kStepPlace);
+  EXPECT_NEAR(measureDisparityStep(stepCamera(), off, view.matches).px, -0.5, 0.01);
+}
+
+TEST(DisparityStep, ItsErrorsAreAsLargeAsStated) {
+  double squares = 0.0;
+  const int runs = 400;
+  for (unsigned seed = 1; seed <= runs; ++seed) {
+    const DisplacedView view(seed, 80, 0.2, 0.1, kStepPlace);
+    const DisparityStep step = measureDisparityStep(stepCamera(), kStepPlace, view.matches);
+    squares += std::pow((step.px - 0.2) / step.sigma_px, 2);
+  }
+  // The larger of two estimates of a variance is stated, which is more than right by chance.
+  EXPECT_GT(squares / runs, 0.5);
+  EXPECT_LT(squares / runs, 1.3);
+}
+
+TEST(DisparityStep, MatchesOfSomethingElseHaveNoPart) {
+  DisplacedView view(4, 80, -0.3, 0.05, kStepPlace);
+  for (std::size_t i = 0; i < 20; ++i) view.matches[4 * i].right.pixel.x() += 7.0 + static_cast<double>(i);
+  const DisparityStep step = measureDisparityStep(stepCamera(), kStepPlace, view.matches);
+  EXPECT_NEAR(step.px, -0.3, 0.06);
+  EXPECT_LE(step.landmarks, 61);
+}
+
+TEST(DisparityStep, OfTooFewIsNotMeasured) {
+  DisplacedView view(5, 40, -0.3, 0.0, kStepPlace);
+  for (std::size_t i = 0; i < 30; ++i) view.matches[i].right.found = false;
+  EXPECT_EQ(measureDisparityStep(stepCamera(), kStepPlace, view.matches).sigma_px, 0.0);
+  EXPECT_EQ(measureDisparityStep(stepCamera(), kStepPlace, {}).sigma_px, 0.0);
+}
+
+}  // namespace
+}  // namespace swf_vo
