@@ -76,7 +76,7 @@ class CameraNodelet : public nodelet::Nodelet {
   ros::Publisher time_reference_;
   std::unique_ptr<FrameSource> source_;
   FramePacer pacer_;
-  ros::Subscriber odometry_;  // of a paced camera
+  ros::Subscriber odometry_;  // paces the camera
   DeviceDiagnostics diagnostics_;
   std::thread reader_;
   std::atomic<bool> stop_{false};

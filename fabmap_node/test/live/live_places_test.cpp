@@ -190,7 +190,7 @@ TEST_F(LivePlacesTest, SessionsAreThoseOfTheOdometry) {
   drive(*places, kMonday + 2 * kObservationPeriod, 2, 4);
   // Odometry jumps back before the images do, and announces it.
   places->addOdometry({kMonday, urban_nav_core::Pose()});
-  places->follow(first);  // what its window still had
+  places->follow(first);  // poses that its window still had
   places->follow(second);
   observe(*places, kMonday + 4 * kObservationPeriod, 4);
   drive(*places, kMonday + kObservationPeriod, 5, 8);

@@ -135,7 +135,7 @@ class LiveMap {
   std::optional<std::int64_t> revision_;
   std::map<Tile, TileState> tiles_;
   Counts counts_;
-  std::map<std::string, int> streams_;  ///< of the lasers
+  std::map<std::string, int> streams_;  ///< laser streams
   std::unique_ptr<urban_nav_live::RoundGate<Add>> rounds_;
 };
 

@@ -61,7 +61,7 @@ LivePoseGraph::LivePoseGraph(const Parameters& parameters, const std::string& ro
               return options;
             }()),
       namer_(robot) {
-  findReference(parameters.solver, {});  // throws: there are none here
+  findReference(parameters.solver, {});  // throws: this file has no solver
 }
 
 LivePoseGraph::~LivePoseGraph() {

@@ -110,7 +110,7 @@ class LivePoseGraph : public LiveGraph {
   std::unique_ptr<GraphStoreWriter> writer_;  // null: no store is open
   urban_nav_live::SessionNamer namer_;
   SessionId session_;    // empty: no odometry yet
-  SessionId announced_;  // of the odometry; session_ is another one after new_session and reset. Empty: it does not
+  SessionId announced_;  // by the odometry; session_ is another one after new_session and reset. Empty: it does not
                          // announce it
   int sessions_begun_ = 0;
   std::int64_t given_up_ = 0;                               // closures

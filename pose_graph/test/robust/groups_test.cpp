@@ -58,7 +58,7 @@ struct Laps {
   }
 };
 
-// What is said with all of them in and the graph relaxed to fit them all.
+// The figures with all of them in and the graph relaxed to fit them all.
 struct Said {
   bool changed = false;
   std::vector<char> in;

@@ -78,7 +78,7 @@ TEST_F(LiveLabelsOfAWall, ScansThatComeAfterTheLastPoseAreLabelledWithoutAnother
   EXPECT_EQ(labelled_, in_order) << "each is labelled once";
 }
 
-TEST_F(LiveLabelsOfAWall, EachRoundOfARecordingIsLabelledAlike) {
+TEST_F(LiveLabelsOfAWall, EachRoundOfARecordingHasTheSameLabels) {
   const auto drive = [this] {
     const std::size_t before = labelled_;
     for (int i = 0; i < kPoses; ++i) {

@@ -136,7 +136,7 @@ TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
     return velocity > 0.39 && odometry > 50;
   };
   ASSERT_TRUE(runFor(kPatience, drive)) << velocity << " " << odometry;
-  // Twice, since one that was on its way may have come in place of the last.
+  // Twice, since one that was sent before may have come in place of the last.
   for (int i = 0; i < 2; ++i) EXPECT_TRUE(receipts.await({{"cmd_vel", 1}}, [&] { command.publish(twist); }));
   step(due);
   due = 0.0;

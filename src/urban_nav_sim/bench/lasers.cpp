@@ -66,7 +66,7 @@ struct Errors {
   Values far_plane;   // mm, of those beyond 20 m that lie on a plane
   double returns = 0.0, mixed = 0.0, reachable = 0.0, lost = 0.0, sky_returns = 0.0;
 
-  /// `plane`: the beams beside it meet the same plane. Where they do not, what the middle meets is not what its whole
+  /// `plane`: its neighbours meet the same plane. Where they do not, what the middle meets is not what its whole
   /// width does.
   void add(double range, double intensity, const BeamTruth& truth, double bias, double range_max, bool plane) {
     const bool returned = std::isfinite(range), reachable_now = truth.range < range_max;
@@ -87,7 +87,7 @@ struct Errors {
   }
 };
 
-/// Do this beam and those beside it meet one plane? The reciprocal of range is then a sum of a sine and a cosine.
+/// Do this beam and its neighbours meet one plane? The reciprocal of range is then a sum of a sine and a cosine.
 bool isOnPlane(const std::vector<BeamTruth>& truth, std::size_t i) {
   constexpr double kStep = 0.5 * M_PI / 180.0, kOff = 0.02;  // m
   if (i == 0 || i + 1 >= truth.size()) return false;

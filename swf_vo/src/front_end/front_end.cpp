@@ -39,14 +39,14 @@ constexpr double kAstraySlackPx = 0.5;
 // src/urban_nav/bench); where the pose was right at least 21 % did, after a second without pictures in a real street
 // seen from a car (the recordings of bench/faults).
 constexpr double kLeastShareInView = 0.15;
-// Where so little agrees that nothing is known of the motion: how many motions are tried, for one match in five to be
+// Motions that are tried where so little agrees that nothing is known of the motion, for one match in five to be
 // right.
 constexpr int kWideSamples = 400;
 // Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with
 // this share of n^2 steps added to their variance show a motion along the track as badly as n steps of a random walk do
 // (6 / (5 n) q = 12 / n^3 R).
 constexpr double kSlopeShare = 0.1;
-// Of the error of a disparity a part stays the same as long as the landmark lives (that of its slope, and of what else
+// Part of the error of a disparity stays the same as long as the landmark lives (that of its slope, and of what else
 // is in its patch): this share of the variance it was born with. Measured in rendered rooms at 1, 3 and 6 grey levels
 // of noise (bench/creep). However many measurements there are, up to this many, their mean is no better.
 constexpr double kConstantShare = 0.2;
@@ -235,7 +235,7 @@ class FrontEnd::Implementation {
     for (const LandmarkId id : orphans_) tracks_.end(id);
   }
 
-  /// What the measurements of the frame before have left, now that the window has them. A landmark's own place takes up
+  /// Residuals of the measurements of the frame before, now that the window has them. A landmark's own place takes up
   /// its share.
   void learnNoise() {
     for (const Match& match : matches_) {

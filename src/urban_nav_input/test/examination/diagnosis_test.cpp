@@ -260,7 +260,7 @@ TEST(BagDoctor, NamesTransformsThatAreMissing) {
 }
 
 TEST(BagDoctor, NamesImagesWithoutStamps) {
-  const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.stamped = false; });
+  const auto verdict = judgeBag([](BagRecipe& recipe) { recipe.stamped = false; });
   EXPECT_EQ(verdict.kinds.count("stamps"), 2U) << verdict.text;  // images and IMU
   EXPECT_NE(verdict.text.find("/imu/data"), std::string::npos) << verdict.text;
 }

@@ -31,7 +31,7 @@ namespace urban_nav_ros {
 /// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest
 /// `tf_timeout` after the first image; earlier images are kept. Without the transform the left camera is taken to be at
 /// the base, with axes as in REP 103: placeFault() names that, and when the transform arrives, or another one, the
-/// session ends and the next begins with it. The gyroscope's axes are treated alike. Where it is not certain that
+/// session ends and the next begins with it. So are the gyroscope's axes. Where it is not certain that
 /// images are rectified, the first pairs are awaited.
 class StereoSessions {
  public:

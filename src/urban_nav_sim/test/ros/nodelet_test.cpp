@@ -50,7 +50,7 @@ class Simulator : public ::testing::Test {
   };
 
   /// Held at the beginning of the session. The other topics are subscribed to then: on a new connection comes nothing
-  /// of the session before, which a busy machine may still be sending.
+  /// from the session before, which a busy machine may still be sending.
   void SetUp() override {
     ASSERT_TRUE(call("pause"));
     subscribers_.push_back(nh_.subscribe<diagnostic_msgs::DiagnosticArray>(
@@ -86,7 +86,7 @@ class Simulator : public ::testing::Test {
 
   static bool until(const std::function<bool()>& so) { return urban_nav_ros::testing::Listener::until(so); }
 
-  /// Whether the newest status says so.
+  /// Whether the newest status has it.
   bool said(const std::string& state) const {
     return !diagnostics_.empty() && diagnostics_.back().message.find(state) == 0;
   }
@@ -146,7 +146,7 @@ TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsTellHowFar) {
   ASSERT_TRUE(until([this] { return clock_.back() == begin() + 1'000'000'000; })) << "the end of the session";
   EXPECT_TRUE(std::is_sorted(clock_.begin(), clock_.end()));
   EXPECT_GE(clock_.size(), 150U);
-  // Which /clock came before which message, no listener can say: they have connections of their own.
+  // No listener knows which /clock came before which message: they have connections of their own.
   for (const Received& truth : received_["ground_truth/pose"]) {
     const auto next = std::lower_bound(clock_.begin(), clock_.end(), truth.stamp);
     ASSERT_NE(next, clock_.end());

@@ -14,7 +14,7 @@ namespace urban_nav_core {
 struct OdometrySession {
   std::string id;  ///< 20 hexadecimal digits
   std::string name, robot, recording;
-  StampNs start = 0;  ///< of its first frame
+  StampNs start = 0;  ///< its first frame
 };
 
 /// Shared by the steps of a session; null where an odometry does not announce it.
