@@ -113,7 +113,7 @@ class FabmapStage {
 FabmapStage::FabmapStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
-  places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording},
+  places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording, true},
                                          nodelet_.store, storeOptions());
   loadMap();
   startFeed();

@@ -117,7 +117,7 @@ void LivePlaces::nameSession(urban_nav_core::StampNs now) {
   if (session_) return;
   if (announced_) return beginSession(namer_.follow(*announced_, resumable_).session);
   const auto start = odometry_.start();
-  if (start && now - *start >= kAnnouncedWait) beginOwnSession(*start);
+  if (start && (!name_.is_announced || now - *start >= kAnnouncedWait)) beginOwnSession(*start);
   else if (!start && first_observed_ && now - *first_observed_ >= kLongestWait) beginOwnSession(*first_observed_);
 }
 

@@ -22,6 +22,7 @@ namespace fabmap_node {
 /// Identity of the session that is being recorded, beside its first stamp: the same for all stages of a robot.
 struct LiveSessionName {
   std::string robot, recording;
+  bool is_announced = false;  ///< the odometry announces its sessions, a window of frames after their first pose
 };
 
 /// Place recognition of a live robot, free of ROS. Sessions and their ids are those that the odometry announces;

@@ -35,10 +35,11 @@ constexpr StampNs kObservationPeriod = 1'000'000'000, kMonday = 1'225'719'873 * 
 class LivePlacesTest : public ::testing::Test {
  protected:
   /// A process that writes to a store, or to none.
-  std::unique_ptr<LivePlaces> begin(const std::string& store) {
+  std::unique_ptr<LivePlaces> begin(const std::string& store, bool is_announced = false) {
     urban_nav_live::StoreWriterLink::Options options;
     options.now = [this] { return now_; };
-    auto places = std::make_unique<LivePlaces>(Parameters(), LiveSessionName{"lisa", "begbroke"}, store, options);
+    auto places =
+        std::make_unique<LivePlaces>(Parameters(), LiveSessionName{"lisa", "begbroke", is_announced}, store, options);
     places->syncStore();
     return places;
   }
@@ -184,7 +185,7 @@ TEST_F(LivePlacesTest, SessionsAreThoseOfTheOdometry) {
   const auto first = announce("monday", kMonday), second = announce("monday (2)", kMonday);
   const StampNs reset_at = kMonday + 6 * kObservationPeriod;
   const auto third = announce("monday", reset_at);
-  const auto places = begin(path_);
+  const auto places = begin(path_, true);
   drive(*places, kMonday, 0, 2);
   places->follow(first);
   drive(*places, kMonday + 2 * kObservationPeriod, 2, 4);
