@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "swf_vo/parameters.hpp"
+#include "topics/trust/depth_matches.hpp"
+#include "urban_nav_trust/depth_comparison.hpp"
 #include "urban_nav_trust/trust_monitor.hpp"
 
 namespace urban_nav {
@@ -16,12 +19,15 @@ namespace {
 
 constexpr double kUnknownVariance = 1e6;  // m^2, of a pose without covariance
 
-TestResults testSession(const SessionOdometry& run, bool is_named, const urban_nav_trust::Parameters& parameters) {
+TestResults testSession(MapContext& context, std::size_t number, const urban_nav_trust::Parameters& parameters) {
+  const SessionOdometry& run = *context.runs()[number];
   urban_nav_trust::TrustMonitor monitor(parameters);
   for (const OdometryFrame& frame : run.frames)
-    if (frame.accepted) monitor.addDisparityStep(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px);
+    if (frame.accepted) monitor.add(frame.compared);
   TestResults results = monitor.results();
-  if (is_named)
+  const double rig_scale = 0.01 * context.options.parameters.get(swf_vo::table()).rig_scale;
+  testDepths(matchDepths(*context.store, context.ids()[number], run), rig_scale, results.tests, results.absent);
+  if (context.trajectories.size() > 1)
     for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
   return results;
 }
@@ -55,6 +61,18 @@ std::vector<FrameEvidence> listFrames(const SessionOdometry& run, const SessionT
   return frames;
 }
 
+/// Lists what the sessions of this run do not have: measurements that no test can use then.
+void addMissingInputs(const MapContext& context, TestResults& all) {
+  const auto has = [&](const std::string& role) {
+    return std::any_of(context.sessions.begin(), context.sessions.end(), [&](const MapSession& session) {
+      return std::any_of(session.info.inputs.begin(), session.info.inputs.end(),
+                         [&](const auto& input) { return input.role.rfind(role, 0) == 0; });
+    });
+  };
+  if (!has("panorama")) all.absent.push_back({"panorama_colour", "no panoramas"});
+  if (!has("gps")) all.absent.push_back({"gps_position", "no GPS fixes"});
+}
+
 bool hasClosures(const MapContext& context) {
   return std::any_of(context.assessments.begin(), context.assessments.end(), [](const ClosureAssessment& closure) {
     return closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
@@ -63,15 +81,16 @@ bool hasClosures(const MapContext& context) {
 
 }  // namespace
 
-TrustRun assessTrust(const MapContext& context, const urban_nav_trust::Parameters& parameters) {
+TrustRun assessTrust(MapContext& context, const urban_nav_trust::Parameters& parameters) {
   TrustRun result;
   const std::vector<const SessionOdometry*> runs = context.runs();
   const std::vector<SessionTrajectory>& sessions = context.trajectories;
   std::vector<TestResults> by_session;
   for (std::size_t s = 0; s < sessions.size(); ++s) {
-    by_session.push_back(testSession(*runs[s], sessions.size() > 1, parameters));
+    by_session.push_back(testSession(context, s, parameters));
     append(by_session.back(), result.results);
   }
+  addMissingInputs(context, result.results);
   const bool spreads = hasClosures(context);
   for (std::size_t first = 0; first < sessions.size(); ++first)
     for (std::size_t s = first; s < sessions.size(); ++s) {
