@@ -5,6 +5,8 @@
 
 #include "swf_vo/parameters.hpp"
 #include "topics/trust/depth_matches.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_test.hpp"
 #include "urban_nav_trust/depth_comparison.hpp"
 #include "urban_nav_trust/trust_monitor.hpp"
 
@@ -19,7 +21,39 @@ namespace {
 
 constexpr double kUnknownVariance = 1e6;  // m^2, of a pose without covariance
 
+/// Stores the tests of a session in place of those of an earlier run.
+void storeTests(const TestResults& results, const urban_nav_trust::Parameters& parameters,
+                const urban_nav_store::SessionId& session, urban_nav_store::Store& store) {
+  urban_nav_store::TableStore<urban_nav_store::StoredTest> rows(store);
+  for (const urban_nav_trust::AbsentMeasurement& absent : results.absent) {
+    urban_nav_store::StoredTest key;
+    key.session = session;
+    key.name = absent.name;
+    rows.remove(key);
+  }
+  for (const ConsistencyTest& test : results.tests)
+    rows.put({session, test.name, hasFailed(test, parameters) ? "failed" : "passed", test.interval.from,
+              test.interval.to, test.statistic, test.degrees_of_freedom, test.p_value, test.sentence, test.remedy});
+}
+
+/// Returns the tests of a session that an earlier run has made.
+TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store::Store& store) {
+  TestResults results;
+  urban_nav_store::TableStore<urban_nav_store::StoredTest>(store).forEach(
+      session, [&](const urban_nav_store::StoredTest& row) {
+        results.tests.push_back({row.name,
+                                 {row.from, row.to},
+                                 row.statistic,
+                                 row.degrees_of_freedom,
+                                 row.p_value,
+                                 row.sentence,
+                                 row.remedy});
+      });
+  return results;
+}
+
 TestResults testSession(MapContext& context, std::size_t number, const urban_nav_trust::Parameters& parameters) {
+  if (context.isPrevious(number)) return readTests(context.ids()[number], *context.store);
   const SessionOdometry& run = *context.runs()[number];
   urban_nav_trust::TrustMonitor monitor(parameters);
   for (const OdometryFrame& frame : run.frames)
@@ -29,6 +63,7 @@ TestResults testSession(MapContext& context, std::size_t number, const urban_nav
   testDepths(matchDepths(*context.store, context.ids()[number], run), rig_scale, results.tests, results.absent);
   if (context.trajectories.size() > 1)
     for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
+  storeTests(results, parameters, context.ids()[number], *context.store);
   return results;
 }
 
