@@ -16,7 +16,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
 
 # Packages of stages: what all topics of the command share does not know them.
 STAGES = ["swf_vo", "fabmap_node", "loop_metric", "pose_graph", "laser_mapper", "dense_stereo", "scene_labeler", "segway_drivers",
-          "laser_odometry", "urban_nav_localization", "urban_nav_trust"]
+          "laser_odometry", "urban_nav_localization"]
 
 # Lines of a nodelet folder; of those that are longer, today's number rounded up to the next 50, which only falls.
 USUAL_NODELET_LINES = 300

@@ -5,6 +5,8 @@
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/VoStatistics.h>
 
+#include <tuple>
+
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/path.hpp"
 #include "urban_nav_ros/point_cloud.hpp"
@@ -18,11 +20,9 @@ namespace topics = urban_nav_ros::topics;
 using urban_nav_ros::toRosTime;
 
 namespace {
-
 // For display: a point per half metre, and no more of them than a viewer draws with ease.
 constexpr double kPathSpacing = 0.5;  // m
 constexpr std::size_t kPathPoints = 4000;
-
 }  // namespace
 
 Publisher::Publisher(urban_nav_ros::StageNode& node)
@@ -89,15 +89,19 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   message.corners = static_cast<std::uint32_t>(figures.corners);
   message.features = static_cast<std::uint32_t>(figures.features);
   message.tracked = static_cast<std::uint32_t>(figures.tracked);
-  message.track_length_mean = figures.track_length_mean;
-  message.reprojection_px = figures.reprojection_px;
   message.iterations = static_cast<std::uint32_t>(figures.iterations);
   message.landmarks = static_cast<std::uint32_t>(figures.landmarks);
   message.landmarks_in_prior = static_cast<std::uint32_t>(figures.landmarks_in_prior);
-  message.disparity_offset_px = figures.disparity_offset_px;
-  message.disparity_offset_sigma_px = figures.disparity_offset_sigma_px;
-  message.disparity_step_px = figures.disparity_step.px;
-  message.disparity_step_sigma_px = figures.disparity_step.sigma_px;
+  const MotionComparison& compared = frame.motion.newest;
+  Eigen::Map<Eigen::Vector3d>(message.turn_error.data()) = compared.turn_error;
+  std::tie(message.turn_sigma, message.forward, message.sideways, message.forward_error, message.forward_sigma,
+           message.imu_delay, message.imu_delay_sigma, message.track_length_mean, message.reprojection_px,
+           message.disparity_offset_px, message.disparity_offset_sigma_px, message.disparity_step_px,
+           message.disparity_step_sigma_px) =
+      std::tie(compared.turn_sigma, compared.forward, compared.sideways, compared.forward_error, compared.forward_sigma,
+               frame.motion.imu_offset_s, frame.motion.imu_offset_sigma_s, figures.track_length_mean,
+               figures.reprojection_px, figures.disparity_offset_px, figures.disparity_offset_sigma_px,
+               figures.disparity_step.px, figures.disparity_step.sigma_px);
   message.process_ms = process_ms;
   message.latency_ms = (ros::Time::now() - message.header.stamp).toSec() * 1e3;
   frame_.publish(message);

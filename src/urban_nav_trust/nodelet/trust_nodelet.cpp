@@ -31,8 +31,21 @@ constexpr double kOdometryTimeout = 1.0;  // s
 std::optional<LiveFrame> toFrame(const urban_nav_msgs::VoStatistics& message) {
   const std::optional<urban_nav_core::Health> health = urban_nav_ros::toHealth(message.status);
   if (!health) return std::nullopt;
-  return LiveFrame{urban_nav_ros::toStampNs(message.header.stamp), message.accepted != 0, *health,
-                   message.disparity_step_px, message.disparity_step_sigma_px};
+  LiveFrame frame;
+  frame.stamp = frame.compared.stamp = urban_nav_ros::toStampNs(message.header.stamp);
+  frame.accepted = message.accepted != 0;
+  frame.health = *health;
+  frame.compared.disparity_step_px = message.disparity_step_px;
+  frame.compared.disparity_step_sigma_px = message.disparity_step_sigma_px;
+  frame.compared.turn_error = Eigen::Vector3d(message.turn_error.data());
+  frame.compared.turn_sigma = message.turn_sigma;
+  frame.compared.forward = message.forward;
+  frame.compared.sideways = message.sideways;
+  frame.compared.forward_error = message.forward_error;
+  frame.compared.forward_sigma = message.forward_sigma;
+  frame.compared.imu_delay = message.imu_delay;
+  frame.compared.imu_delay_sigma = message.imu_delay_sigma;
+  return frame;
 }
 
 std::optional<LivePose> toLivePose(const nav_msgs::Odometry& message) {

@@ -3,10 +3,17 @@
 
 namespace urban_nav_trust {
 
+bool TrustMonitor::add(const FrameMeasurements& frame) {
+  const bool moved = motion_.add(frame);
+  return offset_.add(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px) || moved;
+}
+
 TestResults TrustMonitor::results() const {
   TestResults results;
   if (const std::optional<ConsistencyTest> test = offset_.test()) results.tests.push_back(*test);
   else results.absent.push_back({kOffsetTest, "no stereo frames were compared with the landmarks of earlier ones"});
+  for (ConsistencyTest& test : motion_.tests()) results.tests.push_back(std::move(test));
+  for (AbsentMeasurement& missing : motion_.absent()) results.absent.push_back(std::move(missing));
   results.segments = offset_.segments();
   return results;
 }

@@ -73,6 +73,16 @@ struct MotionSensorFault {
 /// Returns "wheels are left out from second 3.2 on: " and the sentence. `begin`: stamp of the first frame.
 std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin);
 
+/// The newest final step by images compared with a motion sensor, after the corrections that are estimated. A sigma of
+/// 0: not compared.
+struct MotionComparison {
+  urban_nav_core::Vector3d turn_error = urban_nav_core::Vector3d::Zero();  ///< images less gyroscope, rad
+  double turn_sigma = 0.0;                                                 ///< each axis, rad
+  double forward = 0.0, sideways = 0.0;                                    ///< by images, m in base_link
+  double forward_error = 0.0;                                              ///< images less wheels along x, m
+  double forward_sigma = 0.0;                                              ///< m
+};
+
 /// Motion sensors, and what images have shown of them. Estimates and standard deviations are those of
 /// the priors before anything was seen; they mean nothing for a sensor that is absent or left out.
 struct MotionEstimates {
@@ -84,7 +94,8 @@ struct MotionEstimates {
   double wheel_scale = 1.0, wheel_scale_sigma = 0.0;            ///< measured speed over true
   double wheel_turn_scale = 1.0, wheel_turn_scale_sigma = 0.0;  ///< measured yaw rate over true
   double wheel_offset_s = 0.0, wheel_offset_sigma_s = 0.0;      ///< as imu_offset_s
-  std::vector<MotionSensorFault> faults;                        ///< in order of their beginnings
+  MotionComparison newest;
+  std::vector<MotionSensorFault> faults;  ///< in order of their beginnings
 };
 
 /// Excess of disparities over those predicted from earlier frames; zero while the cameras keep their mounting.

@@ -99,6 +99,7 @@ MotionSensors::MotionSensors(const Pose& T_base_camera)
 }
 
 void MotionSensors::add(const std::vector<MotionInput>& inputs) {
+  estimates_.newest = {};
   for (const MotionInput& input : inputs) {
     if (input.source == MotionSource::Gyroscope) {
       gyroscope_.stream.add(input);
@@ -148,10 +149,9 @@ void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
   if (!gyroscope_.stream.isEmpty()) {
     const double offset = states.mean[MotionStates::kImuOffset];
     urban_nav_core::RotationPreintegration turned(states.bias());
-    const Coverage coverage =
-        gyroscope_.stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
-          turned.add(span.twist.tail<3>(), seconds, 0.0);
-        });
+    const Coverage coverage = gyroscope_.stream.cover(
+        delayed(from, offset), delayed(to, offset),
+        [&](const TwistSpan& span, double seconds) { turned.add(span.twist.tail<3>(), seconds, 0.0); });
     const Quaterniond by_gyroscope = turned.rotation();
     const double motion = std::max(logSo3(base.q()).norm(), logSo3(by_gyroscope).norm());
     if (coverage.isComplete())
@@ -160,10 +160,9 @@ void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
   if (!wheels_.stream.isEmpty()) {
     const double offset = states.mean[MotionStates::kWheelOffset], scale = 1.0 + states.mean[MotionStates::kSpeedScale];
     double distance = 0.0;
-    const Coverage coverage =
-        wheels_.stream.cover(delayed(from, offset), delayed(to, offset), [&](const TwistSpan& span, double seconds) {
-          distance += span.twist[0] / scale * seconds;
-        });
+    const Coverage coverage = wheels_.stream.cover(
+        delayed(from, offset), delayed(to, offset),
+        [&](const TwistSpan& span, double seconds) { distance += span.twist[0] / scale * seconds; });
     const double motion = std::max(std::abs(base.t().x()), std::abs(distance));
     if (coverage.isComplete())
       wheels_.is_contradicted = contradicts(std::abs(distance - base.t().x()), motion, kForwardFloor);
@@ -171,6 +170,7 @@ void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
 }
 
 void MotionSensors::learn(const Settled& settled) {
+  estimates_.newest = {};
   const auto note =
       std::find_if(notes_.begin(), notes_.end(), [&](const FrameNote& each) { return each.frame == settled.frame; });
   const bool known = note != notes_.end(), reckoned = known && note->reckoned;
@@ -198,6 +198,16 @@ void MotionSensors::learnStep(const Settled& settled) {
   const std::optional<GyroscopeStep> gyroscope = compareGyroscope(settled, images, turned);
   const std::optional<WheelStep> wheels = compareWheels(settled, images, moved);
   calibration_.update(images, follows_, gyroscope, wheels);
+  if (turned) {
+    estimates_.newest.turn_error = turned->error;
+    estimates_.newest.turn_sigma = std::sqrt(turned->variance / 3.0);
+  }
+  if (moved) {
+    estimates_.newest.forward = images.forward;
+    estimates_.newest.sideways = step.T_from_to.t().y();
+    estimates_.newest.forward_error = moved->error.x();
+    estimates_.newest.forward_sigma = std::sqrt(moved->variance);
+  }
   if (turned) gyroscope_.agreement.add(turned->step, turned->error, turned->variance);
   else gyroscope_.agreement.interrupt();
   if (moved) wheels_.agreement.add(moved->step, moved->error, moved->variance);

@@ -15,6 +15,7 @@
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/specific_force.hpp"
 #include "urban_nav_core/types/status.hpp"
+#include "urban_nav_trust/frame_measurements.hpp"
 
 namespace urban_nav {
 
@@ -24,9 +25,8 @@ struct OdometryFrame {
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;  ///< false: dropped because of its stamp
   urban_nav_core::Status status;
-  urban_nav_core::Pose T_odom_base;  ///< filtered, as live odometry publishes it
-  /// Excess of disparities over those predicted from earlier frames, px; sigma 0: not measured.
-  double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
+  urban_nav_core::Pose T_odom_base;             ///< filtered, as live odometry publishes it
+  urban_nav_trust::FrameMeasurements compared;  ///< with other measurements, by visual odometry
 };
 
 /// Odometry of one frame as files and later stages use it.

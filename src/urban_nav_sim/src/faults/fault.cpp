@@ -14,8 +14,9 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::array<FaultKind, 8> kAllKinds = {FaultKind::Drop, FaultKind::Freeze, FaultKind::Swap, FaultKind::Corrupt,
-                                                FaultKind::Jump, FaultKind::Unplug, FaultKind::Nan,  FaultKind::Knock};
+constexpr std::array<FaultKind, 12> kAllKinds = {
+    FaultKind::Drop, FaultKind::Freeze, FaultKind::Swap,  FaultKind::Corrupt, FaultKind::Jump, FaultKind::Unplug,
+    FaultKind::Nan,  FaultKind::Knock,  FaultKind::Drift, FaultKind::Scale,   FaultKind::Rain, FaultKind::Dark};
 constexpr double kLargestTurn = 10.0;  // deg
 constexpr const char* kForm = "KIND:SENSOR:START_S:DURATION_S[:VALUE], as in drop:stereo:10:2:0.5";
 
@@ -33,7 +34,13 @@ double within(std::string_view word, const char* what, double low, double high, 
   return *number;
 }
 
-bool isShare(FaultKind kind) { return kind == FaultKind::Drop || kind == FaultKind::Corrupt; }
+bool isShare(FaultKind kind) {
+  return kind == FaultKind::Drop || kind == FaultKind::Corrupt || kind == FaultKind::Rain || kind == FaultKind::Dark;
+}
+
+bool isOfStereo(FaultKind kind) {
+  return kind == FaultKind::Knock || kind == FaultKind::Scale || kind == FaultKind::Rain || kind == FaultKind::Dark;
+}
 
 }  // namespace
 
@@ -47,6 +54,10 @@ const char* toString(FaultKind kind) {
     case FaultKind::Unplug: return "unplug";
     case FaultKind::Nan: return "nan";
     case FaultKind::Knock: return "knock";
+    case FaultKind::Drift: return "drift";
+    case FaultKind::Scale: return "scale";
+    case FaultKind::Rain: return "rain";
+    case FaultKind::Dark: return "dark";
   }
   return "";
 }
@@ -63,15 +74,17 @@ Fault parseFault(const std::string& text, const std::string& option) {
   Fault fault;
   fault.kind = parseKind(parts[0], where);
   if (parts.size() < 4 || parts.size() > 5) throw UserError(where, "incomplete", kForm);
-  fault.sensor = parseSensor(std::string(parts[1]), where);
-  if (fault.kind == FaultKind::Knock && fault.sensor != Sensor::Stereo)
-    throw UserError(where, std::string("knock of \"") + toString(fault.sensor) + "\"", "stereo");
+  fault.sensor = parts[1] == "clock" ? Sensor::Stereo : parseSensor(std::string(parts[1]), where);
+  if (isOfStereo(fault.kind) && fault.sensor != Sensor::Stereo)
+    throw UserError(where, std::string(toString(fault.kind)) + " of \"" + toString(fault.sensor) + "\"", "stereo");
   fault.start = within(parts[2], "start", 0.0, 1e6, where);
   fault.duration = within(parts[3], "duration", 0.0, 1e6, where);
   if (parts.size() == 5) {
     if (isShare(fault.kind)) fault.value = within(parts[4], "share", 0.0, 1.0, where);
     else if (fault.kind == FaultKind::Jump) fault.value = within(parts[4], "jump", -1e6, 1e6, where);
     else if (fault.kind == FaultKind::Knock) fault.value = within(parts[4], "turn", -kLargestTurn, kLargestTurn, where);
+    else if (fault.kind == FaultKind::Drift) fault.value = within(parts[4], "drift", -1e3, 1e3, where);
+    else if (fault.kind == FaultKind::Scale) fault.value = within(parts[4], "factor", 0.1, 10.0, where);
     else throw UserError(where, std::string(toString(fault.kind)) + " takes no value", kForm);
   }
   return fault;

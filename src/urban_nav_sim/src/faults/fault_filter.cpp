@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "faults/fault_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -15,7 +16,8 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr double kDefaultDrop = 0.3, kDefaultCorrupt = 0.3, kDefaultJump = 10.0;
-constexpr double kDefaultKnock = 0.2;  // deg
+constexpr double kDefaultKnock = 0.2, kDefaultDrift = 0.1;  // deg, s
+constexpr double kDefaultRain = 0.05, kDefaultDark = 0.05;
 
 struct Origin {
   std::optional<Sensor> operator()(const StereoMeasurement&) const { return Sensor::Stereo; }
@@ -40,7 +42,7 @@ int partIndex(const Measurement& measurement) {
 FaultFilter::FaultFilter(std::vector<Fault> faults, std::uint64_t seed, StampNs begin, const Lens& right_lens)
     : faults_(std::move(faults)), seed_(seed), begin_(begin), right_lens_(right_lens) {}
 
-void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& measurement) {
+void FaultFilter::spoil(const Fault& fault, double t, const Stream& stream, Measurement& measurement) {
   const auto freeze = [&] {
     const StampNs now = toStamp(measurement);
     measurement = last_good_.try_emplace(stream, measurement).first->second;
@@ -57,6 +59,14 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
     case FaultKind::Jump:
       return setStamp(toStamp(measurement) + std::llround(1e9 * fault.value.value_or(kDefaultJump)), measurement);
     case FaultKind::Nan: return blank(measurement);
+    case FaultKind::Drift: {
+      const double share = fault.duration > 0.0 ? std::min(1.0, (t - fault.start) / fault.duration) : 1.0;
+      return setStamp(toStamp(measurement) + std::llround(1e9 * share * fault.value.value_or(kDefaultDrift)),
+                      measurement);
+    }
+    case FaultKind::Scale: return;  // of camera_info
+    case FaultKind::Rain: return rain(fault.value.value_or(kDefaultRain), hash(seed_, count_), measurement);
+    case FaultKind::Dark: return darken(fault.value.value_or(kDefaultDark), hash(seed_, count_), measurement);
     case FaultKind::Knock: return knock(fault.value.value_or(kDefaultKnock), measurement);
   }
 }
@@ -84,7 +94,7 @@ std::optional<Measurement> FaultFilter::apply(Measurement measurement, StampNs t
       if (toUniform(hash(seed_, count_, 1)) < fault.value.value_or(kDefaultDrop)) return std::nullopt;
       continue;
     }
-    spoil(fault, stream, measurement);
+    spoil(fault, t, stream, measurement);
     spoilt = true;
   }
   if (!spoilt) last_good_[stream] = measurement;

@@ -29,7 +29,7 @@ class FaultFilter {
   /// Streams that freeze each by itself: a camera of the Ladybug, one of the lasers.
   using Stream = std::pair<Sensor, int>;
 
-  void spoil(const Fault& fault, const Stream& stream, Measurement& measurement);
+  void spoil(const Fault& fault, double t, const Stream& stream, Measurement& measurement);
   void knock(double degrees, Measurement& measurement);
 
   std::vector<Fault> faults_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "faults/fault_injection.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongestLidarRange = 120.0;  // m
+constexpr int kStreakLength = 12;             // px
+constexpr double kReadNoise = 2.0;            // grey levels, at most
 
 template <typename Any>
 void set(StampNs stamp, Any& measurement) {
@@ -35,6 +39,33 @@ void corruptRows(double share, std::uint64_t seed, cv::Mat& image) {
     std::uint8_t* row = image.ptr<std::uint8_t>(v);
     for (int i = 0; i < image.cols * image.channels(); ++i) row[i] = static_cast<std::uint8_t>(hash(seed, v, i));
   }
+}
+
+/// Vertical streaks of 12 px, half transparent.
+void drawStreaks(double share, std::uint64_t seed, cv::Mat& image) {
+  if (image.empty()) return;
+  image = image.clone();
+  Draw draw(seed);
+  const int streaks = static_cast<int>(share * image.rows * image.cols / kStreakLength);
+  for (int i = 0; i < streaks; ++i) {
+    const int u = static_cast<int>(draw.uniform(0.0, image.cols)), v = static_cast<int>(draw.uniform(0.0, image.rows));
+    for (int k = 0; k < kStreakLength && v + k < image.rows; ++k) {
+      std::uint8_t& pixel = image.at<std::uint8_t>(v + k, std::min(u, image.cols - 1));
+      pixel = static_cast<std::uint8_t>((pixel + 255) / 2);
+    }
+  }
+}
+
+void darkenPixels(double factor, std::uint64_t seed, cv::Mat& image) {
+  if (image.empty()) return;
+  image = image.clone();
+  Draw draw(seed);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u) {
+      std::uint8_t& pixel = image.at<std::uint8_t>(v, u);
+      const double noise = draw.uniform(-kReadNoise, kReadNoise);
+      pixel = static_cast<std::uint8_t>(std::clamp(std::lround(factor * pixel + noise), 0L, 255L));
+    }
 }
 
 /// Sets one of the numbers to anything up to `size`.
@@ -148,6 +179,20 @@ bool swapSides(Measurement& measurement) {
 
 void corrupt(double share, std::uint64_t seed, Measurement& measurement) {
   std::visit(Corrupt{share, seed}, measurement);
+}
+
+void rain(double share, std::uint64_t seed, Measurement& measurement) {
+  auto* pair = std::get_if<StereoMeasurement>(&measurement);
+  if (pair == nullptr) return;
+  drawStreaks(share, hash(seed, 1), pair->left);
+  drawStreaks(share, hash(seed, 2), pair->right);
+}
+
+void darken(double factor, std::uint64_t seed, Measurement& measurement) {
+  auto* pair = std::get_if<StereoMeasurement>(&measurement);
+  if (pair == nullptr) return;
+  darkenPixels(factor, hash(seed, 1), pair->left);
+  darkenPixels(factor, hash(seed, 2), pair->right);
 }
 
 void blank(Measurement& measurement) { std::visit(Blank(), measurement); }

@@ -13,6 +13,10 @@ void setStamp(urban_nav_core::StampNs stamp, Measurement& measurement);
 bool swapSides(Measurement& measurement);
 /// CorruptedBytes in a share (0...1) of what was measured: rows of pictures, beams, numbers. Numbers stay finite.
 void corrupt(double share, std::uint64_t seed, Measurement& measurement);
+/// Draws bright streaks over a share of the pixels of a stereo pair; those of the two images differ, as drops are near.
+void rain(double share, std::uint64_t seed, Measurement& measurement);
+/// Makes a stereo pair darker by a factor (0...1), with the noise of the sensor.
+void darken(double factor, std::uint64_t seed, Measurement& measurement);
 /// Numbers become NaN, pictures black.
 void blank(Measurement& measurement);
 

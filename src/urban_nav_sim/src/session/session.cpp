@@ -28,6 +28,7 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr StampNs kFirstDay = 1'225'719'873'000'000'000;  // of the New College set: 3 November 2008
+constexpr double kDefaultScale = 1.01;  // of the baseline that camera_info states
 constexpr StampNs kOneDay = 86'400'000'000'000;
 
 bool seesTheWorld(Sensor sensor) {
@@ -204,7 +205,10 @@ std::map<std::string, Pose> Session::places() const {
   return places;
 }
 urban_nav_core::CameraInfo Session::stereoInfo(Side side) const {
-  return OpticalSensors::stereoInfo(side, implementation_->options().defects);
+  urban_nav_core::CameraInfo info = OpticalSensors::stereoInfo(side, implementation_->options().defects);
+  for (const Fault& fault : implementation_->options().faults)
+    if (fault.kind == FaultKind::Scale) info.P(0, 3) *= fault.value.value_or(kDefaultScale);
+  return info;
 }
 urban_nav_core::CameraInfo Session::ladybugInfo(int camera) const { return OpticalSensors::ladybugInfo(camera); }
 void Session::writeTruth(const std::string& folder, double false_closures) const {

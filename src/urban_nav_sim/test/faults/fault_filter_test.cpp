@@ -148,6 +148,38 @@ TEST(FaultFilter, SweepsFreezeWithTheirTimesAndBecomeInvalid) {
   EXPECT_NEAR(changed, 100, 30);
 }
 
+TEST(FaultFilter, ClocksDriftAndStayLate) {
+  FaultFilter filter = makeFilter("drift:clock:1:2:0.4");
+  EXPECT_EQ(toStamp(*applied(filter, pairAt(0.5))), at(0.5));
+  EXPECT_EQ(toStamp(*applied(filter, pairAt(2.0))), at(2.2));
+  EXPECT_EQ(toStamp(*applied(filter, pairAt(5.0))), at(5.4));
+  EXPECT_EQ(toStamp(*applied(filter, imuAt(5.0))), at(5.0));
+}
+
+TEST(FaultFilter, RainBrightensAndNightDarkensCopies) {
+  StereoMeasurement sent = pairAt(1.0);
+  sent.left = cv::Mat(64, 64, CV_8UC1, cv::Scalar(100));
+  sent.right = sent.left.clone();
+  FaultFilter rain = makeFilter("rain:stereo:0:0:0.1");
+  const auto wet = std::get<StereoMeasurement>(*applied(rain, sent));
+  EXPECT_GT(cv::mean(wet.left)[0], 103.0);
+  EXPECT_GT(cv::norm(wet.left, wet.right, cv::NORM_INF), 50.0) << "drops are near";
+  EXPECT_EQ(cv::mean(sent.left)[0], 100.0);
+  FaultFilter dark = makeFilter("dark:stereo:0:0:0.1");
+  EXPECT_NEAR(cv::mean(std::get<StereoMeasurement>(*applied(dark, sent)).left)[0], 10.0, 0.5);
+}
+
+TEST(FaultFilter, AKnockTurnsTheRightImageAlone) {
+  const Lens lens{64, 48, 60.0, 60.0, 32.0, 24.0, {}};
+  FaultFilter filter({parseFault("knock:stereo:1:0:2")}, 7, kBegin, lens);
+  StereoMeasurement sent{at(2.0), cv::Mat(48, 64, CV_8UC1), cv::Mat(48, 64, CV_8UC1)};
+  for (int u = 0; u < 64; ++u) sent.left.col(u).setTo(2 * u), sent.right.col(u).setTo(2 * u);
+  const auto arrived = std::get<StereoMeasurement>(*applied(filter, sent));
+  EXPECT_EQ(cv::norm(arrived.left, sent.left, cv::NORM_INF), 0.0);
+  // A camera that is turned to the right by 2 deg shows at a pixel what was 60 tan(2 deg) = 2.1 px further right.
+  EXPECT_NEAR(arrived.right.at<std::uint8_t>(24, 32), 2.0 * (32.0 + 2.1), 1.0);
+}
+
 TEST(FaultFilter, SameBytesAgain) {
   for (int run = 0; run < 2; ++run) {
     static cv::Mat first;

@@ -33,8 +33,21 @@ void expectFaultError(const std::string& text, const std::string& found, const s
   }
 }
 
+TEST(Fault, OfTheRigAreReadInTheirForms) {
+  EXPECT_EQ(parseFault("knock:stereo:20:0:0.2").kind, FaultKind::Knock);
+  EXPECT_TRUE(parseFault("knock:stereo:20:0:0.2").isActive(1e4)) << "to the end";
+  EXPECT_TRUE(parseFault("swap:lasers:0:0").isActive(1e4));
+  const Fault drift = parseFault("drift:clock:10:20:0.1");
+  EXPECT_EQ(drift.sensor, Sensor::Stereo);
+  EXPECT_TRUE(drift.isActive(40.0)) << "what has drifted stays so";
+  EXPECT_EQ(parseFault("scale:stereo:0:0:1.01").value, 1.01);
+  EXPECT_FALSE(parseFault("rain:stereo:5:10").isActive(16.0));
+  EXPECT_EQ(parseFault("dark:stereo:5:10").kind, FaultKind::Dark);
+}
+
 TEST(Fault, SaysWhatIsAllowed) {
-  expectFaultError("melt:stereo:0:1", "melt", "drop, freeze, swap, corrupt, jump, unplug, nan");
+  expectFaultError("melt:stereo:0:1", "melt",
+                   "drop, freeze, swap, corrupt, jump, unplug, nan, knock, drift, scale, rain, dark");
   expectFaultError("drop:sonar:0:1", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
   expectFaultError("drop:stereo", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
   expectFaultError("drop:stereo:0:1:0.5:9", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
@@ -43,6 +56,9 @@ TEST(Fault, SaysWhatIsAllowed) {
   expectFaultError("drop:stereo:0:1:1.5", "share", "0...1");
   expectFaultError("freeze:stereo:0:1:1", "freeze takes no value", "KIND");
   expectFaultError("", "fault", "drop");
+  expectFaultError("knock:lasers:0:0", "knock of \"lasers\"", "stereo");
+  expectFaultError("knock:stereo:0:0:90", "turn", "-10...10");
+  expectFaultError("scale:stereo:0:0:0", "factor", "0.1...10");
 }
 
 }  // namespace

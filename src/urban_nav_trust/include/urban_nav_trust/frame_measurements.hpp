@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav_trust {
@@ -23,5 +24,8 @@ struct FrameMeasurements {
   /// Delay of the IMU's stamps on the clock of the cameras as estimated by now, s.
   double imu_delay = 0.0, imu_delay_sigma = 0.0;
 };
+
+/// Reads or writes the members.
+void archive(urban_nav_core::Archive& archive, FrameMeasurements& frame);
 
 }  // namespace urban_nav_trust

@@ -3,6 +3,8 @@
 
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_trust/assessment.hpp"
+#include "urban_nav_trust/frame_measurements.hpp"
+#include "urban_nav_trust/motion_monitor.hpp"
 #include "urban_nav_trust/offset_monitor.hpp"
 #include "urban_nav_trust/parameters.hpp"
 
@@ -11,17 +13,15 @@ namespace urban_nav_trust {
 /// All tests of one session, fed with what the stages of a session give, live and offline. Not thread-safe.
 class TrustMonitor {
  public:
-  explicit TrustMonitor(const Parameters& parameters) : offset_(parameters) {}
+  explicit TrustMonitor(const Parameters& parameters) : offset_(parameters), motion_(parameters) {}
 
-  /// Adds the disparity step of a stereo frame (OffsetMonitor::add). Returns whether a constant of the rig
-  /// has changed.
-  bool addDisparityStep(urban_nav_core::StampNs stamp, double step_px, double sigma_px) {
-    return offset_.add(stamp, step_px, sigma_px);
-  }
+  /// Adds a stereo frame, in order of time. Returns whether it shows a change of the rig.
+  bool add(const FrameMeasurements& frame);
   TestResults results() const;
 
  private:
   OffsetMonitor offset_;
+  MotionMonitor motion_;
 };
 
 }  // namespace urban_nav_trust

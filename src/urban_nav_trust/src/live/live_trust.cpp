@@ -48,8 +48,7 @@ void LiveTrust::add(const LiveFrame& frame) {
   if (!frame.accepted) return;
   ++frames_;
   health_ = frame.health;
-  if (monitor_.addDisparityStep(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px) && !changed_at_)
-    changed_at_ = travelled_;
+  if (monitor_.add(frame.compared) && !changed_at_) changed_at_ = travelled_;
 }
 
 void LiveTrust::add(const LivePose& pose) {

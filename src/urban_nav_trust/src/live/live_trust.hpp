@@ -19,7 +19,7 @@ struct LiveFrame {
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;
   urban_nav_core::Health health = urban_nav_core::Health::Ok;
-  double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;  ///< OffsetMonitor::add
+  FrameMeasurements compared;
 };
 
 /// A pose of odometry with its covariance.

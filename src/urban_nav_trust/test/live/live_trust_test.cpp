@@ -16,7 +16,11 @@ class LiveTrustTest : public ::testing::Test {
   void drive(int frames, double step_px = 0.0, Health health = Health::Ok, double sigma_px = 0.03) {
     for (int i = 0; i < frames; ++i) {
       ++k_;
-      trust.add(LiveFrame{k_ * kLiveFrame, true, health, step_px + (k_ % 2 == 0 ? 0.01 : -0.01), sigma_px});
+      LiveFrame frame{k_ * kLiveFrame, true, health, {}};
+      frame.compared.stamp = frame.stamp;
+      frame.compared.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
+      frame.compared.disparity_step_sigma_px = sigma_px;
+      trust.add(frame);
       LivePose pose;
       pose.stamp = k_ * kLiveFrame;
       pose.T_odom_base.pose =

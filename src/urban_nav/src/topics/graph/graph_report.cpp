@@ -141,10 +141,13 @@ constexpr double kGraphDegrees = 180.0 / 3.14159265358979323846;
 /// By how much the first pose leans.
 double leanDeg(const pose_graph::Level& level) { return kGraphDegrees * std::acos(std::min(1.0, level.up.z())); }
 
+constexpr double kSureLevelDeg = 0.5;  // standard deviation, of a map that is called level
+
 Verdict levelVerdict(const pose_graph::Level& level) {
   if (!level.known())
     return {Grade::Plain, "The map is not level.", "It stands as the first pose stood: " + level.sentence + "."};
-  return {Grade::Good, "The map is level.",
+  const bool is_sure = kGraphDegrees * level.sigma < kSureLevelDeg;
+  return {is_sure ? Grade::Good : Grade::Fair, is_sure ? "The map is level." : "The map is roughly level.",
           "The first pose leans by " + urban_nav_core::formatNumber(leanDeg(level), 2) + " deg (standard deviation " +
               urban_nav_core::formatNumber(kGraphDegrees * level.sigma, 2) + " deg), by " +
               (pose_graph::isFromGround(level) ? "the plane of the ground." : "gravity.")};
@@ -248,7 +251,9 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   for (const pose_graph::Relaxed::Slip& slip : relaxed.slips)
     made.push_back({Grade::Fair, "A step of odometry is left out:", toSentence(slip) + "."});
   if (planes.all() > 0)
-    made.push_back({Grade::Good, "Planes that several passes measured hold the map together.",
+    made.push_back({planes.accepted > 0 ? Grade::Good : Grade::Fair,
+                    planes.accepted > 0 ? "Planes that several passes measured hold the map together."
+                                        : "No plane that several passes measured fits the map.",
                     std::to_string(planes.accepted) + " of " + count(planes.all(), "constraint") +
                         " accepted; they moved poses by up to " + urban_nav_core::formatNumber(graph.planes.moved, 3) +
                         " m."});

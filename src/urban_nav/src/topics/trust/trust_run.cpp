@@ -3,6 +3,11 @@
 
 #include <algorithm>
 
+#include "swf_vo/parameters.hpp"
+#include "topics/trust/depth_matches.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_test.hpp"
+#include "urban_nav_trust/depth_comparison.hpp"
 #include "urban_nav_trust/trust_monitor.hpp"
 
 namespace urban_nav {
@@ -16,13 +21,49 @@ namespace {
 
 constexpr double kUnknownVariance = 1e6;  // m^2, of a pose without covariance
 
-TestResults testSession(const SessionOdometry& run, bool is_named, const urban_nav_trust::Parameters& parameters) {
+/// Stores the tests of a session in place of those of an earlier run.
+void storeTests(const TestResults& results, const urban_nav_trust::Parameters& parameters,
+                const urban_nav_store::SessionId& session, urban_nav_store::Store& store) {
+  urban_nav_store::TableStore<urban_nav_store::StoredTest> rows(store);
+  for (const urban_nav_trust::AbsentMeasurement& absent : results.absent) {
+    urban_nav_store::StoredTest key;
+    key.session = session;
+    key.name = absent.name;
+    rows.remove(key);
+  }
+  for (const ConsistencyTest& test : results.tests)
+    rows.put({session, test.name, hasFailed(test, parameters) ? "failed" : "passed", test.interval.from,
+              test.interval.to, test.statistic, test.degrees_of_freedom, test.p_value, test.sentence, test.remedy});
+}
+
+/// Returns the tests of a session that an earlier run has made.
+TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store::Store& store) {
+  TestResults results;
+  urban_nav_store::TableStore<urban_nav_store::StoredTest>(store).forEach(
+      session, [&](const urban_nav_store::StoredTest& row) {
+        results.tests.push_back({row.name,
+                                 {row.from, row.to},
+                                 row.statistic,
+                                 row.degrees_of_freedom,
+                                 row.p_value,
+                                 row.sentence,
+                                 row.remedy});
+      });
+  return results;
+}
+
+TestResults testSession(MapContext& context, std::size_t number, const urban_nav_trust::Parameters& parameters) {
+  if (context.isPrevious(number)) return readTests(context.ids()[number], *context.store);
+  const SessionOdometry& run = *context.runs()[number];
   urban_nav_trust::TrustMonitor monitor(parameters);
   for (const OdometryFrame& frame : run.frames)
-    if (frame.accepted) monitor.addDisparityStep(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px);
+    if (frame.accepted) monitor.add(frame.compared);
   TestResults results = monitor.results();
-  if (is_named)
+  const double rig_scale = 0.01 * context.options.parameters.get(swf_vo::table()).rig_scale;
+  testDepths(matchDepths(*context.store, context.ids()[number], run), rig_scale, results.tests, results.absent);
+  if (context.trajectories.size() > 1)
     for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
+  storeTests(results, parameters, context.ids()[number], *context.store);
   return results;
 }
 
@@ -55,6 +96,18 @@ std::vector<FrameEvidence> listFrames(const SessionOdometry& run, const SessionT
   return frames;
 }
 
+/// Lists what the sessions of this run do not have: measurements that no test can use then.
+void addMissingInputs(const MapContext& context, TestResults& all) {
+  const auto has = [&](const std::string& role) {
+    return std::any_of(context.sessions.begin(), context.sessions.end(), [&](const MapSession& session) {
+      return std::any_of(session.info.inputs.begin(), session.info.inputs.end(),
+                         [&](const auto& input) { return input.role.rfind(role, 0) == 0; });
+    });
+  };
+  if (!has("panorama")) all.absent.push_back({"panorama_colour", "no panoramas"});
+  if (!has("gps")) all.absent.push_back({"gps_position", "no GPS fixes"});
+}
+
 bool hasClosures(const MapContext& context) {
   return std::any_of(context.assessments.begin(), context.assessments.end(), [](const ClosureAssessment& closure) {
     return closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
@@ -63,15 +116,16 @@ bool hasClosures(const MapContext& context) {
 
 }  // namespace
 
-TrustRun assessTrust(const MapContext& context, const urban_nav_trust::Parameters& parameters) {
+TrustRun assessTrust(MapContext& context, const urban_nav_trust::Parameters& parameters) {
   TrustRun result;
   const std::vector<const SessionOdometry*> runs = context.runs();
   const std::vector<SessionTrajectory>& sessions = context.trajectories;
   std::vector<TestResults> by_session;
   for (std::size_t s = 0; s < sessions.size(); ++s) {
-    by_session.push_back(testSession(*runs[s], sessions.size() > 1, parameters));
+    by_session.push_back(testSession(context, s, parameters));
     append(by_session.back(), result.results);
   }
+  addMissingInputs(context, result.results);
   const bool spreads = hasClosures(context);
   for (std::size_t first = 0; first < sessions.size(); ++first)
     for (std::size_t s = first; s < sessions.size(); ++s) {

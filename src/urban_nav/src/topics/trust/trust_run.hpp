@@ -17,6 +17,6 @@ struct TrustRun {
 };
 
 /// Runs the tests on the sessions of a run whose trajectories are final, and assesses their frames.
-TrustRun assessTrust(const MapContext& context, const urban_nav_trust::Parameters& parameters);
+TrustRun assessTrust(MapContext& context, const urban_nav_trust::Parameters& parameters);
 
 }  // namespace urban_nav

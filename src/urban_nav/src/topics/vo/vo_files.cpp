@@ -77,7 +77,7 @@ std::string statsCsv(const std::vector<const VoRun*>& runs) {
       }
       for (const int value : {s.iterations, s.landmarks, s.landmarks_in_prior}) text += "," + std::to_string(value);
       for (const double value : {s.disparity_offset_px, s.disparity_offset_sigma_px, s.row_offset_px, s.noise_scale,
-                                 row.disparity_step_px, row.disparity_step_sigma_px}) {
+                                 row.compared.disparity_step_px, row.compared.disparity_step_sigma_px}) {
         text += ',';
         appendNumber(text, value);
       }

@@ -43,6 +43,25 @@ VoRun& describeInput(VoRun& run, const urban_nav_input::SourceInfo& info) {
   return run;
 }
 
+urban_nav_trust::FrameMeasurements toMeasurements(const Frame& frame, urban_nav_core::StampNs stamp) {
+  urban_nav_trust::FrameMeasurements measured;
+  measured.stamp = stamp;
+  if (!frame.accepted) return measured;
+  measured.disparity_step_px = frame.statistics.disparity_step.px;
+  measured.disparity_step_sigma_px = frame.statistics.disparity_step.sigma_px;
+  const swf_vo::MotionComparison& compared = frame.motion.newest;
+  measured.turn_error = compared.turn_error;
+  measured.turn_sigma = compared.turn_sigma;
+  measured.forward = compared.forward;
+  measured.sideways = compared.sideways;
+  measured.forward_error = compared.forward_error;
+  measured.forward_sigma = compared.forward_sigma;
+  if (!frame.motion.has_gyroscope) return measured;
+  measured.imu_delay = frame.motion.imu_offset_s;
+  measured.imu_delay_sigma = frame.motion.imu_offset_sigma_s;
+  return measured;
+}
+
 std::string caption(const OdometryFrame& frame, const swf_vo::Statistics& statistics) {
   std::string text =
       std::to_string(statistics.features) + " features, " + std::to_string(statistics.tracked) + " tracked";
@@ -132,8 +151,7 @@ const OdometryFrame& VoRecorder::process(const urban_nav_input::SourceItem& inpu
   row.accepted = frame.accepted;
   row.status = frame.status;
   row.T_odom_base = frame.T_odom_base.pose;
-  row.disparity_step_px = frame.statistics.disparity_step.px;
-  row.disparity_step_sigma_px = frame.statistics.disparity_step.sigma_px;
+  row.compared = toMeasurements(frame, row.stamp);
   if (frame.accepted) {
     run_.rig = frame.rig;
     run_.motion = frame.motion;

@@ -17,6 +17,7 @@ using urban_nav_core::Health;
 namespace {
 
 constexpr std::size_t kBins = 40;
+constexpr double kBriefLoss = 0.005;  // share of the frames up to which a loss is brief
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // ends a line
 
 double toSeconds(const VoRun& run, urban_nav_core::StampNs stamp) {
@@ -248,8 +249,9 @@ std::vector<Verdict> voVerdicts(const VoSummary& summary) {
   for (const auto& [reason, count] : summary.reason_counts)
     reasons += (reasons.empty() ? " Reasons: " : ", ") + reason + " (" + std::to_string(count) + ")";
   if (lost > 0) {
+    const bool is_long = static_cast<double>(lost) > kBriefLoss * static_cast<double>(all);
     verdicts.push_back(
-        {Grade::Bad, "Tracking was lost.",
+        {is_long ? Grade::Bad : Grade::Fair, is_long ? "Tracking was lost." : "Tracking was lost for a moment.",
          percent(lost) + " of the frames rest on prediction alone; their covariance says so." + reasons + "."});
   } else if (ok < all) {
     verdicts.push_back({Grade::Fair, "Tracking held, with less to go on at times.",

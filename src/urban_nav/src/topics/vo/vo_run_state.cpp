@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/vo/vo_run_state.hpp"
 
-#include <tuple>
-#include <utility>
-
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -40,14 +37,14 @@ struct StoredRun {
   std::vector<swf_vo::Settled> settled;
   std::vector<VoLandmark> landmarks;
   std::vector<urban_nav_core::ConsideredConstants> constants;  // of each step of `settled`
-  std::vector<std::pair<double, double>> disparity_steps;      // one for each row, px: step and standard deviation
+  std::vector<urban_nav_trust::FrameMeasurements> compared;    // one for each row
 };
 
 StoredRun toStored(const VoRun& run) {
   StoredRun stored;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     stored.rows.push_back({run.frames[i], run.figures[i]});
-    stored.disparity_steps.emplace_back(run.frames[i].disparity_step_px, run.frames[i].disparity_step_sigma_px);
+    stored.compared.push_back(run.frames[i].compared);
   }
   for (const SmoothedFrame& frame : run.settled)
     stored.settled.push_back({frame.frame, frame.stamp, frame.T_odom_base, frame.from_previous, frame.status});
@@ -66,8 +63,7 @@ void fromStored(const StoredRun& stored, VoRun& run) {
   for (const VoLandmark& landmark : stored.landmarks) run.landmarks.emplace(landmark.landmark.id, landmark);
   for (std::size_t i = 0; i < stored.constants.size(); ++i)
     run.settled[i].from_previous.constants = stored.constants[i];
-  for (std::size_t i = 0; i < stored.disparity_steps.size(); ++i)
-    std::tie(run.frames[i].disparity_step_px, run.frames[i].disparity_step_sigma_px) = stored.disparity_steps[i];
+  for (std::size_t i = 0; i < stored.compared.size(); ++i) run.frames[i].compared = stored.compared[i];
 }
 
 /// Reads the content of version 2: poses with the translation first, matrices row by row.
@@ -125,11 +121,11 @@ void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& sto
   if (version > 3) archive(run.rig);
   if (version > 4) archive(stored.constants);
   if (version > 5) archive(run.motion);
-  if (version > 6) archive(stored.disparity_steps);
+  if (version > 6) archive(stored.compared);
   archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
                   "constants of the rig are not those of the steps");
-  archive.require(stored.disparity_steps.empty() || stored.disparity_steps.size() == stored.rows.size(),
-                  "disparity steps are not those of the frames");
+  archive.require(stored.compared.empty() || stored.compared.size() == stored.rows.size(),
+                  "comparisons are not those of the frames");
 }
 
 VoRun readVoRun(std::string_view bytes) {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "map/session_odometry.hpp"
+#include "urban_nav_store/store.hpp"
+#include "urban_nav_trust/depth_comparison.hpp"
+
+namespace urban_nav {
+
+/// Returns stereo points of some keyframes of a session near the surfaces that its lasers measured within 6 m of
+/// travel, placed along odometry. Empty without near points of dense stereo or scans. Throws DataError if the store is
+/// damaged.
+std::vector<urban_nav_trust::KeyframeMatches> matchDepths(urban_nav_store::Store& store,
+                                                          const urban_nav_store::SessionId& session,
+                                                          const SessionOdometry& odometry);
+
+}  // namespace urban_nav
