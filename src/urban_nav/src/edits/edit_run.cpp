@@ -46,43 +46,42 @@ Verdicts relaxedVerdicts(const GraphRun& run, const PreviousSessions& sessions) 
   return verdicts;
 }
 
-/// Returns the closures that an edit contradicts: accepted before and not after, but for the one that is edited, and
-/// those that cannot be true as well.
+/// Returns the closures that edits contradict: accepted before and not after, but for those that are edited, and those
+/// that cannot be true as well.
 std::set<EdgeKey> findContradictions(const Verdicts& before, const Verdicts& after, const GraphRun& run,
-                                     const PreviousSessions& sessions, const StoredEdit& edit) {
+                                     const PreviousSessions& sessions, const std::vector<StoredEdit>& edits) {
   std::set<EdgeKey> found;
-  for (const auto& [key, verdict] : before) {
-    const auto now = after.find(key);
-    if (verdict == ClosureVerdict::Accepted && now != after.end() && now->second != ClosureVerdict::Accepted &&
-        key != edgeKey(edit.edge))
-      found.insert(key);
-  }
   std::map<std::string, urban_nav_store::SessionId> id;
   for (std::size_t s = 0; s < sessions.ids.size(); ++s) id[sessions.names[s]] = sessions.ids[s];
-  for (const auto& [number, closure] : run.graph.closures()) {
-    if (closure.source != edit.edge.source || id.at(closure.b.session) != edit.edge.b.session ||
-        closure.b.stamp != edit.edge.b.stamp)
-      continue;
-    for (const pose_graph::ClosureId other : closure.contradicted_by) {
-      const auto its = run.graph.closures().find(other);
-      if (its == run.graph.closures().end()) continue;
-      const pose_graph::Closure& c = its->second;
-      found.insert({id.at(c.a.session), c.a.stamp, id.at(c.b.session), c.b.stamp, c.kind, c.source});
-    }
+  const auto toKey = [&](const pose_graph::Closure& closure) {
+    return EdgeKey{id.at(closure.a.session), closure.a.stamp, id.at(closure.b.session),
+                   closure.b.stamp,          closure.kind,    closure.source};
+  };
+  for (const auto& [key, verdict] : before) {
+    const auto now = after.find(key);
+    if (verdict == ClosureVerdict::Accepted && now != after.end() && now->second != ClosureVerdict::Accepted)
+      found.insert(key);
   }
+  for (const StoredEdit& edit : edits) {
+    for (const auto& [number, closure] : run.graph.closures())
+      if (toKey(closure) == edgeKey(edit.edge))
+        for (const pose_graph::ClosureId other : closure.contradicted_by)
+          if (const auto its = run.graph.closures().find(other); its != run.graph.closures().end())
+            found.insert(toKey(its->second));
+  }
+  for (const StoredEdit& edit : edits) found.erase(edgeKey(edit.edge));
   return found;
 }
 
-/// Enters the request in the journal, and returns the edit that it is about.
-StoredEdit enter(EditJournal& journal, const EditRequest& request) {
-  if (request.action == "undo" || request.action == "redo") {
-    StoredEdit last;
-    last.number = request.action == "undo" ? journal.undo(request.count).back() : *journal.redo();
-    return last;
-  }
-  StoredEdit edit = request.edit;
-  edit.number = journal.append(edit);
-  return edit;
+/// Enters the request in the journal, and returns the edits that it concerns.
+std::vector<StoredEdit> enter(EditJournal& journal, const EditRequest& request) {
+  std::vector<std::int64_t> numbers;
+  if (request.action == "undo") numbers = journal.undo(request.count);
+  else numbers.push_back(request.action == "redo" ? *journal.redo() : journal.append(request.edit));
+  std::vector<StoredEdit> concerned;
+  for (const StoredEdit& edit : journal.all())
+    if (std::find(numbers.begin(), numbers.end(), edit.number) != numbers.end()) concerned.push_back(edit);
+  return concerned;
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ EditOutcome makeEdit(Store& store, const StoredMeasurements& measurements, const
   for (const urban_nav_store::SessionId& id : sessions.ids) noteRenderedPoses(store, id);
   urban_nav_store::storeEdgeNumbers(store);
 
-  const StoredEdit edit = enter(journal, request);
+  const std::vector<StoredEdit> concerned = enter(journal, request);
   const GraphRun after = relaxEdited(measurements, edits());
   if (journal.standing().empty() && holdsBase(store)) restoreBase(store);
   else storeRelaxation(store, sessions.ids, after, sessions.revision);
@@ -119,12 +118,12 @@ EditOutcome makeEdit(Store& store, const StoredMeasurements& measurements, const
     return outcome;
   }
   outcome.changed = true;
-  outcome.edit = edit.number;
+  outcome.edit = request.action == "undo" ? concerned.front().number : concerned.back().number;
   outcome.after = readFigures(after);
   const std::map<EdgeKey, std::int64_t> numbers = urban_nav_store::readEdgeNumbers(store);
   for (const auto& [key, verdict] : verdicts_after)
     if (verdicts_before.count(key) == 0) outcome.edge = numbers.at(key);
-  for (const EdgeKey& key : findContradictions(verdicts_before, verdicts_after, after, sessions, edit))
+  for (const EdgeKey& key : findContradictions(verdicts_before, verdicts_after, after, sessions, concerned))
     if (std::get<urban_nav_store::EdgeKind>(key) != urban_nav_store::EdgeKind::Plane && numbers.count(key) > 0)
       outcome.contradicted_by.push_back(numbers.at(key));
   std::sort(outcome.contradicted_by.begin(), outcome.contradicted_by.end());
