@@ -10,6 +10,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
     ["evaluation", "convert", "device"],
     ["map", "simulate"],
     ["topics"],
+    ["edits"],
     ["inspect", "join"],
     ["commands"],
 ]

@@ -66,6 +66,7 @@ struct Closure {
   std::string source;
   urban_nav_core::Constraint measured;  ///< T_a_b
   bool odometry_gate = false;           ///< its stage found that odometry allows it
+  bool by_hand = false;                 ///< a person vouches for it: never weighted down, as an asserted one
   // From here on: what the last relaxation made of it.
   bool judged = false;
   double weight = 0.0;
@@ -74,6 +75,8 @@ struct Closure {
   double chi2 = 0.0;                       ///< against all other accepted edges
   std::vector<ClosureId> contradicted_by;  ///< of an asserted one: what cannot be true beside it, the worst first
 };
+
+inline bool isVouchedFor(const Closure& closure) { return closure.kind == EdgeKind::Asserted || closure.by_hand; }
 
 /// One session of the trajectory.
 struct Track {

@@ -10,7 +10,8 @@
 
 namespace pose_graph {
 
-/// What a store holds of a pose graph: the measurements, from which relax() makes the same map again.
+/// What a store holds of a pose graph: the measurements as edits have it, from which relax() makes the same map again
+/// (but for origins of edits).
 struct StoredGraph {
   struct Chain {
     urban_nav_store::Session session;

@@ -21,7 +21,8 @@ constexpr double kLargestVariance = 9.0;
 bool isSame(const Closure& a, const Closure& b) {
   return a.measured.T_a_b.t() == b.measured.T_a_b.t() &&
          a.measured.T_a_b.q().coeffs() == b.measured.T_a_b.q().coeffs() &&
-         a.measured.information == b.measured.information && a.odometry_gate == b.odometry_gate;
+         a.measured.information == b.measured.information && a.odometry_gate == b.odometry_gate &&
+         a.by_hand == b.by_hand;
 }
 
 /// The graph with the edges that are believed.

@@ -29,7 +29,7 @@ void explain(Relaxed::Correction& correction, const std::vector<ClosureId>& acce
                then = std::binary_search(accepted_before.begin(), accepted_before.end(), id);
     if (now && !then) accepted.push_back(closure);
     if (then && !now) rejected.push_back(closure);
-    asserted = asserted || (now && !then && closure.kind == EdgeKind::Asserted);
+    asserted = asserted || (now && !then && isVouchedFor(closure));
   }
   const auto because = [&](CorrectionReason reason, std::vector<Closure> causing_edges, const char* one,
                            const char* many) {

@@ -28,7 +28,7 @@ bool isLarge(const Closure& closure, const Pose& T_a_b, const Parameters& parame
 std::vector<EdgeRole> assignRoles(std::size_t chains, const std::map<ClosureId, Closure>& closures) {
   std::vector<EdgeRole> roles(chains, EdgeRole::Trusted);
   for (const auto& [id, closure] : closures)
-    roles.push_back(closure.kind == EdgeKind::Asserted ? EdgeRole::Asserted : EdgeRole::Candidate);
+    roles.push_back(isVouchedFor(closure) ? EdgeRole::Asserted : EdgeRole::Candidate);
   return roles;
 }
 
@@ -102,8 +102,7 @@ std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b
   std::vector<ClosureId> made;
   for (const Way& way : ways) {
     Closure& closure = *way.closure;
-    const bool may_act_alone =
-        closure.kind == EdgeKind::Asserted || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
+    const bool may_act_alone = isVouchedFor(closure) || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
     if (may_act_alone || closure.a.session != closure.b.session || !isLarge(closure, T_a_b(way), parameters)) continue;
     const bool supported = std::any_of(
         ways.begin(), ways.end(), [&](const Way& other) { return other.closure != way.closure && meet(other, way); });
@@ -179,7 +178,7 @@ namespace {
 /// A closure beside what is in the core: does it fit? It is on trial there.
 bool fits(IncrementalSolver& core, const GraphView& view, const Parameters& parameters, const ClosureEdge& closure_edge,
           Closure& closure, double& cost_before) {
-  const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
+  const bool doubted = !isVouchedFor(closure) && parameters.robust;
   const IncrementalSolver::Offer offer =
       core.offer(view, closure_edge, doubted ? kHopeless * kInnovationLimit : INFINITY);
   // What one measurement more costs is the square of its innovation.

@@ -194,7 +194,7 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
 Edge<3> PoseGraph::toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b, double variance) const {
   Edge<3> edge{0, 0, toRigid<3>(closure.measured.T_a_b),
                closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
-  if (closure.kind != EdgeKind::Asserted) edge.information /= variance;
+  if (!isVouchedFor(closure)) edge.information /= variance;
   return edge;
 }
 
@@ -273,8 +273,7 @@ urban_nav_core::Status PoseGraph::status() const {
   if (!warnings.empty())
     return {Health::Degraded, static_cast<int>(selection_.undecided ? Trouble::Undecided : Trouble::Guess),
             warnings.front()};
-  if (!slips_.empty())
-    return {Health::Degraded, static_cast<int>(Trouble::Slipped), toSentence(slips_.front())};
+  if (!slips_.empty()) return {Health::Degraded, static_cast<int>(Trouble::Slipped), toSentence(slips_.front())};
   if (parts_ > 1)
     return {Health::Degraded, static_cast<int>(Trouble::Separate),
             std::to_string(parts_) + " maps that no accepted closure joins"};

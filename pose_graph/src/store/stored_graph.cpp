@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "pose_graph/ground_views.hpp"
+#include "urban_nav_store/edit_journal.hpp"
 #include "urban_nav_store/forces_state.hpp"
 #include "urban_nav_store/stored_fixes.hpp"
 
@@ -55,6 +56,33 @@ Closure toClosure(const StoredEdge& edge) {
   return closure;
 }
 
+bool isSameClosure(const StoredEdge& edge, const Closure& closure) {
+  return edge.a == closure.a && edge.b == closure.b && edge.kind == closure.kind && edge.source == closure.source;
+}
+
+/// Leaves out the closures that edits reject and the steps that they cut, and notes those that a person vouches for.
+/// The closures that edits have added are among the stored ones.
+void applyEdits(const std::vector<urban_nav_store::StoredEdit>& edits, StoredGraph& graph) {
+  std::vector<Closure> closures;
+  for (Closure& closure : graph.closures) {
+    const auto verdict = std::find_if(edits.rbegin(), edits.rend(), [&](const urban_nav_store::StoredEdit& edit) {
+      return (edit.action == "reject" || edit.action == "accept") && isSameClosure(edit.edge, closure);
+    });
+    if (verdict != edits.rend() && verdict->action == "reject") continue;
+    closure.by_hand = verdict != edits.rend() || urban_nav_store::isOfEdit(closure.source);
+    closures.push_back(std::move(closure));
+  }
+  graph.closures = std::move(closures);
+  for (const urban_nav_store::StoredEdit& edit : edits)
+    for (StoredGraph::Chain& chain : graph.chains)
+      if (edit.action == "cut" && edit.session == chain.session.id)
+        chain.steps.erase(std::remove_if(chain.steps.begin(), chain.steps.end(),
+                                         [&](const RelativePose& step) {
+                                           return step.from <= edit.edge.a.stamp && step.to > edit.edge.a.stamp;
+                                         }),
+                          chain.steps.end());
+}
+
 auto orderKey(const Closure& closure) {
   return std::make_tuple(std::max(closure.a.stamp, closure.b.stamp), closure.a.stamp, closure.a.session,
                          closure.b.session, closure.kind, closure.source);
@@ -94,6 +122,7 @@ StoredGraph readGraph(Store& store) {
     return known.count(closure.a.session) == 0 || known.count(closure.b.session) == 0;
   };
   made.closures.erase(std::remove_if(made.closures.begin(), made.closures.end(), strange), made.closures.end());
+  applyEdits(urban_nav_store::EditJournal(store).standing(), made);
   std::sort(made.closures.begin(), made.closures.end(),
             [](const Closure& a, const Closure& b) { return orderKey(a) < orderKey(b); });
   return made;

@@ -10,12 +10,15 @@
 #include <vector>
 
 #include "file/header.hpp"
+#include "merge_journal.hpp"
 #include "schema/row.hpp"
 #include "store_implementation.hpp"
 #include "tables/graph_tables.hpp"
 #include "tables/session_tables.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/tables/edge_number.hpp"
+#include "urban_nav_store/tables/stored_edit.hpp"
 
 namespace urban_nav_store {
 
@@ -43,8 +46,9 @@ struct LessByText {
 /// Puts the rows of one source after the other into a target.
 class Merger {
  public:
-  Merger(Connection& target, MergeContent content, RowFilter takes = {})
-      : target_(target), content_(content), takes_(std::move(takes)) {}
+  /// `journals`: of edits, and the numbers of edges, are taken as other rows are; else they are left to JournalMerge.
+  Merger(Connection& target, MergeContent content, bool journals, RowFilter takes = {})
+      : target_(target), content_(content), journals_(journals), takes_(std::move(takes)) {}
 
   void add(Connection& source) {
     source_ = source.name();
@@ -66,6 +70,7 @@ class Merger {
 
  private:
   bool isWanted(const Table& table) const {
+    if (!journals_ && (&table == &declaredTable<StoredEdit>() || &table == &declaredTable<EdgeNumber>())) return false;
     return content_ == MergeContent::All || !table.of_graph || &table == &declaredTable<EvidenceRow>();
   }
 
@@ -204,6 +209,7 @@ class Merger {
 
   Connection& target_;
   const MergeContent content_;
+  const bool journals_;
   const RowFilter takes_;  // empty: all
   std::string source_, named_;
   std::int64_t contradictions_ = 0;
@@ -241,12 +247,15 @@ MergeResult merge(const std::vector<std::string>& sources, const std::string& gi
   {
     Store target(partial.path(), Access::Write);
     Connection& connection = target.implementation().connection;
-    Merger merger(connection, content);
+    Merger merger(connection, content, false);
+    JournalMerge journals;
     for (const std::string& source : sources) {
       Store opened(source, Access::Snapshot);
       merger.add(opened.implementation().connection);
+      journals.add(opened);
     }
     result = merger.finish();
+    journals.write(target, content == MergeContent::All);
     target.commit();
     target.close();
   }
@@ -256,7 +265,7 @@ MergeResult merge(const std::vector<std::string>& sources, const std::string& gi
 
 void copyRows(const std::string& source, const std::string& path, const RowFilter& takes) {
   Store target(path, Access::Write);
-  Merger merger(target.implementation().connection, MergeContent::All, takes);
+  Merger merger(target.implementation().connection, MergeContent::All, true, takes);
   Store opened(source, Access::Frozen);
   merger.add(opened.implementation().connection);
   merger.finish();

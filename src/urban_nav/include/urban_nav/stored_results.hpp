@@ -22,5 +22,9 @@ StoredCovariances readStoredCovariances(urban_nav_store::Store& store, const urb
 
 /// Returns all closures of a store as closures.csv, in the order and with the session names of `map`.
 std::string readStoredClosures(urban_nav_store::Store& store);
+/// Returns the candidates of which `map` made the closures between some sessions of a store, in the same order: those
+/// that a stage has measured without what it found, those of a file as they were there, and none that edits have added.
+std::string readStoredCandidates(urban_nav_store::Store& store,
+                                 const std::vector<urban_nav_store::SessionId>& sessions);
 
 }  // namespace urban_nav

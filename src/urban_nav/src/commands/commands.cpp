@@ -4,6 +4,7 @@
 #include "commands/stages.hpp"
 #include "convert/convert_command.hpp"
 #include "device/device_command.hpp"
+#include "edits/edits.hpp"
 #include "evaluation/evaluate_command.hpp"
 #include "inspect/inspect.hpp"
 #include "inspect/results/result_recording.hpp"
@@ -37,7 +38,9 @@ std::vector<Command> allCommands() {
           labelsCommand(runOdometry),
           simulateCommand(),
           deviceCommand(),
-          whyCommand()};
+          whyCommand(),
+          edgeCommand(),
+          verifyCommand(makeStages)};
 }
 
 }  // namespace urban_nav

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "inspect/store_export.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_store/edit_journal.hpp"
 
 namespace urban_nav {
 
@@ -77,8 +79,22 @@ std::string exportKitti(Store& store, const std::vector<StoredTrajectory>& map) 
   return urban_nav_core::printKitti(poses);
 }
 
+namespace {
+
+/// Returns whether a step of odometry leads across a cut.
+bool isCut(const Edge& edge, const std::vector<urban_nav_store::StoredEdit>& edits) {
+  return edge.kind == EdgeKind::Odometry &&
+         std::any_of(edits.begin(), edits.end(), [&](const urban_nav_store::StoredEdit& edit) {
+           return edit.action == "cut" && edit.edge.a.session == edge.a.session && edge.a.stamp <= edit.edge.a.stamp &&
+                  edge.b.stamp > edit.edge.a.stamp;
+         });
+}
+
+}  // namespace
+
 ExportedGraph exportG2o(Store& store, const std::vector<std::vector<StoredTrajectory>>& maps) {
   ExportedGraph exported;
+  const std::vector<urban_nav_store::StoredEdit> edits = urban_nav_store::EditJournal(store).standing();
   G2oGraph graph;
   std::map<std::pair<std::string, StampNs>, G2oGraph::Id> ids;
   for (const auto& map : maps) {
@@ -102,7 +118,7 @@ ExportedGraph exportG2o(Store& store, const std::vector<std::vector<StoredTrajec
           ++exported.outside;
           return;
         }
-        if (edge.verdict != ClosureVerdict::Accepted) {
+        if (edge.verdict != ClosureVerdict::Accepted || isCut(edge, edits)) {
           ++exported.left_out;
           return;
         }

@@ -11,6 +11,8 @@
 #include "urban_nav_core/io/closures_csv.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/edit_journal.hpp"
+#include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
 
@@ -51,8 +53,15 @@ std::optional<PlacedRow> storedRow(const std::string& evidence, const std::strin
 
 }  // namespace
 
-std::string readStoredClosures(Store& store) {
-  const PreviousSessions sessions = readPreviousSessions(store, {});
+namespace {
+
+/// Empties the cells of a row that hold what a stage has measured.
+void forgetMeasurement(std::vector<std::string>& cells) {
+  constexpr std::size_t kCandidate = 5;  // session_a, stamp_a_ns, session_b, stamp_b_ns, probability
+  for (std::size_t i = kCandidate; i < cells.size(); ++i) cells[i].clear();
+}
+
+std::string printStoredClosures(Store& store, const PreviousSessions& sessions, bool as_candidates) {
   std::map<SessionId, std::string> names;
   for (std::size_t s = 0; s < sessions.ids.size(); ++s) names[sessions.ids[s]] = sessions.names[s];
   std::vector<PlacedRow> rows;
@@ -65,13 +74,28 @@ std::string readStoredClosures(Store& store) {
       const std::optional<std::string> evidence = store.graph().evidence(edge);
       if (!evidence) continue;
       auto row = storedRow(*evidence, names.at(edge.a.session), names.at(edge.b.session), sessions.names);
-      if (row) rows.push_back(std::move(*row));
+      if (!row || (as_candidates && urban_nav_store::isOfEdit(edge.source))) continue;
+      if (as_candidates && urban_nav_store::isFoundAnew(edge.kind, edge.source)) forgetMeasurement(row->cells);
+      rows.push_back(std::move(*row));
     }
   }
   std::stable_sort(rows.begin(), rows.end(), [](const PlacedRow& a, const PlacedRow& b) { return a.place < b.place; });
   std::string text = urban_nav_core::printClosures({});
   for (const PlacedRow& row : rows) text += urban_nav_core::printCsvRow(row.cells);
   return text;
+}
+
+}  // namespace
+
+std::string readStoredClosures(Store& store) {
+  return printStoredClosures(store, readPreviousSessions(store, {}), false);
+}
+
+std::string readStoredCandidates(Store& store, const std::vector<SessionId>& ids) {
+  std::vector<SessionId> others;
+  for (const urban_nav_store::Session& session : store.sessions().all())
+    if (std::find(ids.begin(), ids.end(), session.id) == ids.end()) others.push_back(session.id);
+  return printStoredClosures(store, readPreviousSessions(store, others), true);
 }
 
 }  // namespace urban_nav

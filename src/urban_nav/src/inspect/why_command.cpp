@@ -4,6 +4,7 @@
 #include "base/console.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
+#include "edits/jump.hpp"
 #include "inspect/inspect.hpp"
 #include "topics/loops/explanation.hpp"
 #include "topics/places/place_pair.hpp"
@@ -22,10 +23,13 @@ namespace {
 constexpr double kNear = 1.0;  // s: panoramas come twice a second
 
 const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::int64_t id) {
-  if (id < 1 || id > static_cast<std::int64_t>(closures.size()))
+  const auto found =
+      std::find_if(closures.begin(), closures.end(), [&](const StoredClosure& closure) { return closure.id == id; });
+  if (found == closures.end())
     throw UserError("--closure", std::to_string(id) + ": there is none",
-                    closures.empty() ? "none: the store holds no closures" : "1..." + std::to_string(closures.size()));
-  return closures[static_cast<std::size_t>(id - 1)];
+                    closures.empty() ? "none: the store holds no closures"
+                                     : "1..." + std::to_string(closures.back().id) + ", as listed without it");
+  return *found;
 }
 
 /// The closure nearest to two times; null if none is within kNear of both.
@@ -48,11 +52,25 @@ void explainUnproposed(const Arguments& arguments, urban_nav_store::Store& store
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(pair).print());
 }
 
+/// Explains where a pose lies.
+int explainJumpAt(const Arguments& arguments, Console& console) {
+  if (arguments.has("T1") || arguments.has("closure"))
+    throw UserError("urban_nav why", "--jump with moments or --closure", "one of them");
+  urban_nav_store::Store store = urban_nav_store::openForReading(arguments.get("STORE"));
+  const JumpExplanation jump = explainJump(store, arguments.get("jump"));
+  console.print(explain(jump));
+  if (arguments.has("output")) {
+    urban_nav_core::writeAtomically(arguments.get("output"), renderPage(explainOnPage(jump, store.path())));
+    console.print(arguments.get("output") + "\n");
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(jump).print());
+  return 0;
+}
+
 int runWhy(const Arguments& arguments, Console& console) {
   const double cloud_half_length = loadParameters(arguments).get(urban_nav_registration::table()).cloud_half_length;
   const bool moments = arguments.has("T1") || arguments.has("T2");
-  if (arguments.has("jump"))
-    throw UserError("--jump", "is not in this version: jumps are published on graph/correction", "T1 T2, --closure ID");
+  if (arguments.has("jump")) return explainJumpAt(arguments, console);
   if (arguments.has("T1") != arguments.has("T2"))
     throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
   if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");
@@ -101,7 +119,7 @@ Command whyCommand() {
        {}},
       {"T2", "", "the other moment; without both, and without --closure, all closures are listed", false, false, {}},
       {"--closure", "ID", "the closure with this number in that list", false, false, {}},
-      {"--jump", "T", "not in this version", false, false, {}},
+      {"--jump", "T", "which closures hold the pose at this moment, and how far each one moves it", false, false, {}},
       {"-o,--output",
        "FILE.html",
        "the same as a page, with the two views and their matches, and the clouds",
@@ -113,7 +131,7 @@ Command whyCommand() {
       setOption(),
       threadsOption()};
   command.examples = {"urban_nav why out/session.db", "urban_nav why out/session.db +3.5 +92.1 -o why.html",
-                      "urban_nav why out/session.db --closure 12"};
+                      "urban_nav why out/session.db --closure 12", "urban_nav why out/session.db --jump +92.1"};
   command.more_help = commonHelp;
   command.run = runWhy;
   return command;

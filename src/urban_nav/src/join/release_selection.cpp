@@ -191,7 +191,8 @@ constexpr StampNs kSecond = 1'000'000'000;
 /// Tables of which a release has no rows: what only a later relaxation, another drive of the same recording or the
 /// colours of the map need.
 const std::set<std::string>& leftOutTables() {
-  static const std::set<std::string> names = {"panorama", "camera", "input", "parameter", "evidence", "graph_file"};
+  static const std::set<std::string> names = {"panorama", "camera",     "input",       "parameter",
+                                              "evidence", "graph_file", "edge_number", "edit"};
   return names;
 }
 
@@ -208,9 +209,10 @@ class RowSelection {
     const auto found = kept_.find(session);
     if (found == kept_.end() || leftOutTables().count(name) != 0) return false;
     const KeptSession& kept = found->second;
+    if (name == "state" && key[1].bytes == "edits.base") return false;
     if (kept.is_whole && name != "edge") return true;
     if (name == "property") return key[1].bytes.rfind("run/", 0) != 0 && key[1].bytes.rfind("input/", 0) != 0;
-    if (name == "state") return key[1].bytes.rfind("laser_mapper", 0) == 0;
+    if (name == "state") return key[1].bytes.rfind("laser_mapper", 0) == 0 || key[1].bytes == "edits.rendered";
     if (name == "model") return models_.insert({key[1].bytes, session}).first->second == session;
     if (name == "edge") return takesEdge(key);
     const urban_nav_store::Value& last = key.back();

@@ -6,6 +6,7 @@
 
 #include "map/store_keys.hpp"
 #include "map/stored_run.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
@@ -222,6 +223,7 @@ void RunCheckpoint::writeSession(std::size_t session) {
   for (const auto& [name, digest] : plan.fingerprint) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
+  store_->sessions().put(id, Property{kStagesProperty, urban_nav_core::joined(options_.stages)});
   store_->sessions().put(id, urban_nav_store::Extrinsic{urban_nav_core::frames::kStereoLeft, info.T_base_camera});
   store_->sessions().put(id, Property{urban_nav_registration::kCalibrationProperty,
                                       urban_nav_registration::calibrationFingerprint(info.camera, info.T_base_camera)});

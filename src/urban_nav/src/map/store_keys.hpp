@@ -13,6 +13,8 @@ constexpr const char* kLoStage = "laser_odometry";
 constexpr const char* kLoStream = "points";
 /// Source of edges of visual and laser odometry fused.
 constexpr const char* kFusionStage = "odometry_fusion";
+/// Property of a session: the stages that were asked for, with commas between; empty: all.
+constexpr const char* kStagesProperty = "input/stages";
 /// Key of the state at the end of a bag (bag_checkpoint.hpp).
 constexpr const char* kBagStage = "bag";
 using urban_nav_store::kForcesStage;

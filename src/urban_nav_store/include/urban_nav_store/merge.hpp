@@ -34,9 +34,9 @@ bool isFoundAnew(EdgeKind kind, const std::string& source);
 /// Merges stores into one. Identical rows become one. A session in several files, as written by the computers of one
 /// robot, becomes one session, complete if it is complete in every file. Parameters, and properties named run/... and
 /// input/..., describe the run that wrote them: of different ones the lesser stays. States of a stage that differ
-/// belong to different runs: none is kept. The result does not depend on the order of the sources, which are only read;
-/// `path` may be one of them. It is written completely or not at all. Throws DataError that names and counts the rows
-/// that contradict each other.
+/// belong to different runs: none is kept. Edits of all sources are kept; they are numbered anew if two have one
+/// number. The result does not depend on the order of the sources, which are only read; `path` may be one of them. It
+/// is written completely or not at all. Throws DataError that names and counts the rows that contradict each other.
 MergeResult merge(const std::vector<std::string>& sources, const std::string& path,
                   MergeContent content = MergeContent::All);
 

@@ -34,6 +34,21 @@ Numbers toNumbers(const Closure& closure) {
           T.q().y(), T.q().z(), T.q().w(), closure.measured.information.trace()};
 }
 
+/// Returns a closure of an edit as a row of closures.csv has it.
+MetricClosure toMetricClosure(const pose_graph::Edit& edit) {
+  MetricClosure closure;
+  closure.a = {edit.a.session, edit.a.stamp};
+  closure.b = {edit.b.session, edit.b.stamp};
+  closure.measured = edit.measured;
+  closure.probability = 1.0;
+  if (edit.kind == EdgeKind::Stereo) closure.method = ClosureMethod::Stereo;
+  if (edit.kind == EdgeKind::Icp) closure.method = ClosureMethod::Icp;
+  closure.verdict = ClosureVerdict::Accepted;
+  closure.evidence = edit.evidence;
+  closure.source = edit.source;
+  return closure;
+}
+
 class ClosureImport {
  public:
   ClosureImport(const std::vector<std::string>& sessions, const std::vector<const SessionOdometry*>& runs)
@@ -84,11 +99,12 @@ class ClosureImport {
     }
   }
 
-  void addTo(GraphRun& run) const {
+  void addTo(pose_graph::EditedGraph& edited, GraphRun& run) const {
     for (const auto& [key, indexed] : closures_) {
       const auto& [index, closure] = indexed;
       try {
-        run.assessments[index].id = run.graph.addClosure(closure);
+        const std::optional<pose_graph::ClosureId> id = edited.addClosure(closure);
+        run.assessments[index].id = id ? *id : -static_cast<std::int64_t>(edited.rejected().size());
       } catch (const urban_nav_core::UserError& error) {
         run.assessments[index].reason = error.what();
       }
@@ -119,7 +135,7 @@ class ClosureImport {
 
 }  // namespace
 
-void importClosures(GraphRun& run, const std::vector<const SessionOdometry*>& runs,
+void importClosures(GraphRun& run, pose_graph::EditedGraph& edited, const std::vector<const SessionOdometry*>& runs,
                     const std::vector<MetricClosure>& closures, const PreviousClosures& previous) {
   run.closures = previous.offered;
   run.closures.insert(run.closures.end(), closures.begin(), closures.end());
@@ -128,7 +144,14 @@ void importClosures(GraphRun& run, const std::vector<const SessionOdometry*>& ru
   for (std::size_t i = previous.offered.size(); i < run.closures.size(); ++i)
     run.assessments[i].reason = import.add(i, run.closures[i]);
   import.add(previous.in_graph);
-  import.addTo(run);
+  import.addTo(edited, run);
+  edited.addOwnClosures();
+  run.rejected_by_hand = edited.rejected();
+  for (const pose_graph::EditedGraph::OwnClosure& own : edited.ownClosures()) {
+    run.closures.push_back(toMetricClosure(*own.edit));
+    run.assessments.emplace_back();
+    run.assessments.back().id = own.id;
+  }
 }
 
 }  // namespace urban_nav

@@ -55,7 +55,9 @@ void assessClosures(GraphRun& run, std::size_t previous) {
   std::string first;
   for (std::size_t i = 0; i < run.closures.size(); ++i) {
     ClosureAssessment& assessment = run.assessments[i];
-    if (assessment.id != 0) {
+    if (assessment.id < 0) {
+      assessment.reason = run.rejected_by_hand[static_cast<std::size_t>(-1 - assessment.id)].reason;
+    } else if (assessment.id > 0) {
       const Closure& closure = run.graph.closures().at(assessment.id);
       assessment = {assessment.id, closure.verdict, closure.reason, closure.weight};
     } else if (assessment.reason.empty() && i < previous) {
@@ -73,12 +75,16 @@ void assessClosures(GraphRun& run, std::size_t previous) {
 
 /// Relaxes with the measured specific forces. The maps stay in the frame of their first poses; GraphRun::levels has the
 /// direction of gravity.
-pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const SessionOdometry*>& runs) {
+pose_graph::Relaxed relaxGraph(PoseGraph& graph, const std::vector<const SessionOdometry*>& runs) {
   pose_graph::Batch batch = graph.batch();
   for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;
   pose_graph::run(batch, {}, {pose_graph::relativeSolver(), pose_graph::ceresSolver()});
   return graph.take(batch);
 }
+
+/// As relaxGraph(), with what edits demand.
+void relax(GraphRun& run, pose_graph::EditedGraph& edited, const std::vector<const SessionOdometry*>& runs,
+           const SessionGrounds& grounds);
 
 std::vector<pose_graph::ClosureId> planeIds(const PoseGraph& graph) {
   std::vector<pose_graph::ClosureId> ids;
@@ -96,8 +102,26 @@ double largestMove(const std::vector<Track>& before, const std::vector<Track>& a
   return largest;
 }
 
+/// Sorts constraints from planes by their poses, so that what is relaxed with them does not depend on where they come
+/// from.
+void sortPlanes(const GraphRun& run, std::vector<Closure>& planes) {
+  const auto place = [&](const pose_graph::NodeRef& ref) {
+    const auto found = std::find(run.sessions.begin(), run.sessions.end(), ref.session);
+    return std::make_pair(found - run.sessions.begin(), ref.stamp);
+  };
+  std::stable_sort(planes.begin(), planes.end(), [&](const Closure& a, const Closure& b) {
+    return std::make_pair(place(a.a), place(a.b)) < std::make_pair(place(b.a), place(b.b));
+  });
+}
+
+void addPlanes(GraphRun& run, std::vector<Closure> planes) {
+  sortPlanes(run, planes);
+  for (const Closure& plane : planes) run.graph.addClosure(plane);
+}
+
 /// Relaxes again with what the planes of the relaxed map tell, until that no longer moves it.
-void relaxWithPlanes(GraphRun& run, const std::vector<const SessionOdometry*>& runs, const PlaneFinder& find_planes) {
+void relaxWithPlanes(GraphRun& run, pose_graph::EditedGraph& edited, const std::vector<const SessionOdometry*>& runs,
+                     const SessionGrounds& grounds, const PlaneFinder& find_planes) {
   const auto begin = Clock::now();
   const std::vector<Track> without_planes = run.graph.tracks();
   run.planes.searched = true;
@@ -108,9 +132,9 @@ void relaxWithPlanes(GraphRun& run, const std::vector<const SessionOdometry*>& r
     run.planes.shared = found.shared;
     if (found.closures.empty() && earlier.empty()) break;
     for (const pose_graph::ClosureId id : earlier) run.graph.removeClosure(id);
-    for (const Closure& closure : found.closures) run.graph.addClosure(closure);
+    addPlanes(run, found.closures);
     const std::vector<Track> before = run.graph.tracks();
-    run.relaxed = relax(run.graph, runs);
+    relax(run, edited, runs, grounds);
     moved = largestMove(before, run.graph.tracks());
     ++run.planes.rounds;
   }
@@ -129,8 +153,9 @@ VerdictCounts countVerdicts(const PoseGraph& graph, bool of_planes) {
 }
 
 // All sessions from one factorisation. GPS fixes are not among the edges, but they reveal errors of lengths.
-std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
-                                                      const std::vector<std::string>& sessions) {
+std::vector<std::vector<Matrix6d>> computeCovariances(const GraphRun& run) {
+  const PoseGraph& graph = run.graph;
+  const std::vector<std::string>& sessions = run.sessions;
   std::vector<pose_graph::Rigid<3>> poses;
   std::vector<pose_graph::NodeRef> refs;
   for (const Track& track : graph.tracks())
@@ -148,8 +173,10 @@ std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
     if (track == nullptr || track->stamps.empty()) continue;
     const int first = *graph.poseNumber({track->session, track->stamps.front()});
     for (std::size_t i = 0; i < track->stamps.size(); ++i) {
-      const int pose = first + static_cast<int>(i), origin = marginals.first(pose);
-      Matrix6d covariance = displayed(marginals.ofPose(pose), kMetresPerRadian);
+      const std::optional<pose_graph::NodeRef>& by_hand = run.origins[run.findMap(s)];
+      const int pose = first + static_cast<int>(i),
+                origin = by_hand ? *graph.poseNumber(*by_hand) : marginals.first(pose);
+      Matrix6d covariance = displayed(marginals.between(origin, pose), kMetresPerRadian);
       if (pose != origin)
         covariance += pose_graph::relativeNoise(toPose(poses[at(origin)]).inverse() * track->map[i],
                                                 graph.ownNoise(refs[at(origin)]), graph.ownNoise(refs[at(pose)]));
@@ -166,7 +193,9 @@ void leaveToOdometry(GraphRun& run, const std::vector<const SessionOdometry*>& r
     if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted)
       touched.insert({closure.a.session, closure.b.session});
   for (std::size_t s = 0; s < runs.size(); ++s) {
-    if (touched.count(run.sessions[s]) != 0 || run.covariances[s].size() != runs[s]->settled.size()) continue;
+    if (touched.count(run.sessions[s]) != 0 || run.origins[run.findMap(s)] ||
+        run.covariances[s].size() != runs[s]->settled.size())
+      continue;
     for (std::size_t i = 0; i < runs[s]->settled.size(); ++i)
       run.covariances[s][i] = runs[s]->settled[i].T_odom_base.covariance;
   }
@@ -245,6 +274,13 @@ void addLevels(const GraphRun& run, const std::vector<std::vector<Measured>>& me
   }
 }
 
+/// Returns the pose of a session in the frame of the graph at a time that it has a pose at.
+Pose poseInGraph(const GraphRun& run, const pose_graph::NodeRef& ref) {
+  const Track& track = *run.graph.track(ref.session);
+  const auto found = std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp);
+  return track.map[static_cast<std::size_t>(found - track.stamps.begin())];
+}
+
 std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const SessionOdometry*>& runs,
                                   const SessionGrounds& grounds) {
   std::vector<Level> levels(runs.size());
@@ -257,6 +293,32 @@ std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const S
   addLevels(run, forces, levels);
   addLevels(run, grounds, levels);
   return levels;
+}
+
+std::vector<std::optional<pose_graph::NodeRef>> findOrigins(const GraphRun& run,
+                                                            const pose_graph::EditedGraph& edited) {
+  std::vector<std::optional<pose_graph::NodeRef>> origins(run.sessions.size());
+  for (std::size_t s = 0; s < run.sessions.size(); ++s)
+    if (run.findMap(s) == s) origins[s] = edited.origin(run.sessions[s]);
+  return origins;
+}
+
+void relax(GraphRun& run, pose_graph::EditedGraph& edited, const std::vector<const SessionOdometry*>& runs,
+           const SessionGrounds& grounds) {
+  edited.relax(
+      [&] {
+        run.relaxed = relaxGraph(run.graph, runs);
+        run.levels.clear();
+      },
+      [&](const pose_graph::SessionId& session) {
+        if (run.levels.empty()) {
+          run.covariances.resize(runs.size());
+          run.levels = estimateLevels(run, runs, grounds);
+          run.origins = findOrigins(run, edited);
+        }
+        return run.mapFromGraph(static_cast<std::size_t>(std::find(run.sessions.begin(), run.sessions.end(), session) -
+                                                         run.sessions.begin()));
+      });
 }
 
 }  // namespace
@@ -278,42 +340,60 @@ std::size_t GraphRun::sessionsJoined() const {
 VerdictCounts GraphRun::closureVerdicts() const { return countVerdicts(graph, false); }
 VerdictCounts GraphRun::planeVerdicts() const { return countVerdicts(graph, true); }
 
+Pose GraphRun::mapFromGraph(std::size_t session) const {
+  const std::size_t map = findMap(session);
+  if (map >= levels.size()) return {};
+  const bool is_level = levels[map].known();
+  const Pose T_level_graph =
+      is_level ? pose_graph::levelling(levels[map], graph.track(sessions[map])->map.front()) : Pose();
+  if (!origins[map]) return T_level_graph;
+  const Pose T_level_origin = T_level_graph * poseInGraph(*this, *origins[map]);
+  if (!is_level) return T_level_origin.inverse() * T_level_graph;
+  const Eigen::Vector3d forward = T_level_origin.q() * Eigen::Vector3d::UnitX();
+  const Eigen::Quaterniond heading(Eigen::AngleAxisd(std::atan2(forward.y(), forward.x()), Eigen::Vector3d::UnitZ()));
+  return Pose(heading, T_level_origin.t()).inverse() * T_level_graph;
+}
+
 Trajectory GraphRun::trajectory(std::size_t session) const {
   const Trajectory track = relaxedTrack(*this, session);
   const std::size_t map = findMap(session);
-  if (map >= levels.size() || !levels[map].known()) return track;
-  return transformed(pose_graph::levelling(levels[map], graph.track(sessions[map])->map.front()), track);
+  if (map >= levels.size() || (!levels[map].known() && !origins[map])) return track;
+  return transformed(mapFromGraph(session), track);
 }
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const SessionOdometry*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<MetricClosure>& closures,
                   const PreviousClosures& previous, const SessionGrounds& grounds, const SessionFixes& fixes,
-                  const PlaneFinder& find_planes) {
+                  const PlaneFinder& find_planes, std::vector<pose_graph::Edit> edits) {
   GraphRun made;
   made.graph = PoseGraph(parameters);
   made.sessions = sessions;
+  pose_graph::EditedGraph edited(made.graph, std::move(edits));
   for (std::size_t s = 0; s < runs.size(); ++s) {
     made.graph.beginSession(sessions[s]);
     made.graph.setRig(sessions[s], nameRig(runs, s));
     for (std::size_t i = 1; i < runs[s]->settled.size(); ++i)
-      made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
+      edited.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
     if (s < fixes.size()) made.graph.putFixes(sessions[s], fixes[s]);
   }
-  importClosures(made, runs, closures, previous);
+  importClosures(made, edited, runs, closures, previous);
   const auto begin = Clock::now();
-  made.relaxed = relax(made.graph, runs);
+  if (!find_planes) addPlanes(made, previous.planes);
+  relax(made, edited, runs, grounds);
   made.ms = millisecondsSince(begin);
-  if (find_planes) relaxWithPlanes(made, runs, find_planes);
+  if (find_planes) relaxWithPlanes(made, edited, runs, grounds, find_planes);
   assessClosures(made, previous.offered.size());
   addFixWarnings(parameters, made);
   addSelectionWarnings(made);
   if (const pose_graph::Relaxed& last = made.relaxed; isEarly(last.ending))
     made.warnings.push_back(endingWarning(last.ending, last.iterations.size(), last.gradient));
   const auto relaxed = Clock::now();
-  made.covariances = computeCovariances(made.graph, sessions);
+  made.origins = findOrigins(made, edited);
+  made.covariances = computeCovariances(made);
   leaveToOdometry(made, runs);
   made.ms_covariances = millisecondsSince(relaxed);
   made.levels = estimateLevels(made, runs, grounds);
+  for (const std::string& warning : edited.warnings()) made.warnings.push_back(warning);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (made.findMap(s) == s)
       made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +

@@ -8,6 +8,7 @@
 #include "map/closure_rows.hpp"
 #include "map/previous_sessions.hpp"
 #include "map/session_odometry.hpp"
+#include "pose_graph/edited_graph.hpp"
 #include "pose_graph/ground_level.hpp"
 #include "pose_graph/marginals.hpp"
 #include "pose_graph/pose_graph.hpp"
@@ -37,7 +38,9 @@ struct GraphRun {
   pose_graph::Relaxed relaxed;
   std::vector<std::string> sessions;                    ///< names, in the order of the runs
   std::vector<urban_nav_core::MetricClosure> closures;  ///< those of previous runs, then those of this one
-  std::vector<ClosureAssessment> assessments;           ///< one for each of `closures`
+  /// One for each of `closures`; of one that an edit rejects the id is -1 - its place in rejected_by_hand.
+  std::vector<ClosureAssessment> assessments;
+  std::vector<pose_graph::Closure> rejected_by_hand;  ///< no part of the graph
   std::vector<std::string> warnings;
   double ms = 0.0, ms_covariances = 0.0;  ///< durations of the relaxation and of the marginal covariances
   PlaneUse planes;
@@ -57,8 +60,13 @@ struct GraphRun {
   /// sessions with an accelerometer that tells it, otherwise by the ground that the first of them has seen. Default
   /// values for sessions in the map of another one.
   std::vector<pose_graph::Level> levels;
-  /// Returns the poses of a session in its map: origin and heading of the map's first pose, aligned with gravity where
-  /// its direction is known.
+  /// Poses that edits make the origin of the map that starts with a session, in the order of `levels`.
+  std::vector<std::optional<pose_graph::NodeRef>> origins;
+  /// Returns the transform from the frame of the poses of `graph` in the map of a session to that map: its origin and
+  /// heading are those of its first pose, or of the one that an edit chooses, and it is aligned with gravity where the
+  /// direction of gravity is known.
+  urban_nav_core::Pose mapFromGraph(std::size_t session) const;
+  /// Returns the poses of a session in its map.
   urban_nav_core::Trajectory trajectory(std::size_t session) const;
 };
 
@@ -79,10 +87,12 @@ using PlaneFinder = std::function<PlaneClosures(const GraphRun&)>;
 /// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A new
 /// closure replaces a previous one between the same poses and of the same kind. The poses do not depend on the order of
 /// the closures, bit by bit. `find_planes`: called with the relaxed graph; what it finds takes part in a second
-/// relaxation, and, if that has moved the poses, what it finds then in a third one, in place of the first.
+/// relaxation, and, if that has moved the poses, what it finds then in a third one, in place of the first. Without it,
+/// the planes of earlier runs take part. `edits`: changes that a person made to the measurements.
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const SessionOdometry*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<urban_nav_core::MetricClosure>& closures,
                   const PreviousClosures& previous = {}, const SessionGrounds& grounds = {},
-                  const SessionFixes& fixes = {}, const PlaneFinder& find_planes = {});
+                  const SessionFixes& fixes = {}, const PlaneFinder& find_planes = {},
+                  std::vector<pose_graph::Edit> edits = {});
 
 }  // namespace urban_nav

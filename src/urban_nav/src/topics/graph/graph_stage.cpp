@@ -6,8 +6,10 @@
 #include "base/plot.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "map/closure_notes.hpp"
+#include "map/map_base.hpp"
 #include "map/session_fixes.hpp"
 #include "pose_graph/ground_views.hpp"
+#include "pose_graph/stored_edits.hpp"
 #include "topics/graph/graph_g2o.hpp"
 #include "topics/graph/graph_report.hpp"
 #include "topics/graph/graph_run.hpp"
@@ -26,24 +28,15 @@ namespace {
 constexpr double kDegreesPerRadian = 57.29577951308232;
 constexpr double kLevelDeg = 5.0;  // standard deviation of a map that is called aligned
 
-/// Removes closures from those of earlier runs, and returns them.
-template <typename IsTaken>
-PreviousClosures takeClosures(PreviousClosures& closures, const IsTaken& is_taken) {
-  PreviousClosures others, taken;
+/// Leaves out the closures of earlier runs that this one finds anew. Those of a file and asserted ones stay.
+void forgetFoundAnew(PreviousClosures& closures) {
+  PreviousClosures others;
   for (std::size_t i = 0; i < closures.in_graph.size(); ++i) {
-    PreviousClosures& to = is_taken(closures.in_graph[i]) ? taken : others;
-    to.offered.push_back(closures.offered[i]);
-    to.in_graph.push_back(closures.in_graph[i]);
+    if (urban_nav_store::isFoundAnew(closures.in_graph[i].kind, closures.in_graph[i].source)) continue;
+    others.offered.push_back(closures.offered[i]);
+    others.in_graph.push_back(closures.in_graph[i]);
   }
   closures = std::move(others);
-  return taken;
-}
-
-bool isOfPlane(const pose_graph::Closure& closure) { return closure.kind == pose_graph::EdgeKind::Plane; }
-
-/// Returns whether a run that joins finds the closure of an earlier run anew. Those of a file and asserted ones stay.
-bool isFoundAnew(const pose_graph::Closure& closure) {
-  return urban_nav_store::isFoundAnew(closure.kind, closure.source);
 }
 
 /// Returns the closures that the store holds between previous sessions and continued ones, as far as this run does not
@@ -62,7 +55,7 @@ PreviousClosures previousClosures(const MapContext& context) {
     names.push_back(context.names[s]);
   }
   PreviousClosures closures = closuresBetween(*context.store, ids, names);
-  if (context.joins) takeClosures(closures, isFoundAnew);
+  if (context.joins) forgetFoundAnew(closures);
   return closures;
 }
 
@@ -112,17 +105,22 @@ class GraphStage final : public Stage {
     const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
     const std::vector<const SessionOdometry*> runs = context.runs();
     PreviousClosures previous = previousClosures(context);
-    const PlaneFinder find_planes = makePlaneFinder(context, takeClosures(previous, isOfPlane).in_graph);
+    const PlaneFinder find_planes = makePlaneFinder(context);
+    if (isRequested(context.options, "lasers")) previous.planes.clear();
     const SessionGrounds grounds = readGrounds(context);
     const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
-    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes);
+    const std::vector<pose_graph::Edit> edits = pose_graph::readEdits(*context.store, context.ids(), context.names);
+    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes, edits);
     std::vector<urban_nav_core::MetricClosure> by_stereo = context.closures;
     by_stereo.erase(std::remove_if(by_stereo.begin(), by_stereo.end(), isMeasuredByIcp), by_stereo.end());
     if (by_stereo.size() < context.closures.size()) {
-      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous, grounds, fixes);
+      previous.planes.clear();
+      const GraphRun without_icp =
+          runGraph(parameters, runs, context.names, by_stereo, previous, grounds, fixes, {}, edits);
       for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
     }
     exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
+    forgetBase(*context.store);
     context.closures = run_->closures;
     context.assessments = run_->assessments;
     context.trajectories = relaxedTrajectories(*run_, std::move(context.trajectories));
@@ -146,15 +144,10 @@ class GraphStage final : public Stage {
  private:
   static bool usesGps(const MapContext& context) { return context.options.parameters.get(pose_graph::table()).gps; }
 
-  /// Returns how to find constraints from planes: in the scans, or, without stage lasers, those that `earlier` runs
-  /// have found; empty: there are none.
-  static PlaneFinder makePlaneFinder(MapContext& context, std::vector<pose_graph::Closure> earlier) {
+  /// Returns how to find constraints from planes in the scans; empty: they are not searched.
+  static PlaneFinder makePlaneFinder(MapContext& context) {
     const laser_mapper::Parameters& parameters = context.options.parameters.get(laser_mapper::table());
-    if (!isRequested(context.options, "lasers")) {
-      if (earlier.empty()) return {};
-      return [earlier = std::move(earlier)](const GraphRun&) { return PlaneClosures{earlier, 0}; };
-    }
-    if (!parameters.constraints) return {};
+    if (!isRequested(context.options, "lasers") || !parameters.constraints) return {};
     const double half_length = context.options.parameters.get(urban_nav_registration::table()).cloud_half_length;
     return [&parameters, &context, half_length](const GraphRun& run) {
       return findPlaneClosures(parameters, *context.store, context.ids(), run, half_length);

@@ -7,6 +7,7 @@
 #include "pose_graph/stored_graph.hpp"
 #include "topics/graph/graph_g2o.hpp"
 #include "urban_nav_store/deflate.hpp"
+#include "urban_nav_store/edit_journal.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_graph.hpp"
 
@@ -51,10 +52,11 @@ void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>
   store.graph().putEvidence(edge, toEvidence(closure, assessment));
 }
 
-void removeClosures(Store& store, const SessionId& id) {
+template <typename IsRemoved>
+void removeClosures(Store& store, const SessionId& id, const IsRemoved& is_removed) {
   std::vector<Edge> earlier;
   store.graph().forEachEdge(id, [&](const Edge& edge) {
-    if (edge.kind != EdgeKind::Odometry && edge.kind != EdgeKind::Asserted) earlier.push_back(edge);
+    if (edge.kind != EdgeKind::Odometry && is_removed(edge)) earlier.push_back(edge);
   });
   for (const Edge& edge : earlier) store.graph().remove(edge);
 }
@@ -65,10 +67,10 @@ void putFile(Store& store, const SessionId& id, const GraphRun& run) {
 
 }  // namespace
 
-void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
+void storeRelaxation(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
   revision += run.relaxed.revision;
   for (std::size_t s = 0; s < ids.size(); ++s) {
-    removeClosures(store, ids[s]);
+    removeClosures(store, ids[s], [](const Edge& edge) { return urban_nav_store::isOfEdit(edge.source); });
     const Track* track = run.graph.track(run.sessions[s]);
     if (track == nullptr || track->stamps.empty()) continue;
     const urban_nav_core::Trajectory trajectory = run.trajectory(s);
@@ -84,17 +86,27 @@ void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun
   if (!ids.empty()) putFile(store, ids.front(), run);
   std::map<pose_graph::ClosureId, std::size_t> index_of;
   for (std::size_t i = 0; i < run.closures.size(); ++i) index_of[run.assessments[i].id] = i;
-  for (const auto& [id, closure] : run.graph.closures()) {
+  const auto put = [&](pose_graph::ClosureId id, const pose_graph::Closure& closure) {
     Edge edge = pose_graph::toEdge(closure);
     edge.a.session = toId(run, ids, closure.a.session);
     edge.b.session = toId(run, ids, closure.b.session);
     store.graph().put(edge);
     if (const auto index = index_of.find(id); index != index_of.end())
       store.graph().putEvidence(edge, toEvidence(run.closures[index->second], run.assessments[index->second]));
-  }
+  };
+  for (const auto& [id, closure] : run.graph.closures()) put(id, closure);
+  for (std::size_t i = 0; i < run.rejected_by_hand.size(); ++i)
+    put(-1 - static_cast<pose_graph::ClosureId>(i), run.rejected_by_hand[i]);
+}
+
+void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
+  for (const SessionId& id : ids)
+    removeClosures(store, id, [](const Edge& edge) { return edge.kind != EdgeKind::Asserted; });
+  storeRelaxation(store, ids, run, revision);
   for (std::size_t i = 0; i < run.closures.size(); ++i)
     if (run.assessments[i].id == 0 && isMeasured(run.closures[i]))
       putRejected(store, run, ids, run.closures[i], run.assessments[i]);
+  urban_nav_store::storeEdgeNumbers(store);
 }
 
 }  // namespace urban_nav

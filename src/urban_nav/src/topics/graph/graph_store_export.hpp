@@ -8,6 +8,12 @@
 
 namespace urban_nav {
 
+/// Writes what a relaxation has made of the closures and poses that a store holds: verdicts, poses in `map` with their
+/// covariances, an anchor for each session, graph.g2o, and the closures of edits in place of earlier ones. Other
+/// closures stay. `ids`: the store's keys of run.sessions; `revision`: the highest of their poses. Does not commit.
+void storeRelaxation(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids,
+                     const GraphRun& run, std::int64_t revision);
+
 /// Writes the result of a relaxation to a store: a pose in `map` with its covariance for every node, each closure of
 /// the graph as an edge with its verdict, an anchor for each session, and graph.g2o. `ids`: the store's keys of
 /// run.sessions. Replaces closures and poses of an earlier relaxation of these sessions; `revision`: the highest of

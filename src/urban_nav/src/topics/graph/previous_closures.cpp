@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/graph/previous_closures.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string_view>
 
 #include "loop_metric/evidence.hpp"
 #include "map/closure_rows.hpp"
+#include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/edit_journal.hpp"
 
 namespace urban_nav {
 
@@ -41,6 +44,17 @@ ClosureMethod toMethod(EdgeKind kind) {
   return kind == EdgeKind::Icp ? ClosureMethod::Icp : ClosureMethod::None;
 }
 
+/// Returns whether odometry allows a measured transform, by the evidence of the stage that measured it.
+bool passedGate(const std::string& evidence) {
+  if (pose_graph::passedOdometryGate(evidence)) return true;
+  const std::string_view its = loop_metric::evidenceIn(evidence);
+  if (its.empty()) return false;
+  const std::vector<urban_nav_registration::ClosureTest> gate = loop_metric::parseEvidence(its).gate;
+  return std::any_of(gate.begin(), gate.end(), [](const urban_nav_registration::ClosureTest& test) {
+    return test.passed && (test.name == "stereo_against_odometry" || test.name == "icp_against_odometry");
+  });
+}
+
 /// Returns the closure as it was offered where the store has that, otherwise as it is in the graph.
 MetricClosure toOffered(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
   ClosureRow row;
@@ -52,7 +66,10 @@ MetricClosure toOffered(Store& store, const Edge& edge, const pose_graph::Closur
   row.a.session = closure.a.session;
   row.b.session = closure.b.session;
   row.where = edge.source;
-  return toMetricClosure(row);
+  MetricClosure offered = toMetricClosure(row);
+  const std::string evidence = store.graph().evidence(edge).value_or("");
+  offered.evidence = loop_metric::evidenceIn(evidence);
+  return offered;
 }
 
 }  // namespace
@@ -66,6 +83,7 @@ PreviousClosures closuresBetween(Store& store, const std::vector<SessionId>& ids
     std::vector<Edge> edges;
     store.graph().forEachEdge(id, [&](const Edge& edge) {
       if (edge.kind != EdgeKind::Odometry && name.count(edge.b.session) > 0 &&
+          !urban_nav_store::isOfEdit(edge.source) &&
           !edge.measured.information.isZero(0.0))  // what was never measured is there for its evidence alone
         edges.push_back(edge);
     });
@@ -76,6 +94,11 @@ PreviousClosures closuresBetween(Store& store, const std::vector<SessionId>& ids
       closure.kind = edge.kind;
       closure.source = edge.source;
       closure.measured = edge.measured;
+      if (closure.kind == EdgeKind::Plane) {
+        result.planes.push_back(closure);
+        continue;
+      }
+      closure.odometry_gate = passedGate(store.graph().evidence(edge).value_or(""));
       result.offered.push_back(toOffered(store, edge, closure));
       result.in_graph.push_back(closure);
     }

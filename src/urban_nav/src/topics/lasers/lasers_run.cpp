@@ -12,6 +12,7 @@
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
 #include "laser_mapper/sensors.hpp"
+#include "map/rendered_poses.hpp"
 #include "map/stage_result.hpp"
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_viewer.hpp"
@@ -256,6 +257,7 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
       return makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
     };
     LaserMapRun map_run = renderMap(laser_map, make_colouriser, mapped, map, context);
+    for (const laser_mapper::MappedSession& session : mapped) forgetRenderedPoses(*context.store, session.id);
     if (map_run.points == 0) {
       if (!context.options.stages.empty()) throw urban_nav_core::DataError(context.options.out, whyEmpty(map_run), "");
       map_run.rendered.warnings.push_back(whyEmpty(map_run));

@@ -70,6 +70,10 @@ Vector3d MapCrs::project(const Vector3d& p_map) const {
   return projection_->project(tangent_->toGeodetic(reference_.T_local_map * p_map));
 }
 
+Vector3d MapCrs::toMap(const laser_mapper::Geodetic& position) const {
+  return reference_.T_local_map.inverse() * tangent_->toLocal(position);
+}
+
 std::string MapCrs::describe() const {
   return "EPSG:" + std::to_string(epsg_) + " (" + projection_->name() + "), " + std::to_string(reference_.fixes) +
          " GPS fixes, median distance " + urban_nav_core::formatNumber(reference_.residual, 2) +

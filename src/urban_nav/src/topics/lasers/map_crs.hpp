@@ -22,6 +22,8 @@ class MapCrs {
 
   /// Returns easting, northing and the height over the ellipsoid of a point of the map.
   Eigen::Vector3d project(const Eigen::Vector3d& p_map) const;
+  /// Returns the point of the map at a position.
+  Eigen::Vector3d toMap(const laser_mapper::Geodetic& position) const;
   const laser_mapper::GeoReference& reference() const { return reference_; }
   int epsg() const { return epsg_; }
   const std::string& wkt() const { return projection_->wkt(); }

@@ -15,6 +15,7 @@
 #include "laser_mapper/mesh/surface_mesh.hpp"
 #include "laser_mapper/occupancy_grid.hpp"
 #include "laser_mapper/sensors.hpp"
+#include "topics/lasers/current_rendering.hpp"
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_crs.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -237,9 +238,10 @@ void forEachMapTile(Store& store, const std::vector<StoredTrajectory>& map, doub
                     const std::function<void(const std::vector<MapPoint>&)>& take) {
   const MappedSessions mapped = mappedSessions(store, map);
   if (mapped.sessions.empty()) return;
-  LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
+  CurrentRendering rendering(store, map);
+  LaserMap laser_map(*mapped.parameters, rendering.store(), mapped.sessions);
   laser_map.load();
-  forEachColouredTile(store, laser_map, mapped, memory_mb,
+  forEachColouredTile(rendering.store(), laser_map, mapped, memory_mb,
                       [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { take(points); });
 }
 
@@ -248,7 +250,8 @@ ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, co
   const MappedSessions mapped = mappedSessions(store, map);
   if (mapped.sessions.empty())
     throw urban_nav_core::DataError(store.path(), "holds no map", "a store of map with stage lasers");
-  LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
+  CurrentRendering rendering(store, map);
+  LaserMap laser_map(*mapped.parameters, rendering.store(), mapped.sessions);
   laser_map.load();
   ExportedMap result;
   std::optional<MapCrs> crs;
@@ -259,7 +262,8 @@ ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, co
     result.crs = crs->describe();
   }
   if (!(paths.ply + paths.pcd + paths.las + paths.ortho + paths.mesh).empty())
-    result.points = writeColoured(paths, store, laser_map, mapped, crs ? &*crs : nullptr, memory_mb, attributes);
+    result.points =
+        writeColoured(paths, rendering.store(), laser_map, mapped, crs ? &*crs : nullptr, memory_mb, attributes);
   if (!paths.grid.empty()) writeGrid(paths.grid, laser_map, mapped);
   for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho, paths.mesh})
     if (!path.empty()) result.files.push_back(path);

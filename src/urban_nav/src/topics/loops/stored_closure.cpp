@@ -9,6 +9,7 @@
 
 #include "urban_nav_core/io/closures_csv.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/edit_journal.hpp"
 
 namespace urban_nav {
 
@@ -51,11 +52,6 @@ std::optional<double> probabilityIn(const std::string& evidence) {
   return std::nullopt;
 }
 
-auto orderKey(const Edge& edge) {
-  return std::make_tuple(std::max(edge.a.stamp, edge.b.stamp), std::min(edge.a.stamp, edge.b.stamp), edge.a.session,
-                         edge.b.session, edge.kind, edge.source);
-}
-
 double computeDistance(const std::string& name, const std::string& id, StampNs stamp, double since,
                        const TimeQuery& moment) {
   if (!moment.session.empty() && name.rfind(moment.session, 0) != 0 && id.rfind(moment.session, 0) != 0)
@@ -73,11 +69,13 @@ std::vector<StoredClosure> listClosures(urban_nav_store::Store& store) {
     store.graph().forEachEdge(id, [&](const Edge& edge) {
       if (edge.kind != EdgeKind::Odometry && beginnings.count(edge.b.session) > 0) edges.push_back(edge);
     });
-  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return orderKey(x) < orderKey(y); });
+  const std::map<urban_nav_store::EdgeKey, std::int64_t> numbers = urban_nav_store::readEdgeNumbers(store);
+  std::sort(edges.begin(), edges.end(),
+            [&](const Edge& x, const Edge& y) { return numbers.at(edgeKey(x)) < numbers.at(edgeKey(y)); });
   std::vector<StoredClosure> closures;
   for (const Edge& edge : edges) {
     StoredClosure closure;
-    closure.id = static_cast<std::int64_t>(closures.size()) + 1;
+    closure.id = numbers.at(edgeKey(edge));
     closure.edge = edge;
     const Beginning &a = beginnings.at(edge.a.session), &b = beginnings.at(edge.b.session);
     closure.name_a = a.name;

@@ -13,7 +13,7 @@ namespace urban_nav {
 
 /// A closure of a store with all that is known of it.
 struct StoredClosure {
-  std::int64_t id = 0;  ///< its place, from 1, among the closures of the store in the order of their later moments
+  std::int64_t id = 0;  ///< from 1; it stays for the life of the store
   urban_nav_store::Edge edge;
   std::string name_a, name_b;           ///< of the sessions, for people
   double since_a = 0.0, since_b = 0.0;  ///< s from the first node of each session
@@ -21,7 +21,8 @@ struct StoredClosure {
   loop_metric::Evidence evidence;       ///< empty where there is none
 };
 
-/// All closures of a store: measured, asserted and rejected ones. DataError where evidence is damaged.
+/// All closures of a store in the order of their ids: measured, asserted and rejected ones. DataError where evidence is
+/// damaged.
 std::vector<StoredClosure> listClosures(urban_nav_store::Store& store);
 
 /// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edits/edge_list.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "map/previous_sessions.hpp"
+#include "topics/loops/explanation.hpp"
+#include "urban_nav_store/edit_journal.hpp"
+
+namespace urban_nav {
+
+using urban_nav_store::Store;
+using urban_nav_store::StoredEdit;
+
+namespace {
+
+/// Constraints from planes are found anew whenever the map is rendered: no edit concerns them.
+std::vector<StoredClosure> closuresOfPlaces(Store& store) {
+  std::vector<StoredClosure> closures;
+  for (StoredClosure& closure : listClosures(store))
+    if (closure.edge.kind != urban_nav_store::EdgeKind::Plane) closures.push_back(std::move(closure));
+  return closures;
+}
+
+/// Returns the command of an edit as it follows STORE, quoted for a shell: "reject 3". `numbers`: of the edges of
+/// the store.
+std::string printCommand(const StoredEdit& edit, const std::map<urban_nav_store::EdgeKey, std::int64_t>& numbers) {
+  if (!edit.arguments.empty()) return edit.action + " " + edit.arguments;
+  // A pin is an edge from the origin of its map, which depends on other edits: its source is its own.
+  const auto number = std::find_if(numbers.begin(), numbers.end(), [&](const auto& each) {
+    return urban_nav_store::isOfEdit(edit.edge.source) ? std::get<5>(each.first) == edit.edge.source
+                                                       : each.first == edgeKey(edit.edge);
+  });
+  return edit.action + " " + (number == numbers.end() ? std::string("?") : std::to_string(number->second));
+}
+
+}  // namespace
+
+std::string listEdges(Store& store) {
+  std::string text = makeList(closuresOfPlaces(store));
+  const std::map<urban_nav_store::EdgeKey, std::int64_t> numbers = urban_nav_store::readEdgeNumbers(store);
+  const std::vector<StoredEdit> edits = urban_nav_store::EditJournal(store).all();
+  text += edits.empty() ? "no edits\n" : "edits:\n";
+  for (const StoredEdit& edit : edits)
+    text += "  " + std::to_string(edit.number) + "  " + printCommand(edit, numbers) +
+            (edit.undone ? "  (undone)" : "") + "\n";
+  return text;
+}
+
+Json edgesAsJson(Store& store) {
+  const PreviousSessions sessions = readPreviousSessions(store, {});
+  std::map<urban_nav_store::SessionId, std::string> names;
+  for (std::size_t s = 0; s < sessions.ids.size(); ++s) names[sessions.ids[s]] = sessions.names[s];
+  const auto findName = [&](const urban_nav_store::SessionId& id) {
+    const auto name = names.find(id);
+    return name == names.end() ? id : name->second;
+  };
+  Json json = Json::object();
+  Json& closures = json["closures"] = Json::array();
+  for (const StoredClosure& closure : closuresOfPlaces(store)) {
+    const urban_nav_store::Edge& edge = closure.edge;
+    closures.append(Json::object({{"id", closure.id},
+                                  {"session_a", findName(edge.a.session)},
+                                  {"stamp_a_ns", edge.a.stamp},
+                                  {"session_b", findName(edge.b.session)},
+                                  {"stamp_b_ns", edge.b.stamp},
+                                  {"kind", toString(edge.kind)},
+                                  {"verdict", toString(edge.verdict)},
+                                  {"reason", edge.reason},
+                                  {"weight", edge.weight}}));
+  }
+  const std::map<urban_nav_store::EdgeKey, std::int64_t> numbers = urban_nav_store::readEdgeNumbers(store);
+  Json& edits = json["edits"] = Json::array();
+  for (const StoredEdit& edit : urban_nav_store::EditJournal(store).all())
+    edits.append(
+        Json::object({{"number", edit.number}, {"command", printCommand(edit, numbers)}, {"undone", edit.undone}}));
+  return json;
+}
+
+}  // namespace urban_nav

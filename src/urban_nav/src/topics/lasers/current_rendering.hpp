@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "urban_nav_store/stored_map.hpp"
+
+namespace urban_nav {
+
+/// A store whose chunks lie along its poses: a store itself, or, where edits have moved poses since the chunks of a map
+/// were rendered, a copy in the folder for temporary files with that map rendered anew, which vanishes with this
+/// object. The store is only read, and must outlive this object.
+class CurrentRendering {
+ public:
+  CurrentRendering(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map);
+  ~CurrentRendering();
+  CurrentRendering(const CurrentRendering&) = delete;
+  CurrentRendering& operator=(const CurrentRendering&) = delete;
+
+  urban_nav_store::Store& store() { return copy_ ? *copy_ : store_; }
+
+ private:
+  void render(const std::vector<urban_nav_store::StoredTrajectory>& map);
+
+  urban_nav_store::Store& store_;
+  std::string folder_;  // for the copy
+  std::unique_ptr<urban_nav_store::Store> copy_;
+};
+
+}  // namespace urban_nav
