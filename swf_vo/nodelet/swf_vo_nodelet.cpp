@@ -14,10 +14,7 @@ namespace swf_vo {
 using urban_nav_ros::StereoSessions;
 
 namespace {
-
-// s; the slowest cameras that odometry can use have 5 Hz.
-constexpr double kImageTimeout = 1.0;
-
+constexpr double kImageTimeout = 1.0;  // s; the slowest cameras that odometry can use have 5 Hz
 }  // namespace
 
 /// Visual odometry on topics.
