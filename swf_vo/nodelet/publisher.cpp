@@ -20,8 +20,7 @@ namespace topics = urban_nav_ros::topics;
 using urban_nav_ros::toRosTime;
 
 namespace {
-// For display: a point per half metre, and no more of them than a viewer draws with ease.
-constexpr double kPathSpacing = 0.5;  // m
+constexpr double kPathSpacing = 0.5;  // m, for display, and no more points than a viewer draws with ease
 constexpr std::size_t kPathPoints = 4000;
 }  // namespace
 
