@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "urban_nav_trust/offset_monitor.hpp"
 #include "urban_nav_trust/position_probability.hpp"
 
 namespace urban_nav_trust {
@@ -43,6 +44,13 @@ bool hasFailed(const ConsistencyTest& test, const Parameters& parameters) {
   return !(test.p_value >= parameters.false_alarm);
 }
 
+bool comparesSensors(const ConsistencyTest& test) { return test.name != kOffsetTest; }
+
+bool comparesSensors(const TestResults& results) {
+  return std::any_of(results.tests.begin(), results.tests.end(),
+                     [](const ConsistencyTest& test) { return comparesSensors(test); });
+}
+
 FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures, bool is_compared,
                        const Parameters& parameters) {
   FrameTrust trust;
@@ -77,7 +85,7 @@ std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, c
       const urban_nav_core::StampNs end = spreads ? test->interval.to : std::min(frame.stamp, test->interval.to);
       failures.push_back({test->name, travelledAt(frames, end) - travelledAt(frames, test->interval.from)});
     }
-    trusts.push_back(assessFrame(frame, failures, !results.tests.empty(), parameters));
+    trusts.push_back(assessFrame(frame, failures, comparesSensors(results), parameters));
   }
   return trusts;
 }
@@ -97,7 +105,7 @@ MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& res
     map.reason = "odometry is lost in more than half of the frames";
   } else if (!failed.empty()) {
     map.reason = failed;
-  } else if (results.tests.empty()) {
+  } else if (!comparesSensors(results)) {
     map.reason = "nothing could be compared: each quantity was measured by one sensor only";
   } else if (count(frames, TrustState::Known) == 0) {
     map.state = TrustState::New;

@@ -21,7 +21,7 @@ constexpr double kLeastForward = 0.3;             // m of a window, below which 
 // Differences of sound sensors in a second beyond noise: misalignment and scale errors of gyroscopes (0.2 % of a turn
 // of 1 rad), slip of tyres (0.5 % of the distance) and a wheel's play across (3 mrad).
 constexpr double kTurnFloor = 2e-3, kSlip = 5e-3, kPlay = 3e-3;
-constexpr double kClockFloor = 2e-3;     // s, jitter of stamps
+constexpr double kClockFloor = 2e-3;  // s, jitter of stamps
 constexpr double kKnownDelay = 0.01;  // s, sigma from which on the delay counts as known
 
 /// Returns the probability that one of so many windows has at least this chi-square, at most (Bonferroni).

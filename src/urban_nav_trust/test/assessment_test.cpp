@@ -33,6 +33,14 @@ TEST(Assessment, WithNothingToCompareItIsUnsureWithAReason) {
   EXPECT_NEAR(map.probabilities[0], frames[0].probabilities[0], 1e-12);
 }
 
+TEST(Assessment, ASensorThatAgreesWithItselfConfirmsNothing) {
+  TestResults results;
+  results.tests = {makeTest("disparity_offset", 0.9, 0, 99)};
+  const auto frames = assessFrames(drive(), results, true, {});
+  EXPECT_EQ(frames[5].state, TrustState::Unsure);
+  EXPECT_EQ(assessMap(frames, results, {}).state, TrustState::Unsure);
+}
+
 TEST(Assessment, IsKnownWhereTestsPassAndOdometryIsNotLost) {
   auto evidence = drive();
   evidence[40].is_lost = true;

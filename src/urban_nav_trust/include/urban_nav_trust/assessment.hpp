@@ -56,7 +56,10 @@ struct Failure {
   std::string test;
   double distance = 0.0;  ///< m travelled in the interval of the test
 };
-/// Returns the trust in a frame. `is_compared`: at least one test compared something. Each failure widens the
+/// Returns whether a test compares two sensors: one of a sensor with itself confirms no map.
+bool comparesSensors(const ConsistencyTest& test);
+bool comparesSensors(const TestResults& results);
+/// Returns the trust in a frame. `is_compared`: at least one test compared two sensors. Each failure widens the
 /// covariance by Parameters::unexplained_drift of its distance.
 FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures, bool is_compared,
                        const Parameters& parameters);

@@ -75,7 +75,7 @@ LiveEstimate LiveTrust::assess(const LivePose& pose) const {
   std::vector<Failure> failures;
   for (const ConsistencyTest& test : estimate.results.tests)
     if (hasFailed(test, parameters_)) failures.push_back({test.name, travelled_ - changed_at_.value_or(0.0)});
-  estimate.frame = assessFrame(evidence, failures, !estimate.results.tests.empty(), parameters_);
+  estimate.frame = assessFrame(evidence, failures, comparesSensors(estimate.results), parameters_);
   estimate.reason = assessMap({estimate.frame}, estimate.results, parameters_).reason;
   return estimate;
 }

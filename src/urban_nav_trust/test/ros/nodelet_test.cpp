@@ -33,6 +33,7 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
       statistics.status = urban_nav_msgs::VoStatistics::OK;
       statistics.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
       statistics.disparity_step_sigma_px = 0.03;
+      statistics.turn_sigma = 1e-3;
       const nav_msgs::Odometry odometry = urban_nav_ros::toOdometryMessage(
           k_ * kFrame,
           {urban_nav_core::Pose(Eigen::Quaterniond::Identity(), {0.05 * static_cast<double>(k_), 0.0, 0.0}),
@@ -77,7 +78,7 @@ TEST(TrustNodelet, StatesWhatAKnockToACameraIsWorth) {
       [&] { return !graph.statuses.empty() && graph.statuses.back().reason_name == "calibration_changed"; }));
 
   EXPECT_TRUE(graph.call("reset"));
-  graph.drive(3, 0.0);
+  graph.drive(60, 0.0);
   EXPECT_TRUE(TrustGraph::until([&] { return graph.states.back().state == Trust::KNOWN; }));
 }
 
