@@ -120,8 +120,7 @@ std::string whyVerdictIsIdle(const StoredClosure& closure, const std::string& ac
   if (last != nullptr && last->action == action)
     return inWords(closure) + " is " + action + "ed already, by edit " + std::to_string(last->number);
   if (closure.edge.measured.information.isZero(0.0))
-    return inWords(closure) + " has no transform, so nothing changes" +
-           (closure.edge.reason.empty() ? "" : ": " + closure.edge.reason);
+    return inWords(closure) + " has no transform" + (closure.edge.reason.empty() ? "" : ": " + closure.edge.reason);
   if (action == "accept" && closure.edge.verdict == ClosureVerdict::Accepted)
     return inWords(closure) + " is accepted already";
   return {};
@@ -207,7 +206,17 @@ EditRequest readAssertion(const Words& words, const PreviousSessions& sessions) 
   return request;
 }
 
-/// Returns where the pin of a point lies in the map, m.
+/// Returns the point of a map at a position, by the GPS fixes of its sessions.
+Eigen::Vector3d placeByFixes(Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
+                             const laser_mapper::Geodetic& position) {
+  try {
+    return MapCrs("auto", store, map).toMap(position);
+  } catch (const urban_nav_core::DataError& error) {
+    throw urban_nav_core::DataError("--geodetic", error.parts().found, "--at X,Y,Z: a place in the frame map");
+  }
+}
+
+/// Returns the place of a pinned point in the map, m.
 Eigen::Vector3d readPlace(const Words& words, Store& store, const NodeRef& at) {
   if (words.has("at") == words.has("geodetic"))
     throw UserError("pin", words.has("at") ? "--at and --geodetic" : "neither --at nor --geodetic", "one of them");
@@ -222,7 +231,7 @@ Eigen::Vector3d readPlace(const Words& words, Store& store, const NodeRef& at) {
        readMaps(store, urban_nav_store::selectSessions(store, {})))
     for (const urban_nav_store::StoredTrajectory& each : map)
       if (each.session.id == at.session)
-        return MapCrs("auto", store, map).toMap({kRadiansPerDegree * v[0], kRadiansPerDegree * v[1], v[2]});
+        return placeByFixes(store, map, {kRadiansPerDegree * v[0], kRadiansPerDegree * v[1], v[2]});
   throw urban_nav_core::DataError(store.path(), "holds no map of session " + at.session, "");
 }
 
@@ -264,7 +273,7 @@ EditRequest readCut(const Words& words, const PreviousSessions& sessions) {
   NodeRef last = findMoment(alone, words[1], "T");
   const std::vector<SmoothedFrame>& settled = sessions.runs[session].settled;
   if (settled.size() < 4) {
-    request.unchanged = "session " + sessions.names[session] + " has too few poses to be cut, nothing changes";
+    request.unchanged = "session " + sessions.names[session] + " has too few poses to be cut";
     return request;
   }
   // Two pieces of at least one step: a pose alone is no piece.
@@ -286,7 +295,7 @@ EditRequest readOrigin(const Words& words, Store& store, const PreviousSessions&
   edit.arguments = words.print();
   for (const StoredEdit& other : urban_nav_store::EditJournal(store).standing())
     if (other.action == "pin")
-      request.unchanged = "nothing changes: the pin of edit " + std::to_string(other.number) +
+      request.unchanged = "the pin of edit " + std::to_string(other.number) +
                           " holds coordinates of the present map; set the origin first, then pin";
   return request;
 }

@@ -63,22 +63,27 @@ GraphRun relaxEdited(const StoredMeasurements& measurements, const std::vector<p
 }
 
 MapFigures readFigures(const GraphRun& run) {
-  MapFigures figures;
-  figures.cost = run.relaxed.cost_after;
-  pose_graph::Problem<3> planes = run.graph.problem();
+  const pose_graph::PoseGraph& graph = run.graph;
+  pose_graph::Problem<3> problem = graph.problem();
   std::vector<pose_graph::Rigid<3>> poses;
-  for (const pose_graph::Track& track : run.graph.tracks())
+  for (const pose_graph::Track& track : graph.tracks())
     for (const Pose& pose : track.map) poses.push_back(pose_graph::toRigid<3>(pose));
-  std::vector<pose_graph::Edge<3>> edges;
-  std::size_t e = planes.edges.size() - run.graph.closures().size(), directions = 0;
-  for (const auto& [id, closure] : run.graph.closures()) {
-    const pose_graph::Edge<3>& edge = planes.edges[e++];
+  // The relaxation may have put variances right: figures are of what was measured, so that they can be compared.
+  const double closure_factor = graph.selection().rescaled ? graph.selection().closure_factor : 1.0;
+  pose_graph::Problem<3> planes = problem.withoutEdges();
+  std::size_t e = 0, directions = 0;
+  for (; e < problem.edges.size() - graph.closures().size(); ++e)
+    problem.edges[e].information *= graph.odometryVariance();
+  for (const auto& [id, closure] : graph.closures()) {
+    pose_graph::Edge<3>& edge = problem.edges[e++];
+    if (!pose_graph::isVouchedFor(closure)) edge.information *= closure_factor;
     if (closure.kind != pose_graph::EdgeKind::Plane) continue;
-    edges.push_back(edge);
-    const auto values = urban_nav_core::symmetricEigenvalues(edge.information);
-    if (values) directions += static_cast<std::size_t>((values->array() > kKnown * values->maxCoeff()).count());
+    planes.edges.push_back(edge);
+    if (const auto values = urban_nav_core::symmetricEigenvalues(edge.information))
+      directions += static_cast<std::size_t>((values->array() > kKnown * values->maxCoeff()).count());
   }
-  planes.edges = std::move(edges);
+  MapFigures figures;
+  figures.cost = pose_graph::cost(problem, poses, pose_graph::Objective::Geodesic, graph.weights());
   if (directions > 0)
     figures.planes_over_noise =
         std::sqrt(pose_graph::cost(planes, poses, pose_graph::Objective::Geodesic) / static_cast<double>(directions));
