@@ -84,7 +84,7 @@ TEST(EditedGraph, AcceptsWhatDisagreesWithAllElse) {
     }
     edited.addOwnClosures();
     edited.relax([&] { graph.relax(); }, [](const SessionId&) { return Pose(); });
-    return graph.closures().lapPose(5).verdict;
+    return graph.closures().at(5).verdict;
   };
   EXPECT_EQ(build({}), ClosureVerdict::Rejected);
   EXPECT_EQ(build({verdict(Edit::Action::Accept, 1, 50)}), ClosureVerdict::Accepted);
