@@ -11,18 +11,18 @@ namespace urban_nav_sim {
 
 /// What can go wrong with what a sensor sends.
 enum class FaultKind : std::uint8_t {
-  Drop,       ///< messages are missing; value: their share, 0...1 (default 0.3)
-  Freeze,     ///< the last measurement before the fault, or else the first, is repeated under new stamps
-  Swap,       ///< left and right exchanged (stereo, lasers); others: as freeze
-  Corrupt,    ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
-  Jump,       ///< stamps are later by value in s (default 10; may be below zero)
-  Unplug,     ///< nothing comes
-  Nan,        ///< numbers are NaN; pictures, which have none, are black
-  Knock       ///< stereo alone: the right camera is turned about its y axis by value in deg (default 0.2)
-      Drift,  ///< stamps become later, evenly over the duration, by value in s (default 0.1), and stay so
-  Scale,  ///< stereo alone, the whole session: the baseline of camera_info is value times the true one (default 1.01)
-  Rain,   ///< stereo alone: streaks of rain, other ones in each picture; value: share of the pixels (default 0.05)
-  Dark    ///< stereo alone: pictures of value times the brightness (default 0.05), with the noise of the sensor
+  Drop,     ///< messages are missing; value: their share, 0...1 (default 0.3)
+  Freeze,   ///< the last measurement before the fault, or else the first, is repeated under new stamps
+  Swap,     ///< left and right exchanged (stereo, lasers); others: as freeze
+  Corrupt,  ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
+  Jump,     ///< stamps are later by value in s (default 10; may be below zero)
+  Unplug,   ///< nothing comes
+  Nan,      ///< numbers are NaN; pictures, which have none, are black
+  Knock,    ///< stereo alone: the right camera is turned about its y axis by value in deg (default 0.2)
+  Drift,    ///< stamps become later, evenly over the duration, by value in s (default 0.1), and stay so
+  Scale,    ///< stereo alone, the whole session: the baseline of camera_info is value times the true one (default 1.01)
+  Rain,     ///< stereo alone: streaks of rain, other ones in each picture; value: share of the pixels (default 0.05)
+  Dark      ///< stereo alone: pictures of value times the brightness (default 0.05), with the noise of the sensor
 };
 /// "drop", "freeze", "swap", "corrupt", "jump", "unplug", "nan", "knock", "drift", "scale", "rain", "dark".
 const char* toString(FaultKind kind);
