@@ -81,7 +81,8 @@ void SqliteSessionStore::removeRows(const SessionId& id, const std::function<boo
   tables_.connection().beginWriting();
   settle_();
   for (const Table* table : schema::tables()) {
-    if (goes(*table)) tables_.removeSession(*table, table->columns.front().name, id);
+    if (!goes(*table)) continue;
+    tables_.removeSession(*table, table->columns.front().name, id);
     if (!table->other_session.empty()) tables_.removeSession(*table, table->other_session, id);
   }
   tables_.forgetEmpty(id);
