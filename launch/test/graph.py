@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
-from xmlrpc.client import ServerProxy
+from xmlrpc.client import Fault, ServerProxy
 
 import rosgraph
 import rospkg
@@ -130,7 +130,7 @@ def connections(node):
     try:
         uri = rosgraph.Master("/launch_test").lookupNode(node)
         _, _, rows = ServerProxy(uri).getBusInfo("/launch_test")
-    except (rosgraph.MasterException, OSError):
+    except (rosgraph.MasterException, OSError, Fault):  # also of a node that has just begun to answer
         return set()
     return {row[4] for row in rows if row[2] == "i" and row[5]}
 

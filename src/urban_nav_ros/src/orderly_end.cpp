@@ -12,6 +12,7 @@ namespace urban_nav_ros {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
+constexpr std::chrono::milliseconds kLastMessages{500};  // in which roscpp sends what has been published
 
 volatile std::sig_atomic_t is_interrupted = 0;  // all that a handler of signals may write
 
@@ -50,6 +51,7 @@ void OrderlyEnd::watch() {
     if (is_interrupted != 0) {
       finishAll();
       finished_ = true;
+      std::this_thread::sleep_for(kLastMessages);
       ros::requestShutdown();
       return;
     }

@@ -13,6 +13,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "urban_nav_ros/testing/listener.hpp"
 
@@ -44,15 +45,17 @@ class Receipts {
     });
   }
 
-  /// Waits until all that the node has published so far has come to this process, and calls the callbacks. Returns
-  /// false after Listener::until()'s time.
-  bool drain() const {
+  /// Waits until all that the node has published so far on these topics has come to this process, and calls the
+  /// callbacks. Returns false after Listener::until()'s time. Requires that queues of the publishers are long enough:
+  /// roscpp counts a message as sent that it then drops.
+  bool drain(const std::vector<std::string>& topics) const {
     const auto sent = sentToThis();
     return Listener::until([&] {
       const Topics received = receivedBy(ros::this_node::getName());
-      return std::all_of(sent.begin(), sent.end(), [&](const auto& each) {
-        const auto found = received.find(each.first);
-        return found == received.end() || countNew({}, received, each.first) >= each.second;
+      return std::all_of(topics.begin(), topics.end(), [&](const std::string& topic) {
+        const std::string name = ros::names::resolve(topic);
+        const auto found = sent.find(name);
+        return found == sent.end() || countNew({}, received, name) >= found->second;
       });
     });
   }
