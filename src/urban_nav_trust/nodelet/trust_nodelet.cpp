@@ -20,9 +20,6 @@
 namespace urban_nav_trust {
 
 namespace topics = urban_nav_ros::topics;
-namespace topics_of_trust {
-constexpr const char* kTrustState = "trust/state";
-}
 
 namespace {
 
@@ -68,7 +65,7 @@ class TrustStage {
   explicit TrustStage(Node& node) : node_(node) {
     std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
     node.setQueueSize(nodelet_.queue_size);
-    publisher_ = node.nh().advertise<urban_nav_msgs::Trust>(topics_of_trust::kTrustState, 10, true);
+    publisher_ = node.nh().advertise<urban_nav_msgs::Trust>(topics::kTrustState, 10, true);
     trust_ = std::make_unique<LiveTrust>(parameters_, [this](const LiveEstimate& estimate) {
       publisher_.publish(toMessage(estimate, parameters_, nodelet_.map_frame));
     });

@@ -93,6 +93,9 @@ constexpr const char* kGraphPath = "graph/path";
 constexpr const char* kGraphState = "graph/state";
 constexpr const char* kGraphMarkers = "graph/markers";
 
+// urban_nav_trust.
+constexpr const char* kTrustState = "trust/state";
+
 // The operator.
 constexpr const char* kInitialPose = "initialpose";
 constexpr const char* kClickedPoint = "/clicked_point";  // of the tool publish_point of rviz
