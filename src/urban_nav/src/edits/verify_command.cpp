@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "base/console.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
 #include "edits/edits.hpp"
 #include "edits/verification.hpp"
+#include "map/map_command.hpp"
 #include "map/map_pipeline.hpp"
 #include "map/store_keys.hpp"
 #include "map/stored_run.hpp"
@@ -46,26 +48,25 @@ class ScratchFolder {
   std::string path_;
 };
 
-std::string storedProperty(Store& store, const urban_nav_store::SessionId& id, const std::string& name) {
-  for (const urban_nav_store::Property& property : store.sessions().properties(id))
-    if (property.name == name) return property.value;
-  return {};
+/// Returns the lines of a text.
+std::vector<std::string> splitLines(const std::string& text) {
+  std::vector<std::string> lines;
+  for (const std::string_view line : urban_nav_core::splitAt(text, '\n'))
+    if (!line.empty()) lines.emplace_back(line);
+  return lines;
 }
 
-/// Returns the options with which `map` has made the sessions of a store, for some of its recordings.
-MapOptions storedOptions(Store& store, const Arguments& arguments, const std::string& out) {
-  MapOptions options;
-  options.inputs = arguments.all("BAG");
-  options.out = out;
-  options.parameters = loadParameters(arguments);
-  options.threads = static_cast<int>(arguments.integer("threads", 0, 1, 1024));
+/// Returns the arguments with which `map` has made the sessions of a store, for some of its recordings.
+Arguments storedArguments(Store& store, const Arguments& given, const std::string& out) {
+  std::map<std::string, std::vector<std::string>> values = {{"INPUT", given.all("BAG")}, {"out", {out}}};
   const urban_nav_store::SessionId id = store.sessions().all().back().id;
-  const std::string stages = storedProperty(store, id, kStagesProperty);
-  for (const std::string_view stage : urban_nav_core::splitAt(stages, ','))
-    if (!stage.empty()) options.stages.emplace_back(stage);
+  const std::string prefix = kOptionProperty;
+  for (const urban_nav_store::Property& property : store.sessions().properties(id))
+    if (property.name.rfind(prefix, 0) == 0) values[property.name.substr(prefix.size())] = splitLines(property.value);
   for (const urban_nav_store::StoredParameter& row : store.sessions().parameters(id))
-    if (row.origin != "default") options.parameters.set(row.name + "=" + row.value);
-  return options;
+    if (row.origin != "default") values["set"].push_back(row.name + "=" + row.value);
+  if (given.has("threads")) values["threads"] = {given.get("threads")};
+  return Arguments(std::move(values), [&given](ParameterSet& set) { given.addTables(set); });
 }
 
 /// Returns the sessions of a store that recordings make. Throws UserError for one that none is made of.
@@ -91,7 +92,8 @@ std::vector<urban_nav_store::SessionId> sessionsOfRecordings(Store& store, const
 std::vector<Difference> verifyStages(Store& store, const Arguments& arguments, const StageFactory& make_stages,
                                      Console& console) {
   const ScratchFolder folder;
-  MapOptions options = storedOptions(store, arguments, folder.file("map"));
+  AllStages stages = make_stages();
+  MapOptions options = readMapOptions(storedArguments(store, arguments, folder.file("map")), stages);
   const std::vector<urban_nav_store::SessionId> sessions = sessionsOfRecordings(store, options);
   const bool finds_places = options.stages.empty() ||
                             std::find(options.stages.begin(), options.stages.end(), "places") != options.stages.end();
@@ -99,7 +101,7 @@ std::vector<Difference> verifyStages(Store& store, const Arguments& arguments, c
     options.closures = folder.file("closures.csv");
     urban_nav_core::writeAtomically(options.closures, readStoredCandidates(store, sessions));
   }
-  runMap(options, make_stages(), console, {});
+  runMap(options, std::move(stages), console, {});
   Store again(folder.file("map/session.db"), Access::Snapshot);
   std::vector<Difference> differences = compareMeasurements(store, again);
   if (again.sessions().all().size() == store.sessions().all().size()) {

@@ -29,7 +29,9 @@ std::string mcapPath(const Arguments& arguments) {
   return path;
 }
 
-MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
+}  // namespace
+
+MapOptions readMapOptions(const Arguments& arguments, const AllStages& stages) {
   ParameterSet parameters = loadParameters(arguments);
   urban_nav_input::SourceOptions source;
   source.topics = arguments.all("topic");
@@ -58,6 +60,8 @@ MapOptions readOptions(const Arguments& arguments, const AllStages& stages) {
           mcapPath(arguments),
           arguments.has("strict")};
 }
+
+namespace {
 
 std::string stagesSentence(const AllStages& stages) {
   std::string names;
@@ -169,7 +173,7 @@ Command mapCommand(StageFactory make_stages, ResultRecorder record) {
   command.run = [make_stages = std::move(make_stages), record = std::move(record)](const Arguments& arguments,
                                                                                    Console& console) {
     AllStages stages = make_stages();
-    const MapOptions options = readOptions(arguments, stages);
+    const MapOptions options = readMapOptions(arguments, stages);
     for (const std::string& warning : parameterWarnings(options.parameters)) console.warn(warning);
     const std::vector<std::string> failed = runMap(options, std::move(stages), console, record);
     if (failed.empty()) return 0;

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "map/store_keys.hpp"
 #include "map/stored_run.hpp"
-#include "urban_nav_core/io/text.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
@@ -23,6 +24,23 @@ using urban_nav_store::Store;
 namespace {
 
 constexpr std::chrono::seconds kCommitPeriod{1};
+
+/// Returns the options of a run that its results depend on, values one per line; those that were not given are absent.
+std::map<std::string, std::string> givenOptions(const MapOptions& options) {
+  std::map<std::string, std::string> given;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) given[name] += value + "\n";
+  };
+  for (const std::string& stage : options.stages) add("stages", stage);
+  for (const std::string& topic : options.source.topics) add("topic", topic);
+  for (const std::string& transform : options.source.transforms) add("transform", transform);
+  add("calibration", options.source.calibration);
+  if (options.source.rate > 0.0) add("rate", urban_nav_core::printNumber(options.source.rate));
+  for (const char* word : {"stereo", "laser", "both"})
+    if (parseOdometryOption(word) == options.odometry) add("odometry", word);
+  if (options.calibrate) add("calibrate", "true");
+  return given;
+}
 
 std::string counted(std::size_t number, const char* noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
@@ -223,7 +241,8 @@ void RunCheckpoint::writeSession(std::size_t session) {
   for (const auto& [name, digest] : plan.fingerprint) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
-  store_->sessions().put(id, Property{kStagesProperty, urban_nav_core::joined(options_.stages)});
+  for (const auto& [name, values] : givenOptions(options_))
+    store_->sessions().put(id, Property{kOptionProperty + name, values});
   store_->sessions().put(id, urban_nav_store::Extrinsic{urban_nav_core::frames::kStereoLeft, info.T_base_camera});
   store_->sessions().put(id, Property{urban_nav_registration::kCalibrationProperty,
                                       urban_nav_registration::calibrationFingerprint(info.camera, info.T_base_camera)});
