@@ -51,7 +51,7 @@ SessionOdometry makeDrive(OdometrySource source, int frames, double scale, doubl
     }
     frame.T_odom_base.pose = pose;
     run.settled.push_back(frame);
-    run.frames.push_back({i, frame.stamp, true, {}, pose});
+    run.frames.push_back({i, frame.stamp, true, {}, pose, {}});
   }
   return run;
 }
