@@ -51,7 +51,7 @@ std::optional<ConsistencyTest> OffsetMonitor::test() const {
   test.interval = {changes_.empty() ? first_ : changes_.front().stamp, last_};
   test.statistic = largest_;
   test.degrees_of_freedom = static_cast<double>(frames_);
-  test.p_value = changeProbability(largest_, frames_);
+  test.p_value = changeProbability(largest_, std::max(frames_, kHorizon));
   test.remedy =
       "A camera of the stereo pair, left or right, was turned or moved against the other: fix its mount and calibrate "
       "the pair; lengths measured since then are wrong.";
