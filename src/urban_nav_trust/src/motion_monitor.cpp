@@ -121,7 +121,7 @@ std::optional<ConsistencyTest> MotionMonitor::makeTest(const Wording& wording, c
                    segments.back().interval.to};
   test.statistic = constant.detector.statistic();
   test.degrees_of_freedom = static_cast<double>(count);
-  test.p_value = changeProbability(test.statistic, count);
+  test.p_value = changeProbability(test.statistic, std::max(count, kWindowsPerHour));
   test.remedy = wording.remedy;
   const auto value = [&](const ChangeDetector::Segment& segment) {
     return formatNumber(wording.per_unit * segment.mean) + " " + wording.unit + " (+-" +

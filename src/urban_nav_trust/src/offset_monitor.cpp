@@ -17,6 +17,7 @@ constexpr std::int64_t kHorizon = 20 * 3600;  // frames of an hour: the alarm is
 // Neighbouring frames measure the same landmarks: the sum of n steps has this many times the variance of independent
 // ones (docs/derivations/trust.md).
 constexpr double kSharedLandmarks = 3.0;
+constexpr double kStepFloor = 0.02;  // px, of what all landmarks of a frame share: their templates, rectification
 constexpr StampNs kRenewal = 3'000'000'000;  // ns, until all landmarks are of the new mounting
 
 }  // namespace
@@ -32,7 +33,7 @@ bool OffsetMonitor::add(StampNs stamp, double step_px, double sigma_px) {
   const Interval interval{last_, stamp};
   last_ = stamp;
   if (stamp < quiet_until_) return false;
-  const bool alarm = detector_.add({interval, step_px, std::sqrt(kSharedLandmarks) * sigma_px});
+  const bool alarm = detector_.add({interval, step_px, std::sqrt(kSharedLandmarks) * std::hypot(sigma_px, kStepFloor)});
   largest_ = std::max(largest_, detector_.statistic());
   if (!alarm) return false;
   const std::vector<ChangeDetector::Segment> segments = detector_.segments();
@@ -50,7 +51,7 @@ std::optional<ConsistencyTest> OffsetMonitor::test() const {
   test.interval = {changes_.empty() ? first_ : changes_.front().stamp, last_};
   test.statistic = largest_;
   test.degrees_of_freedom = static_cast<double>(frames_);
-  test.p_value = changeProbability(largest_, frames_);
+  test.p_value = changeProbability(largest_, std::max(frames_, kHorizon));
   test.remedy =
       "A camera of the stereo pair, left or right, was turned or moved against the other: fix its mount and calibrate "
       "the pair; lengths measured since then are wrong.";
