@@ -112,7 +112,8 @@ EditOutcome makeEdit(Store& store, const StoredMeasurements& measurements, const
   urban_nav_store::storeEdgeNumbers(store);
   const Verdicts verdicts_after = storedVerdicts(store, sessions.ids);
   outcome.moved = comparePoses(poses_before, storedPoses(store, sessions.ids));
-  if (!outcome.moved.any && verdicts_before == verdicts_after) {
+  const bool is_new = request.action != "undo" && request.action != "redo";  // these change the journal in any case
+  if (is_new && !outcome.moved.any && verdicts_before == verdicts_after) {
     store.rollback();
     outcome.reason = "the map does not change: without this edit, too, every pose and every verdict is the same";
     return outcome;
