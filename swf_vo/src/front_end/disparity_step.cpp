@@ -22,21 +22,18 @@ constexpr double kStepHuber = 1.5;      // standard deviations
 constexpr double kStepOutlier = 6.0;    // standard deviations of the middle half
 constexpr double kLeastScatterPx = 0.02;
 
-struct Difference {
-  double px = 0.0;                    // measured less predicted disparity
-  Vector2d slope = Vector2d::Zero();  // derivative by the step, and by the place along the axis (1/m)
-  std::size_t cell = 0;
-};
+using Difference = DisparityStepMeter::Difference;
 
-double median(std::vector<double> values) {
+/// Returns the median; the order of the values changes.
+double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-std::vector<Difference> listDifferences(const StereoCamera& camera, const Pose& T_camera_odom,
-                                        const std::vector<Match>& matches) {
-  std::vector<Difference> differences;
+void listDifferences(const StereoCamera& camera, const Pose& T_camera_odom, const std::vector<Match>& matches,
+                     std::vector<Difference>& differences) {
+  differences.clear();
   for (const Match& match : matches) {
     if (!match.left.found || !match.right.found || match.track->seen < 2) continue;
     const Eigen::Vector3d p = T_camera_odom.q() * match.p_odom.head<3>() + T_camera_odom.t() * match.p_odom.w();
@@ -51,12 +48,11 @@ std::vector<Difference> listDifferences(const StereoCamera& camera, const Pose& 
                                                std::clamp(static_cast<int>(u * kColumns), 0, kColumns - 1));
     differences.push_back(difference);
   }
-  return differences;
 }
 
 /// Removes what is far from the median, and returns the scatter of the rest, px.
-double removeOutliers(std::vector<Difference>& differences) {
-  std::vector<double> values;
+double removeOutliers(std::vector<Difference>& differences, std::vector<double>& values) {
+  values.clear();
   for (const Difference& difference : differences) values.push_back(difference.px);
   const double middle = median(values);
   for (double& value : values) value = std::abs(value - middle);
@@ -70,11 +66,14 @@ double removeOutliers(std::vector<Difference>& differences) {
 
 }  // namespace
 
-DisparityStep measureDisparityStep(const StereoCamera& camera, const Pose& T_camera_odom,
-                                   const std::vector<Match>& matches) {
-  std::vector<Difference> differences = listDifferences(camera, T_camera_odom, matches);
+DisparityStep DisparityStepMeter::measure(const StereoCamera& camera, const Pose& T_camera_odom,
+                                          const std::vector<Match>& matches) {
+  std::vector<Difference>& differences = differences_;
+  differences.reserve(matches.capacity());
+  values_.reserve(matches.capacity());
+  listDifferences(camera, T_camera_odom, matches, differences);
   if (differences.size() < kLeastMatches) return {};
-  const double scatter = removeOutliers(differences);
+  const double scatter = removeOutliers(differences, values_);
   if (differences.size() < kLeastMatches) return {};
   Vector2d x = Vector2d::Zero();
   Matrix2d information = Matrix2d::Zero();

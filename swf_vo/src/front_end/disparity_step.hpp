@@ -10,7 +10,7 @@
 
 namespace swf_vo {
 
-/// Returns by how much the disparities of the landmarks in both images exceed those that the map of earlier frames
+/// Measures by how much the disparities of the landmarks in both images exceed those that the map of earlier frames
 /// predicts:
 ///   d - d(T_camera_odom) = (1 + x^2) step + (d(T_camera_odom) / z) t + error,
 /// with x the tangent of the direction along the rows: a turn of the right camera about its y axis by step / fx. t is
@@ -21,7 +21,22 @@ namespace swf_vo {
 /// Huber's weights; matches further apart than kStepOutlier from the median are taken as wrong. The standard deviation
 /// is that of a sandwich over cells of the image, whose matches share errors (Liang and Zeger 1986). A sigma of 0: too
 /// few.
-DisparityStep measureDisparityStep(const urban_nav_core::StereoCamera& camera,
-                                   const urban_nav_core::Pose& T_camera_odom, const std::vector<Match>& matches);
+///
+/// Allocates nothing once it has seen as many matches as come.
+class DisparityStepMeter {
+ public:
+  DisparityStep measure(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
+                        const std::vector<Match>& matches);
+
+  struct Difference {
+    double px = 0.0;                                  ///< measured less predicted disparity
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< derivative by the step, and by the place along the axis (1/m)
+    std::size_t cell = 0;                             ///< of the image
+  };
+
+ private:
+  std::vector<Difference> differences_;
+  std::vector<double> values_;
+};
 
 }  // namespace swf_vo

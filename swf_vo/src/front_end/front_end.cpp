@@ -332,7 +332,7 @@ class FrontEnd::Implementation {
       dropMisfits(match);
       measure(match);
     }
-    if (coarse.found) result_.disparity_step = measureDisparityStep(camera_, coarse.T_camera_odom, matches_);
+    if (coarse.found) result_.disparity_step = disparity_step_meter_.measure(camera_, coarse.T_camera_odom, matches_);
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     PoseEstimatorOptions options;
     options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
@@ -462,6 +462,7 @@ class FrontEnd::Implementation {
   RotationTracker rotation_;
   int capacity_;
   PoseEstimator pose_estimator_;
+  DisparityStepMeter disparity_step_meter_;
   SearchRadius radius_;
   Tracks tracks_;
   NoiseScale noise_;

@@ -50,7 +50,7 @@ const Pose kStepPlace(Eigen::Quaterniond(Eigen::AngleAxisd(0.05, Eigen::Vector3d
 TEST(DisparityStep, IsExactWithoutNoise) {
   for (const double shift : {-1.4, 0.0, 0.3}) {
     const DisplacedView view(1, 60, shift, 0.0, kStepPlace);
-    const DisparityStep step = measureDisparityStep(stepCamera(), kStepPlace, view.matches);
+    const DisparityStep step = DisparityStepMeter().measure(stepCamera(), kStepPlace, view.matches);
     EXPECT_NEAR(step.px, shift, 1e-9);
     EXPECT_GT(step.sigma_px, 0.0);
     EXPECT_EQ(step.landmarks, 60);
@@ -60,7 +60,7 @@ TEST(DisparityStep, IsExactWithoutNoise) {
 TEST(DisparityStep, AnErrorOfThePlaceAlongTheAxisIsNoStep) {
   const Pose off(kStepPlace.q(), kStepPlace.t() + Eigen::Vector3d(0.0, 0.0, 0.02));
   const DisplacedView view(2, 100, -0.5, 0.0, kStepPlace);
-  EXPECT_NEAR(measureDisparityStep(stepCamera(), off, view.matches).px, -0.5, 0.01);
+  EXPECT_NEAR(DisparityStepMeter().measure(stepCamera(), off, view.matches).px, -0.5, 0.01);
 }
 
 TEST(DisparityStep, ItsErrorsAreAsLargeAsStated) {
@@ -68,7 +68,7 @@ TEST(DisparityStep, ItsErrorsAreAsLargeAsStated) {
   const int runs = 400;
   for (unsigned seed = 1; seed <= runs; ++seed) {
     const DisplacedView view(seed, 80, 0.2, 0.1, kStepPlace);
-    const DisparityStep step = measureDisparityStep(stepCamera(), kStepPlace, view.matches);
+    const DisparityStep step = DisparityStepMeter().measure(stepCamera(), kStepPlace, view.matches);
     squares += std::pow((step.px - 0.2) / step.sigma_px, 2);
   }
   // The larger of two estimates of a variance is stated, which is more than right by chance.
@@ -79,7 +79,7 @@ TEST(DisparityStep, ItsErrorsAreAsLargeAsStated) {
 TEST(DisparityStep, MatchesOfSomethingElseHaveNoPart) {
   DisplacedView view(4, 80, -0.3, 0.05, kStepPlace);
   for (std::size_t i = 0; i < 20; ++i) view.matches[4 * i].right.pixel.x() += 7.0 + static_cast<double>(i);
-  const DisparityStep step = measureDisparityStep(stepCamera(), kStepPlace, view.matches);
+  const DisparityStep step = DisparityStepMeter().measure(stepCamera(), kStepPlace, view.matches);
   EXPECT_NEAR(step.px, -0.3, 0.06);
   EXPECT_LE(step.landmarks, 61);
 }
@@ -87,8 +87,8 @@ TEST(DisparityStep, MatchesOfSomethingElseHaveNoPart) {
 TEST(DisparityStep, OfTooFewIsNotMeasured) {
   DisplacedView view(5, 40, -0.3, 0.0, kStepPlace);
   for (std::size_t i = 0; i < 30; ++i) view.matches[i].right.found = false;
-  EXPECT_EQ(measureDisparityStep(stepCamera(), kStepPlace, view.matches).sigma_px, 0.0);
-  EXPECT_EQ(measureDisparityStep(stepCamera(), kStepPlace, {}).sigma_px, 0.0);
+  EXPECT_EQ(DisparityStepMeter().measure(stepCamera(), kStepPlace, view.matches).sigma_px, 0.0);
+  EXPECT_EQ(DisparityStepMeter().measure(stepCamera(), kStepPlace, {}).sigma_px, 0.0);
 }
 
 }  // namespace

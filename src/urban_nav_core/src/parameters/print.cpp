@@ -80,6 +80,19 @@ std::string valueLine(const std::string& stage, const RowInfo& row, const std::v
 
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows) { return printYaml(stage, rows, {}); }
 
+namespace {
+
+/// Returns a value as YAML 1.1 reads it: 1e-05 would be a text there, 1.0e-05 is a number.
+std::string yamlValue(const ParameterValue& value) {
+  std::string text = printValue(value);
+  const std::size_t exponent = text.find('e');
+  if (std::holds_alternative<double>(value.base()) && exponent != std::string::npos && text.find('.') == std::string::npos)
+    text.insert(exponent, ".0");
+  return text;
+}
+
+}  // namespace
+
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows,
                       const std::vector<Setting>& settings) {
   const std::string indent = stage.empty() ? "" : "  ";
@@ -87,7 +100,7 @@ std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows
   for (const RowInfo& row : rows) {
     const Setting* setting = find(settings, row.name);
     out += wrapped(described(row), indent + "# ");
-    out += indent + row.name + ": " + printValue(setting != nullptr ? setting->value : row.standard);
+    out += indent + row.name + ": " + yamlValue(setting != nullptr ? setting->value : row.standard);
     if (setting != nullptr) out += "  # " + setting->origin;
     out += "\n";
   }

@@ -34,6 +34,13 @@ TEST(Print, YamlSaysWhatIsAllowed) {
   EXPECT_EQ(printYaml("", {rows()[0]}).rfind("# Poses kept.", 0), 0U);
 }
 
+TEST(Print, YamlHasNumbersThatRoslaunchReadsAsNumbers) {
+  RowInfo row = rows()[0];
+  row.name = "share";
+  row.standard = 1e-5;
+  EXPECT_NE(printYaml("stage", {row}).find("  share: 1.0e-05\n"), std::string::npos) << "1e-05 is a text in YAML 1.1";
+}
+
 TEST(Print, LongSentencesAreWrapped) {
   RowInfo row = rows()[0];
   row.sentence.clear();

@@ -177,6 +177,7 @@ TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   VoRun run = *unpackVoRun(runOfVersion2());
   run.rig.delay_s = 1e-3;
   run.motion.wheel_scale = 1.02;
+  run.frames[0].compared.disparity_step_px = 0.25;
   ASSERT_EQ(run.settled.size(), 1U);
   run.settled[0].from_previous.constants = {{"scale", 0.0, 0.0, 5e-4, urban_nav_core::Vector6d::Unit(2)}};
   const std::string now = packVoRun(run);
@@ -184,13 +185,22 @@ TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   const VoRun same = unpackVoRun(now).value();
   ASSERT_EQ(same.rig.delay_s, 1e-3);
   ASSERT_EQ(same.motion.wheel_scale, 1.02);
+  ASSERT_EQ(same.frames[0].compared.disparity_step_px, 0.25);
   ASSERT_EQ(same.settled[0].from_previous.constants.size(), 1U);
   EXPECT_TRUE(isApprox(same.settled[0].from_previous, run.settled[0].from_previous, 0.0));
-  // The states of motion sensors, version 6, come last. Before them those of version 5: number of steps, number of
-  // constants, length of a name and its five letters, nine numbers. Those of version 4, five numbers, precede them.
-  urban_nav_core::Archive motion;
+  // What each frame was compared with, version 7, comes last. Before it the states of motion sensors, version 6, and
+  // those of version 5: number of steps, number of constants, length of a name and its five letters, nine numbers.
+  // Those of version 4, five numbers, precede them.
+  urban_nav_core::Archive compared, motion;
+  std::vector<urban_nav_trust::FrameMeasurements> each;
+  for (const OdometryFrame& frame : run.frames) each.push_back(frame.compared);
+  compared(each);
   motion(run.motion);
-  std::string content(urban_nav_core::unseal(name, 6, now));
+  std::string content(urban_nav_core::unseal(name, 7, now));
+  content.resize(content.size() - compared.take().size());
+  const VoRun sixth = unpackVoRun(urban_nav_core::seal(name, 6, content)).value();
+  EXPECT_EQ(sixth.motion.wheel_scale, 1.02);
+  EXPECT_EQ(sixth.frames[0].compared.disparity_step_px, 0.0);
   content.resize(content.size() - motion.take().size());
   const VoRun fifth = unpackVoRun(urban_nav_core::seal(name, 5, content)).value();
   EXPECT_EQ(fifth.motion.wheel_scale, 1.0);
