@@ -85,10 +85,9 @@ namespace {
 /// Returns a value as YAML 1.1 reads it: 1e-05 would be a text there, 1.0e-05 is a number.
 std::string yamlValue(const ParameterValue& value) {
   std::string text = printValue(value);
+  if (!std::holds_alternative<double>(value.base()) || text.find('.') != std::string::npos) return text;
   const std::size_t exponent = text.find('e');
-  if (std::holds_alternative<double>(value.base()) && exponent != std::string::npos && text.find('.') == std::string::npos)
-    text.insert(exponent, ".0");
-  return text;
+  return exponent == std::string::npos ? text : text.insert(exponent, ".0");
 }
 
 }  // namespace

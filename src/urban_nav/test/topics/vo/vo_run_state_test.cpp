@@ -188,7 +188,7 @@ TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   ASSERT_EQ(same.frames[0].compared.disparity_step_px, 0.25);
   ASSERT_EQ(same.settled[0].from_previous.constants.size(), 1U);
   EXPECT_TRUE(isApprox(same.settled[0].from_previous, run.settled[0].from_previous, 0.0));
-  // What each frame was compared with, version 7, comes last. Before it the states of motion sensors, version 6, and
+  // The comparisons of each frame, version 7, come last. Before them the states of motion sensors, version 6, and
   // those of version 5: number of steps, number of constants, length of a name and its five letters, nine numbers.
   // Those of version 4, five numbers, precede them.
   urban_nav_core::Archive compared, motion;
