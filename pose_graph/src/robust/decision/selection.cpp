@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "linear/disjoint_sets.hpp"
@@ -234,10 +236,26 @@ bool Selection<D>::holdsWithout(const SelectedEdges<D>& selected, const std::vec
   DisjointSets joined(problem_.poses.size());
   joined.joinAll(problem_.fixed);
   for (std::size_t e = 0; e < selected.edges.size(); ++e)
-    if (selected.edges[e].weight > 0.0) joined.join(problem_.edges[e].from, problem_.edges[e].to);
-  return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
-    const Edge<D>& edge = problem_.edges[sz(slip.edge)];
-    return joined.areJoined(edge.from, edge.to);
+    if (roles_[e] != EdgeRole::Candidate && selected.edges[e].weight > 0.0)
+      joined.join(problem_.edges[e].from, problem_.edges[e].to);
+  // Two rows between two stretches are enough: without any one of them another one is left.
+  std::map<std::pair<int, int>, std::set<int>> rows;
+  for (std::size_t e = 0; e < selected.edges.size(); ++e) {
+    const int a = joined.root(problem_.edges[e].from), b = joined.root(problem_.edges[e].to);
+    if (a == b || roles_[e] != EdgeRole::Candidate || !(selected.edges[e].weight > 0.0)) continue;
+    std::set<int>& between = rows[std::minmax(a, b)];
+    if (between.size() < Thresholds::kLeastAgreeing) between.insert(evaluator_->row(static_cast<int>(e)));
+  }
+  std::set<int> all;
+  for (const auto& [stretches, between] : rows) all.insert(between.begin(), between.end());
+  return std::all_of(all.begin(), all.end(), [&](int one) {
+    DisjointSets without = joined;
+    for (const auto& [stretches, between] : rows)
+      if (between.size() > between.count(one)) without.join(stretches.first, stretches.second);
+    return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
+      const Edge<D>& edge = problem_.edges[sz(slip.edge)];
+      return without.areJoined(edge.from, edge.to);
+    });
   });
 }
 

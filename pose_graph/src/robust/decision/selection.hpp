@@ -103,7 +103,8 @@ class Selection {
   // Inner selection over the proposed graph without what is barred.
   SelectedEdges<D> selectProposed(const VarianceFactors& factors, double most_work) const;
 
-  // Whether what is accepted joins the two ends of each slip: where nothing does, nothing has refuted the step.
+  // Whether accepted edges join the two ends of each slip, also without any one row of closures: where none do, the
+  // step is not refuted, and one row is one place, which may resemble another one.
   bool holdsWithout(const SelectedEdges<D>& selected, const std::vector<Slip<D>>& slips) const;
 
   // Closures between parts that the best set has not.
