@@ -53,10 +53,15 @@ class HypothesisEvaluator {
   /// By how much closures inside agree by chance rather on the map of the hypothesis than on that of odometry, which is
   /// no evidence for them: closures are found where two places are alike, so that the density of one that is true is
   /// relative to how often two poses of the map lie as it says, over the volume within which the set as a whole
-  /// predicts those that rows begin with; what follows in a row is found because of these. Requires evaluate(); not
-  /// less than 0. None where closures are assertions: they are found with
+  /// predicts it. Requires evaluate(); not less than 0. None where closures are assertions: they are found with
   /// odometry as tight as it says, which draws no map together.
   double gainByContraction(const Hypothesis<D>& hypothesis) const;
+
+  /// Log evidence of a set to compare with that of odometry alone, with each row longer than the map is wide counted as
+  /// several: similar places are parts of the map. What agrees by chance on the map of the set is taken off those that
+  /// rows begin with, over the volume within which the set predicts these; the others are found because of them.
+  /// Requires evaluate().
+  double evidenceByLength(const Hypothesis<D>& hypothesis) const;
 
   /// Whether most closures state one and the same, as those do that say "the same place" and measure nothing. They
   /// agree with each other exactly, all the more the looser odometry is: variances that follow from them serve to score
@@ -91,10 +96,9 @@ class HypothesisEvaluator {
   void assess(Hypothesis<D>& hypothesis, int rounds) const;
   double chance(const Hypothesis<D>& hypothesis) const;
   // Whether a closure agrees with the one before it in its row rather than by chance.
-  bool isFollower(int e) const {
-    const std::size_t i = static_cast<std::size_t>(e);
-    return neighbour_[i] >= 0 && log_alike_[i] > log_false_[i];
-  }
+  bool isFollower(std::size_t e) const { return neighbour_[e] >= 0 && log_alike_[e] > log_false_[e]; }
+  // gainByContraction() of some closures, which the set predicts with this log density together.
+  double contraction(const Hypothesis<D>& hypothesis, const std::vector<int>& closures, double gain) const;
   // Estimates both factors anew where the graph is relaxed and factored.
   VarianceFactors estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const;
 
@@ -111,9 +115,10 @@ class HypothesisEvaluator {
   double log_place_ = 0.0;         ///< of one pose anywhere, density
   std::vector<double> log_false_;  ///< by edge, density of its measurement were it anywhere
   std::vector<int> neighbour_;     ///< by edge: a closure near it, before it; -1 without one
-  std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour; minus
-                                   ///< infinity for one that would not, as the row is too long
+  std::vector<int> row_position_;  ///< by edge, how many closures are before it in its row
+  std::vector<char> begins_anew_;  ///< by edge, whether its row is longer than the map is wide there
   std::vector<int> row_;           ///< by edge, closureRows()
+  std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour
 };
 
 extern template class HypothesisEvaluator<2>;

@@ -68,7 +68,11 @@ void Selection<D>::run() {
 
 template <int D>
 bool Selection<D>::isUndecided() const {
-  if (contested_ || core_) return !(evidence() >= kDecisive);
+  if (core_ || (contested_ && evidence() >= kDecisive)) return !(evidence() >= kDecisive);
+  if (contested_) {
+    const double by_length = evaluator_->evidenceByLength(best_.hypothesis) - odometry_.log_evidence;
+    return best_.hypothesis.factors.areBeyond(kContestedFactor) || !(by_length >= kDecisive);
+  }
   const Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
   const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
   const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
