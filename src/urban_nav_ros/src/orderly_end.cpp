@@ -12,7 +12,7 @@ namespace urban_nav_ros {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
-constexpr std::chrono::milliseconds kLastMessages{500};  // in which roscpp sends what has been published
+constexpr std::chrono::milliseconds kLastMessages{1500};  // in which roscpp sends what has been published
 
 volatile std::sig_atomic_t is_interrupted = 0;  // all that a handler of signals may write
 
