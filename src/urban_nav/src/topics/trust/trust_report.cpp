@@ -14,14 +14,18 @@ using urban_nav_trust::TrustState;
 
 namespace {
 
-std::string probabilitySentence(const TrustRun& run) {
-  std::string text = "A position is within ";
-  for (std::size_t k = 0; k < urban_nav_trust::kRadii.size(); ++k)
-    text += (k == 0                                    ? ""
-             : k + 1 == urban_nav_trust::kRadii.size() ? " and "
-                                                       : ", ") +
-            formatNumber(urban_nav_trust::kRadii[k]) + " m of where the map shows with probability " +
-            formatNumber(run.map.probabilities[k]);
+constexpr const char* kByCovariance = "By the covariance of each pose";
+constexpr double kMostStated = 0.999;  // what is beyond rests on tails that no data show
+
+/// Returns the sentence on the whole map, which begins with `by`.
+std::string probabilitySentence(const TrustRun& run, const std::string& by) {
+  std::string text = by + " the probability that a position is where the map shows is ";
+  for (std::size_t k = 0; k < urban_nav_trust::kRadii.size(); ++k) {
+    if (k > 0) text += k + 1 == urban_nav_trust::kRadii.size() ? " and " : ", ";
+    const double probability = run.map.probabilities[k];
+    text += (probability > kMostStated ? "above " : "") + formatNumber(std::min(probability, kMostStated), 3) +
+            " within " + formatNumber(urban_nav_trust::kRadii[k]) + " m";
+  }
   return text + ".";
 }
 
@@ -53,16 +57,20 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
   const std::string tests = std::to_string(run.results.tests.size());
   switch (run.map.state) {
     case TrustState::Known:
-      return {Grade::Good, "The map can be trusted.", tests + " consistency tests passed. " + probabilitySentence(run)};
+      return {Grade::Good, "The map can be trusted.",
+              tests + " consistency tests passed. " + probabilitySentence(run, kByCovariance)};
     case TrustState::New:
-      return {Grade::Fair, "The sessions are maps of their own.", run.map.reason + ". " + probabilitySentence(run)};
+      return {Grade::Fair, "The sessions are maps of their own.",
+              run.map.reason + ". " + probabilitySentence(run, kByCovariance)};
     case TrustState::Lost: return {Grade::Bad, "The path is lost.", run.map.reason + "."};
     case TrustState::Unsure: break;
   }
   if (failed > 0)
     return {Grade::Bad, "Measurements contradict each other: do not trust the map.",
             std::to_string(failed) + " of " + tests + " consistency tests failed. " + run.map.reason};
-  return {Grade::Fair, "Nothing confirms the map.", run.map.reason + ". " + probabilitySentence(run)};
+  return {
+      Grade::Fair, "Nothing confirms the map.",
+      run.map.reason + ". " + probabilitySentence(run, "By its own covariance alone, which no measurement confirms,")};
 }
 
 Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& parameters) {
