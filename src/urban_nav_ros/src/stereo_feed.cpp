@@ -38,7 +38,7 @@ StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalib
       motion_(options.motion),
       first_image_stream_(motionStreams(options.motion)),
       queue_(first_image_stream_ + 2, options.max_lateness, options.delivery,
-             options.motion.is_required ? 0 : first_image_stream_),
+             options.motion.is_required ? 0 : first_image_stream_, first_image_stream_),
       assembler_(options.pairing_tolerance),
       pairing_tolerance_(options.pairing_tolerance) {}
 

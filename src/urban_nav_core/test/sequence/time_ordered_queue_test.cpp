@@ -138,5 +138,46 @@ TEST(TimeOrderedQueue, AnObligatoryStreamIsWaitedForAlways) {
   EXPECT_GT(queue.waiting(), 0U);
 }
 
+TEST(TimeOrderedQueue, AClockThatIsAheadMakesNoOtherStreamLate) {
+  for (const DeliveryOrder delivery : {DeliveryOrder::Shuffled, DeliveryOrder::OrderedStreams}) {
+    for (const StampNs ahead :
+         {-1000 * kMillisecond, 0 * kMillisecond, 1000 * kMillisecond, 3'600'000 * kMillisecond}) {
+      TestQueue queue(2, 50 * kMillisecond, delivery, 1, 1);
+      std::size_t most = 0;
+      std::vector<StampNs> leading;
+      const auto take = [&] {
+        for (const Entry& entry : drain(queue))
+          if (entry.second == 1) leading.push_back(entry.first);
+      };
+      for (int k = 0; k < 3000; ++k) {
+        const StampNs now = (10'000 + 10 * k) * kMillisecond;
+        queue.put(0, now + ahead, 0);
+        if (k % 5 == 0) queue.put(1, now, 0);
+        take();
+        most = std::max(most, queue.waiting());
+      }
+      queue.finish();
+      take();
+      EXPECT_EQ(leading.size(), 600U);
+      EXPECT_TRUE(std::is_sorted(leading.begin(), leading.end()));
+      EXPECT_EQ(queue.counts(1).late, 0);
+      EXPECT_LT(most, 1100U) << "as many as come in kMostAhead";
+    }
+  }
+}
+
+TEST(TimeOrderedQueue, WhatFollowsDoesNotPileUpBeforeTheFirstOfTheOthers) {
+  TestQueue queue(2, 50 * kMillisecond, DeliveryOrder::OrderedStreams, 1, 1);
+  for (int k = 0; k < 5000; ++k) {
+    queue.put(0, (k + 1) * 10 * kMillisecond, 0);
+    EXPECT_TRUE(drain(queue).empty());
+  }
+  EXPECT_LE(queue.waiting(), 1001U);
+  EXPECT_EQ(queue.counts(0).late + static_cast<std::int64_t>(queue.waiting()), 5000);
+  queue.put(1, 49'950 * kMillisecond, 0);
+  queue.put(1, 50'000 * kMillisecond, 0);
+  EXPECT_FALSE(drain(queue).empty());
+}
+
 }  // namespace
 }  // namespace urban_nav_core

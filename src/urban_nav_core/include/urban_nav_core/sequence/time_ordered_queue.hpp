@@ -16,7 +16,7 @@ namespace urban_nav_core {
 /// Inputs of one stream of a TimeOrderedQueue: received, and dropped by cause.
 struct TimeOrderedQueueCounts {
   std::int64_t received = 0;
-  std::int64_t late = 0;       ///< stamp before that of an input already delivered
+  std::int64_t late = 0;       ///< stamp before that of an input already delivered, or on another clock (kMostAhead)
   std::int64_t duplicate = 0;  ///< same stream and stamp as an earlier input
 };
 
@@ -32,7 +32,9 @@ enum class DeliveryOrder {
 /// counted. An input is held until the newest stamp exceeds its own by max_lateness, or, with
 /// DeliveryOrder::OrderedStreams, until every stream has reached its stamp. The latter suits live streams: it minimises
 /// delay, and drops a message that another of its own stream has overtaken. Streams may be optional: one that has sent
-/// nothing while another sent kPatience inputs, or nothing for a second of stamps, is not waited for. Not thread-safe.
+/// nothing while another sent kPatience inputs, or nothing for a second of stamps, is not waited for. Streams may
+/// follow the others: however far ahead their clock is, no input of another stream is late because of them. Not
+/// thread-safe.
 template <typename Item>
 class TimeOrderedQueue {
  public:
@@ -44,12 +46,15 @@ class TimeOrderedQueue {
 
   static constexpr std::int64_t kPatience = 30;
   static constexpr StampNs kSilence = 1'000'000'000;
+  /// ns by which an input of a following stream may be ahead of the newest of the others.
+  static constexpr StampNs kMostAhead = 10'000'000'000;
 
-  /// `optional`: so many of the first streams are optional.
+  /// `optional`: so many of the first streams are optional. `following`: so many of them follow the others.
   TimeOrderedQueue(int streams, StampNs max_lateness, DeliveryOrder delivery = DeliveryOrder::Shuffled,
-                   int optional = 0)
+                   int optional = 0, int following = 0)
       : counts_(static_cast<std::size_t>(streams)),
         optional_(static_cast<std::size_t>(optional)),
+        following_(static_cast<std::size_t>(following)),
         reached_(counts_.size()),
         max_lateness_(max_lateness),
         delivery_(delivery) {}
@@ -60,6 +65,11 @@ class TimeOrderedQueue {
     TimeOrderedQueueCounts& counts = counts_[static_cast<std::size_t>(stream)];
     ++counts.received;
     const Place place{stamp, stream};
+    const bool follows = static_cast<std::size_t>(stream) < following_;
+    if (follows && newest_ && stamp - *newest_ > kMostAhead) {
+      ++counts.late;
+      return false;
+    }
     if (handed_on_ && !(*handed_on_ < place)) {
       ++(*handed_on_ == place ? counts.duplicate : counts.late);
       return false;
@@ -74,7 +84,8 @@ class TimeOrderedQueue {
     waiting_.insert(at, Entry{stamp, stream, std::move(item)});
     std::optional<StampNs>& reached = reached_[static_cast<std::size_t>(stream)];
     reached = reached ? std::max(*reached, stamp) : stamp;
-    newest_ = newest_ ? std::max(*newest_, stamp) : stamp;
+    if (!follows) newest_ = newest_ ? std::max(*newest_, stamp) : stamp;
+    else if (!newest_) forgetBefore(*reached - kMostAhead);
     return true;
   }
 
@@ -120,7 +131,7 @@ class TimeOrderedQueue {
     for (TimeOrderedQueueCounts& counts : counts_) archive(counts.received, counts.late, counts.duplicate);
     for (std::optional<StampNs>& reached : reached_) archive(reached);
     archive(newest_, handed_on_, finished_);
-    archive.require(waiting_.empty() || newest_.has_value(), "nothing has come");
+    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "nothing has come");
   }
 
  private:
@@ -128,7 +139,7 @@ class TimeOrderedQueue {
   static Place findPlace(const Entry& entry) { return {entry.stamp, entry.stream}; }
 
   bool mayLeave(const Entry& entry) const {
-    if (finished_ || *newest_ - entry.stamp >= max_lateness_) return true;
+    if (finished_ || (newest_ && *newest_ - entry.stamp >= max_lateness_)) return true;
     if (delivery_ == DeliveryOrder::Shuffled) return false;
     for (std::size_t stream = 0; stream < reached_.size(); ++stream) {
       const std::optional<StampNs>& reached = reached_[stream];
@@ -137,15 +148,23 @@ class TimeOrderedQueue {
     return true;
   }
 
+  /// Drops inputs of following streams that wait for the first one of the others.
+  void forgetBefore(StampNs stamp) {
+    while (!waiting_.empty() && waiting_.front().stamp < stamp) {
+      ++counts_[static_cast<std::size_t>(waiting_.front().stream)].late;
+      waiting_.erase(waiting_.begin());
+    }
+  }
+
   bool isSilent(std::size_t stream) const {
-    if (reached_[stream]) return *newest_ - *reached_[stream] > kSilence;
+    if (reached_[stream]) return newest_ && *newest_ - *reached_[stream] > kSilence;
     return std::any_of(counts_.begin(), counts_.end(),
                        [](const TimeOrderedQueueCounts& counts) { return counts.received > kPatience; });
   }
 
   std::vector<Entry> waiting_;  // sorted; short: what comes in max_lateness
   std::vector<TimeOrderedQueueCounts> counts_;
-  std::size_t optional_ = 0;
+  std::size_t optional_ = 0, following_ = 0;
   std::vector<std::optional<StampNs>> reached_;
   std::optional<StampNs> newest_;
   std::optional<Place> handed_on_;
