@@ -21,7 +21,7 @@ std::vector<SpecificForce> forcesAt(const std::vector<urban_nav_core::StampNs>& 
 enum class LevelTrouble {
   None,
   NoForces,    ///< no specific force was measured at any pose
-  TooShort,    ///< less than three spans of 2 s without a gap
+  TooShort,    ///< less than five spans of 0.25 s without a gap
   NotGravity,  ///< the specific force has not the size of gravity: other units, or an IMU that takes gravity off
 };
 const char* toString(LevelTrouble trouble);
@@ -46,7 +46,8 @@ struct Level {
 /// Which way is up, from all forces of a drive: turned into the axes of the first pose by the trajectory's rotations,
 /// less the change of velocity that the trajectory shows, they are gravity and what is wrong with the accelerometer.
 /// The latter turns with the robot, so the two are separable where it has turned; where it has not, the covariance
-/// says so (linear least squares in both, over spans of 2 s, reweighted as Huber 1964 has it; scatter as found). The
+/// says so (linear least squares in both, over spans of 2 s, or shorter ones of a session of a few seconds, reweighted
+/// as Huber 1964 has it; scatter as found). The
 /// trajectory's rotations are taken as exact: see withRotations.
 ///
 /// Each force's stamp must be that of a pose to count. The origin of the accelerometer's frame is taken to be

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gravity/gravity_fit.hpp"
 #include "gravity/level_axes.hpp"
+#include "gravity/spans.hpp"
 
 namespace pose_graph {
 
@@ -16,8 +18,34 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kLeastLevelSpans = 3;
+// Of a session that is too short for three spans of 2 s: the longest of these of which there are enough.
+constexpr double kShortSpans[] = {1.0, 0.5, 0.25};  // s
+constexpr std::size_t kLeastShortSpans = 5;
 // Gravity is 9.78...9.83 on the ground; a scale of 2 % and that fault are allowed for.
 constexpr double kLeastGravity = 9.4, kMostGravity = 10.2;
+
+struct LevelSpans {
+  std::vector<Span> spans;  ///< empty: too few
+  bool are_short = false;
+};
+
+LevelSpans chooseSpans(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                       const urban_nav_core::Pose& T_world_first) {
+  std::vector<Span> spans = makeSpans(trajectory, forces, T_world_first);
+  if (spans.size() >= kLeastLevelSpans) return {std::move(spans), false};
+  for (const double seconds : kShortSpans) {
+    spans = makeSpans(trajectory, forces, T_world_first, seconds);
+    if (spans.size() >= kLeastShortSpans) return {std::move(spans), true};
+  }
+  return {};
+}
+
+/// Returns the factor by which the covariance grows, since few residuals state their own scatter: all over those that
+/// are left after three numbers were fitted, times the variance of Student's t with as many degrees of freedom.
+double fewSpansFactor(std::size_t spans) {
+  const double residuals = 3.0 * static_cast<double>(spans);
+  return residuals / (residuals - 5.0);
+}
 
 }  // namespace
 
@@ -39,9 +67,8 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForc
                     const urban_nav_core::Pose& T_world_first) {
   if (forces.empty() || trajectory.empty())
     return unknownLevel(LevelTrouble::NoForces, "no accelerometer was recorded");
-  const std::vector<Span> spans = makeSpans(trajectory, forces, T_world_first);
-  if (spans.size() < kLeastLevelSpans)
-    return unknownLevel(LevelTrouble::TooShort, "the accelerometer was recorded for too short a time");
+  const auto [spans, are_short] = chooseSpans(trajectory, forces, T_world_first);
+  if (spans.empty()) return unknownLevel(LevelTrouble::TooShort, "the accelerometer was recorded for too short a time");
   const std::optional<GravityFit> fit = fitGravity(spans);
   const double gravity = fit ? fit->gravity().norm() : 0.0;
   if (!(gravity > kLeastGravity && gravity < kMostGravity))
@@ -52,6 +79,7 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForc
   level.up = fit->gravity() / gravity;
   const Matrix3d across = Matrix3d::Identity() - level.up * level.up.transpose();
   level.covariance = across * fit->covariance.topLeftCorner<3, 3>() * across / (gravity * gravity);
+  if (are_short) level.covariance *= fewSpansFactor(spans.size());
   level.sigma = largestSigma(level.covariance);
   level.R_map_first = levelAxes(level.up);
   return level;

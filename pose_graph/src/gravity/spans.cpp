@@ -16,9 +16,9 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kSpan = 2.0, kLongestGap = 0.3;  // s
-constexpr StampNs kReach = 100'000'000;           // ns around a stamp
-constexpr double kMost = 1000.0;                  // m/s2: a hundred times gravity is no drive
+constexpr double kLongestGap = 0.3;      // s
+constexpr StampNs kReach = 100'000'000;  // ns around a stamp
+constexpr double kMost = 1000.0;         // m/s2: a hundred times gravity is no drive
 
 bool isUsable(const SpecificForce& sample) { return sample.force.allFinite() && sample.force.norm() < kMost; }
 
@@ -90,14 +90,14 @@ std::vector<SpecificForce> forcesAt(const std::vector<StampNs>& stamps, std::vec
 }
 
 std::vector<Span> makeSpans(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-                            const Pose& T_world_first) {
+                            const Pose& T_world_first, double seconds) {
   const std::vector<SpanPlace> places = collectPlaces(trajectory, forces, T_world_first.inverse());
   std::vector<Span> spans;
   std::size_t first = 0;
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (secondsBetween(places[i - 1].stamp, places[i].stamp) > kLongestGap || places[i].stamp <= places[i - 1].stamp) {
       first = i;
-    } else if (secondsBetween(places[first].stamp, places[i].stamp) >= kSpan) {
+    } else if (secondsBetween(places[first].stamp, places[i].stamp) >= seconds) {
       spans.push_back(makeSpan(places, first, i));
       first = i;
     }

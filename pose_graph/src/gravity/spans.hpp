@@ -19,9 +19,11 @@ struct Span {
   Eigen::Matrix3d lever = Eigen::Matrix3d::Zero();
 };
 
-/// One after another, each of 2 s or a little more; none where forces are more than 0.3 s apart. Two that follow each
-/// other share the velocity between them, so its error takes itself away in their sum.
+constexpr double kUsualSpan = 2.0;  ///< s
+
+/// One after another, each of `seconds` or a little more; none where forces are more than 0.3 s apart. Two that follow
+/// each other share the velocity between them, so its error takes itself away in their sum.
 std::vector<Span> makeSpans(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-                            const urban_nav_core::Pose& T_world_first);
+                            const urban_nav_core::Pose& T_world_first, double seconds = kUsualSpan);
 
 }  // namespace pose_graph

@@ -115,6 +115,29 @@ TEST(Level, ItsCovarianceIsRight) {
   EXPECT_TRUE(urban_nav_core::testing::meanChiSquareFits(sum / kDrives, 2, 30));
 }
 
+TEST(Level, AFewSecondsShowWhichWayIsUp) {
+  Dice dice(11);
+  for (const int frames : {40, 60, 100}) {
+    double sum = 0.0;
+    constexpr int kDrives = 200;
+    for (int i = 0; i < kDrives; ++i) {
+      Drive drive;
+      drive.frames = frames;
+      drive.noise = 0.1;
+      drive.fault = 9.81 * 0.01745 * dice.normals<3>();
+      drive.fault.z() *= 0.1;
+      const Level level = drive.level(dice);
+      ASSERT_TRUE(level.known()) << level.sentence;
+      EXPECT_LT(degreesBetween(level.up, drive.trueUp()), 6.0);
+      const Eigen::Vector2d error = (level.R_map_first * (level.up - drive.trueUp())).head<2>();
+      const Eigen::Matrix2d covariance =
+          (level.R_map_first * level.covariance * level.R_map_first.transpose()).topLeftCorner<2, 2>();
+      sum += error.dot(covariance.inverse() * error);
+    }
+    EXPECT_TRUE(urban_nav_core::testing::meanChiSquareFits(sum / kDrives, 2, 30)) << frames;
+  }
+}
+
 TEST(Level, RotationsThatAreNotExactAddToItsCovariance) {
   Dice dice(1);
   const Level level = Drive().level(dice);
@@ -148,7 +171,7 @@ TEST(Level, SaysWhyItIsNotKnown) {
   EXPECT_EQ(level.trouble, LevelTrouble::NotGravity) << "in units of g";
   EXPECT_FALSE(level.sentence.empty());
   EXPECT_TRUE(level.R_map_first.isIdentity());
-  drive.frames = 100;
+  drive.frames = 25;
   EXPECT_EQ(drive.level(dice).trouble, LevelTrouble::TooShort);
   for (const LevelTrouble trouble :
        {LevelTrouble::None, LevelTrouble::NoForces, LevelTrouble::TooShort, LevelTrouble::NotGravity})
