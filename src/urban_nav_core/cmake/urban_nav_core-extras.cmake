@@ -66,6 +66,12 @@ function(urban_nav_precompile target)
   endif()
 endfunction()
 
+# urban_nav_quick(TARGET): a target of tests is compiled with -O1, a fifth quicker than with -O2: what takes time in a test is compiled in
+# the library that it tests. With -O1 GCC sees uninitialised values in std::optional where there are none.
+function(urban_nav_quick target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O1> -Wno-maybe-uninitialized)
+endfunction()
+
 # urban_nav_unite(TARGET): a target of tests is compiled in batches where URBAN_NAV_UNITY_TESTS says so. What is installed has each of its
 # sources compiled alone, with all warnings.
 function(urban_nav_unite target)
@@ -202,6 +208,7 @@ function(urban_nav_gtest target type)
   endif()
   add_dependencies(tests ${target})
   urban_nav_pass_ros(${target})
+  urban_nav_quick(${target})
   urban_nav_unite(${target})
   urban_nav_precompile(${target} <gtest/gtest.h>)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/test)
@@ -291,6 +298,7 @@ function(urban_nav_nodelet)
   file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.cpp)
   add_rostest_gtest(${PROJECT_NAME}-rostest test/ros/nodelet.test ${test_sources})
   urban_nav_target(${PROJECT_NAME}-rostest ROS)
+  urban_nav_quick(${PROJECT_NAME}-rostest)
   urban_nav_unite(${PROJECT_NAME}-rostest)
   urban_nav_precompile(${PROJECT_NAME}-rostest <gtest/gtest.h>)
   target_include_directories(${PROJECT_NAME}-rostest PRIVATE ${PROJECT_SOURCE_DIR}/nodelet)
