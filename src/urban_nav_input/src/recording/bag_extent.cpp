@@ -59,8 +59,7 @@ bool useImages(Recording& bag, BagExtent& extent, const SpanOf& span_of) {
 BagExtent computeExtent(const std::string& path) {
   Recording bag(path);
   const MessageSelection all = bag.select(std::nullopt);
-  if (all.size() == 0)
-    throw DataError(path, "holds no messages" + std::string(bag.kind() == "db3" ? " (a .db3 of rosbag2)" : ""), "");
+  if (all.size() == 0) throw DataError(path, "holds no messages (" + bag.description() + ")", "");
   BagExtent extent;
   extent.path = path;
   extent.receipts = {all.first(), all.last()};

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "recording/bag_contents.hpp"
-#include "urban_nav_input/recording/connection_definition.hpp"
 #include "recording/recording_file.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 
 namespace urban_nav_input {
 
@@ -31,6 +31,8 @@ Recording::Recording(Recording&& other) noexcept = default;
 Recording::~Recording() = default;
 
 std::string Recording::kind() const { return files_.front()->storage().kind(); }
+
+std::string Recording::description() const { return files_.front()->storage().description(); }
 
 std::map<std::string, std::string> Recording::topicTypes() const {
   std::map<std::string, std::string> types;

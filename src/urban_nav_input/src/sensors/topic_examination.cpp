@@ -43,11 +43,16 @@ std::vector<Finding> topicFindings(const std::map<std::string, std::string>& ava
       break;
     }
   }
+  const auto isChosen = [&chosen](const std::string& topic) {
+    return std::any_of(chosen.chosen.begin(), chosen.chosen.end(),
+                       [&](const auto& entry) { return entry.second.name == topic; });
+  };
   const bool has_scan = std::any_of(available.begin(), available.end(),
                                     [](const auto& entry) { return entry.second == "sensor_msgs/LaserScan"; });
   if (has_scan || chosen.find(Role::Points0)) return findings;
   for (const auto& [topic, type] : available) {
     if (!isCloudType(type)) continue;
+    if (isChosen(topic)) break;  // of a planar laser
     findings.push_back(unrecognised(topic, type, Role::Points0));
     findings.back().remedy +=
         " for the sweeps of a 3D LiDAR; clouds of a planar laser become scans by rosrun "

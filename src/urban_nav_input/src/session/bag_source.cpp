@@ -16,6 +16,7 @@
 #include "session/bag_sensors.hpp"
 #include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
+#include "session/planar_clouds.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -59,6 +60,7 @@ class BagSource : public Source {
             const ReceiptRange& part)
       : options_(options), part_(part), name_(paths.front()), convention_(options.pairing), recording_(paths) {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
+    planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
       throw DataError(name_, "has no stereo pair of image topics: " + listImageTopics(recording_), "");
@@ -173,6 +175,7 @@ class BagSource : public Source {
     for (const std::string& given : options_.transforms) info_.notes.push_back("--transform " + given);
     sensors_.add(readerFindings(transforms.faults()));
     sensors_.add(topicFindings(recording_.topicTypes(), topics_));
+    sensors_.add(planar_clouds_.findings());
     if (info_.has_images) placeCamera(transforms);
     if (options_.with_sweeps)
       sweeps_in_bag_ = BagSweeps(recording_, topics_, transforms, options_.points, part_, info_.has_images);
@@ -190,7 +193,7 @@ class BagSource : public Source {
                             " are taken to be those of base_link for its gyroscope, and its accelerometer is not used");
     for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
-      const auto scan = topic ? recording_.first<sensor_msgs::LaserScan>(topic->name) : nullptr;
+      const auto scan = topic ? planar_clouds_.first(recording_, topic->name) : nullptr;
       if (!scan) continue;
       if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
@@ -261,7 +264,9 @@ class BagSource : public Source {
     used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
     const std::vector<std::string> lidars = sweeps_in_bag_.topics();
     for (const auto& [role, topic] : topics_.chosen)
-      if (!isCloudType(topic.type) || std::count(lidars.begin(), lidars.end(), topic.name) > 0) used.insert(topic.name);
+      if (!isCloudType(topic.type) || planar_clouds_.has(topic.name) ||
+          std::count(lidars.begin(), lidars.end(), topic.name) > 0)
+        used.insert(topic.name);
     const auto leave = [&](Role role, bool is_of_use) {  // it is examined all the same
       if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
     };
@@ -379,7 +384,7 @@ class BagSource : public Source {
     } else if (const auto imu = instance.as<sensor_msgs::Imu>()) {
       if (!sensors_.add(*imu, topic, instance.receipt())) return;
       if (const auto motion = gyroscope_->add(*imu); motion && motion_.gyroscope) feed_->add(*motion);
-    } else if (const auto scan = instance.as<sensor_msgs::LaserScan>()) {
+    } else if (const auto scan = planar_clouds_.read(instance)) {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
       sensors_.add(*fix, topic, instance.receipt());
@@ -421,6 +426,7 @@ class BagSource : public Source {
   PairingConvention convention_;
   Recording recording_;
   BagTopics topics_;
+  PlanarClouds planar_clouds_;
   SourceInfo info_;
   std::string camera_frame_;
   std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration_;

@@ -49,6 +49,8 @@ class Recording {
   const std::vector<std::string>& paths() const { return paths_; }
   /// Returns the kind of storage of the first file: "bag", "mcap".
   std::string kind() const;
+  /// Returns what the first file is, for messages: "a ROS 1 bag", "MCAP of ROS 2".
+  std::string description() const;
   /// Returns the type of every topic, "sensor_msgs/Image", by name.
   std::map<std::string, std::string> topicTypes() const;
   /// Returns the connections of all files, in their order.

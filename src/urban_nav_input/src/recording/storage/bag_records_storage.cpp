@@ -25,6 +25,7 @@ class BagRecordsStorage : public Storage {
   }
 
   const char* kind() const override { return "bag"; }
+  std::string description() const override { return "a ROS 1 bag"; }
   const std::vector<Connection>& connections() const override { return scan_.connections; }
   const std::vector<MessageEntry>& index(std::size_t connection) override { return scan_.entries[connection]; }
 

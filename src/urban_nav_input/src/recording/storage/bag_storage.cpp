@@ -50,6 +50,7 @@ class BagStorage : public Storage {
   }
 
   const char* kind() const override { return "bag"; }
+  std::string description() const override { return "a ROS 1 bag"; }
   const std::vector<Connection>& connections() const override { return connections_; }
 
   const std::vector<MessageEntry>& index(std::size_t connection) override {

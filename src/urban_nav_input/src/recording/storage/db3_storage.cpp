@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "urban_nav_input/recording/message_definition.hpp"
 #include "recording/storage/packed_message.hpp"
 #include "recording/storage/sqlite_file.hpp"
 #include "recording/storage/storage.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/recording/message_definition.hpp"
 
 namespace urban_nav_input {
 
@@ -46,6 +46,7 @@ class Db3Storage : public Storage {
   }
 
   const char* kind() const override { return "db3"; }
+  std::string description() const override { return "a .db3 of rosbag2"; }
   const std::vector<Connection>& connections() const override { return connections_; }
   const std::vector<MessageEntry>& index(std::size_t connection) override { return indexes_[connection]; }
 

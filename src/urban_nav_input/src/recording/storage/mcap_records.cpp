@@ -38,6 +38,13 @@ std::optional<Record> RecordWalk::cutRecord() const {
   return Record{static_cast<Op>(head[0]), at_, {head + kRecordHead, bytes_.size - at_ - kRecordHead}};
 }
 
+std::string parseProfile(const Record& header) {
+  if (header.op != Op::Header) return {};
+  ByteReader reader(header.content);
+  std::string profile = reader.text();
+  return reader.isGood() ? profile : std::string();
+}
+
 std::optional<Schema> parseSchema(ByteView content) {
   ByteReader reader(content);
   Schema schema;

@@ -58,6 +58,9 @@ class RecordWalk {
   std::uint64_t at_;
 };
 
+/// Returns the profile that a header states, "ros1" or "ros2" as a rule; empty: none, or another kind of record.
+std::string parseProfile(const Record& header);
+
 struct Schema {
   std::uint16_t id = 0;
   std::string name, encoding, text;

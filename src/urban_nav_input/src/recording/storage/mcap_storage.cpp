@@ -24,6 +24,12 @@ class McapStorage : public Storage {
   }
 
   const char* kind() const override { return "mcap"; }
+  std::string description() const override {
+    const std::optional<mcap::Record> header = mcap::RecordWalk(file_.bytes(), mcap::kMagic.size()).next();
+    const std::string profile = header ? mcap::parseProfile(*header) : "";
+    if (profile == "ros1" || profile == "ros2") return "MCAP of ROS " + profile.substr(3);
+    return profile.empty() ? "MCAP" : "MCAP of profile " + profile;
+  }
   const std::vector<Connection>& connections() const override { return connections_; }
 
   const std::vector<MessageEntry>& index(std::size_t connection) override {

@@ -43,6 +43,7 @@ class Rosbag2Folder : public Storage {
   }
 
   const char* kind() const override { return "rosbag2"; }
+  std::string description() const override { return "a folder of rosbag2"; }
   const std::vector<Connection>& connections() const override { return connections_; }
 
   const std::vector<MessageEntry>& index(std::size_t connection) override {

@@ -25,6 +25,8 @@ class Storage {
 
   /// Returns the kind of storage: "bag", "mcap", "db3", "rosbag2".
   virtual const char* kind() const = 0;
+  /// Returns what the file is, for messages: "a ROS 1 bag", "MCAP, profile ros1".
+  virtual std::string description() const { return kind(); }
   /// Returns the connections in the order of the file.
   virtual const std::vector<Connection>& connections() const = 0;
   /// Returns the messages of a connection by receipt, those of equal receipt as they lie in the file.

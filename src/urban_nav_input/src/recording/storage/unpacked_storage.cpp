@@ -22,6 +22,7 @@ class UnpackedStorage : public Storage {
   }
 
   const char* kind() const override { return storage_->kind(); }
+  std::string description() const override { return storage_->description(); }
   const std::vector<Connection>& connections() const override { return storage_->connections(); }
   const std::vector<MessageEntry>& index(std::size_t connection) override { return storage_->index(connection); }
   ByteView read(std::size_t connection, const MessageEntry& entry) override {

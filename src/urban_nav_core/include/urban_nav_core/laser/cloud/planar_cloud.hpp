@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/laser/cloud/cloud_view.hpp"
+#include "urban_nav_core/laser/scan.hpp"
+
+namespace urban_nav_core {
+
+/// How the clouds of a planar laser are read, whose driver publishes points in place of ranges.
+struct PlanarPattern {
+  double angle_step = 0.0;    ///< rad from beam to beam, positive
+  bool is_clockwise = false;  ///< the laser measures from larger to smaller angles
+  std::string time_field;     ///< of the times of points, relative to the header; empty: none
+  double time_scale = 1.0;    ///< s per unit of it
+};
+
+/// Finds out whether clouds are those of a planar laser: all points lie in the x-y plane of their frame, at angles that
+/// are multiples of one step apart. Not thread-safe.
+class PlanarCloudSurvey {
+ public:
+  static constexpr std::size_t kEnough = 8;  ///< clouds with points
+
+  /// Adds a cloud. One with hardly a point counts for nothing.
+  void add(const CloudView& cloud);
+  bool isComplete() const { return clouds_ >= kEnough || is_spatial_; }
+  /// Returns how the clouds are read; nullopt if one is not planar, or there was none.
+  std::optional<PlanarPattern> conclude() const;
+
+ private:
+  std::size_t clouds_ = 0, clockwise_ = 0;
+  bool is_spatial_ = false;
+  std::vector<double> steps_;  // rad, of each cloud
+  std::string time_field_;
+  std::vector<double> time_spans_;  // of each cloud, in units of the field
+};
+
+/// Returns the scan of a cloud; nullopt if it has no point that can be used. A direction without a point has the range
+/// 0, which is no measurement; of several points in one direction the first counts. Limits of the ranges are those of
+/// any laser. `period`: unknown, 0.
+std::optional<PlanarScan> toPlanarScan(const CloudView& cloud, const PlanarPattern& pattern);
+
+}  // namespace urban_nav_core

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/LaserScan.h>
+
+#include <boost/shared_ptr.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "session/bag_sweeps.hpp"
+#include "urban_nav_core/laser/cloud/planar_cloud.hpp"
+#include "urban_nav_input/examination/finding.hpp"
+#include "urban_nav_input/recording/bag_topics.hpp"
+
+namespace urban_nav_input {
+
+/// Planar lasers whose drivers publish clouds in place of scans: their clouds are read as scans. Not thread-safe.
+class PlanarClouds {
+ public:
+  PlanarClouds() = default;
+  /// Finds them among the topics of 3D LiDARs, and gives each the role of a laser: the right one to a topic whose name
+  /// has "right" in it, if it is free, else one that is free. Those that `wishes` name stay what they are. The 3D
+  /// LiDARs that remain keep their order.
+  PlanarClouds(Recording& recording, const ReceiptRange& part, const std::vector<std::string>& wishes,
+               BagTopics& topics);
+
+  bool has(const std::string& topic) const { return patterns_.count(topic) > 0; }
+  /// Returns the first message of a laser, a scan or a cloud that is read as one; null if there is none.
+  boost::shared_ptr<sensor_msgs::LaserScan> first(Recording& recording, const std::string& topic);
+  /// Returns the scan in a message of a laser; null if there is none.
+  boost::shared_ptr<sensor_msgs::LaserScan> read(const RecordedMessage& message);
+  const std::vector<Finding>& findings() const { return findings_; }
+
+ private:
+  std::map<std::string, urban_nav_core::PlanarPattern> patterns_;  // by topic
+  std::vector<Finding> findings_;
+  CloudMessages messages_;
+};
+
+}  // namespace urban_nav_input
