@@ -63,7 +63,8 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   node.setQueueSize(nodelet_.queue_size);
   publisher_ = std::make_unique<Publisher>(node);
   stereo_ = std::make_unique<LiveStereo>(parameters_);
-  accelerometer_ = std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame);
+  accelerometer_ =
+      std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame, node.sensors().corrections().accelerometer);
   sessions_ = std::make_unique<StereoSessions>(
       urban_nav_ros::toStereoOptions(nodelet_, node.nh()),
       StereoSessions::Listener{[this](const auto& camera) { begin(camera); }, [this](auto& pair) { process(pair); },  //

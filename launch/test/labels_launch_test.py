@@ -28,6 +28,20 @@ class LabelsLaunch(LaunchCase):
         return any(item.key == key and item.value.startswith(value)
                    for array in list(self.listener.diagnostics) for status in array.status for item in status.values)
 
+    def test_a_laser_in_other_units_is_named_with_its_repair(self):
+        """By the file of `input` ranges are kilometres, which makes the laser one in millimetres."""
+        conventions = Path(self.folder) / "input.yaml"
+        conventions.write_text("laser_left_range_scale: 1000\n")
+        self.addCleanup(rospy.delete_param, "/input")
+        self.launch("bag.launch", bag=self.bag, input=conventions, rviz="false", loops="false", dense="false", graph="false")
+        self.expect(lambda: any("laser_left/scan is not used" in text and "set input/laser_left_range_scale to 1 " in text for text in self.messages("laser_mapper")),
+                    lambda: str(self.messages("laser_mapper")[-3:]))
+        self.assertFalse(any("laser_right/scan is not used" in text for text in self.messages("laser_mapper")))
+
+    def messages(self, name):
+        """What a stage has reported in /diagnostics."""
+        return [status.message for array in list(self.listener.diagnostics) for status in array.status if name in status.name]
+
     def test_labels_come_and_are_corrected_by_a_click(self):
         clouds, images = [], []
         subscribers = [rospy.Subscriber("/labels/cloud", PointCloud2, clouds.append, queue_size=1000),

@@ -105,7 +105,8 @@ PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size, kDrain);
   publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_);
-  accelerometer_ = std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame);
+  accelerometer_ =
+      std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame, node.sensors().corrections().accelerometer);
   ground_ = std::make_unique<urban_nav_ros::GroundNormals>(nodelet_.base_frame);
   if (parameters.gps) fixes_ = std::make_unique<urban_nav_ros::GpsFixes>(nodelet_.base_frame);
   worker_ = std::make_unique<GraphWorker>(

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "urban_nav_ros/sensor_corrections.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/topics.hpp"
 
@@ -64,13 +65,19 @@ std::int64_t Accelerometer::withheld() const {
 }
 
 void Accelerometer::addTo(urban_nav_live::StageReport& report) const {
-  const std::string fault = verdict().sentence();
+  const urban_nav_core::AccelerometerVerdict now = verdict();
+  const std::string fault = now.sentence();
+  const std::vector<CorrectionSetting> settings = settingsFor(now, convention_);
   report.add("accelerometer", fault.empty() ? "sound or absent" : fault);
   report.add("specific forces not used", withheld());
   const std::lock_guard<std::mutex> lock(mutex_);
   report.fault_counts.push_back({std::string("measurements on ") + topics::kImu + " were not finite", not_finite_,
                                  samples_, "check the inertial unit and its driver"});
-  if (!fault.empty()) report.warn(std::string(topics::kImu) + " is not used: " + fault);
+  if (fault.empty()) return;
+  std::string sentence = std::string(topics::kImu) + " is not used: " + fault;
+  for (const CorrectionSetting& setting : settings)
+    sentence += "; repair the driver, or set input/" + setting.name + " to " + setting.value + " and start again";
+  report.warn(sentence);
 }
 
 }  // namespace urban_nav_ros

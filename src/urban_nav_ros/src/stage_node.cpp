@@ -23,6 +23,7 @@ constexpr std::chrono::seconds kWarningPeriod{5};
 StageNode::StageNode(Handles handles, const std::string& stage, const std::string& topic)
     : handles_(std::move(handles)),
       stage_(stage),
+      sensors_(handles_.nh),
       status_publisher_(handles_.nh.advertise<urban_nav_msgs::StageStatus>(stage + "/status", 10, true)),
       updater_(handles_.nh, handles_.private_nh, handles_.name) {
   updater_.setHardwareID("none");
@@ -61,7 +62,9 @@ void StageNode::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const 
   rates_.add(faults);
   const auto [rate_level, rate_sentence] = rates_.summary();
   const urban_nav_live::TopicMonitor::Fault topics = monitor_.worstFault();
-  auto [level, summary] = urban_nav_live::summarise(report_, gate_.isPaused(), topics.sentence, topics.level);
+  urban_nav_live::StageReport report = report_;
+  for (const std::string& fault : sensors_.faults()) report.warn(fault);
+  auto [level, summary] = urban_nav_live::summarise(report, gate_.isPaused(), topics.sentence, topics.level);
   if (!rate_sentence.empty() && !gate_.isPaused()) {
     level = std::max(level, rate_level);
     summary += "; " + rate_sentence;

@@ -9,7 +9,7 @@ namespace urban_nav {
 void storeFixes(MapContext& context, std::size_t session) {
   const urban_nav_input::BagFixes fixes =
       urban_nav_input::readBagFixes(context.sessions[session].input.paths, context.options.source.topics,
-                                    context.options.source.transforms, context.options.source.gps_delay);
+                                    context.options.source.transforms, context.options.source.sensors.gps_delay);
   std::vector<urban_nav_core::PositionFix> placed;
   for (const urban_nav_core::GpsReading& reading : fixes.readings) placed.push_back({reading, fixes.p_base});
   urban_nav_store::writeFixes(*context.store, context.sessions[session].id, placed);

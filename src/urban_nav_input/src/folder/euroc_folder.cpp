@@ -40,7 +40,7 @@ class EurocFolder : public Source {
     if (options.motion_input == "wheels")
       throw urban_nav_core::DataError(mav0_, "has no wheel odometry for input.motion_input = wheels", "");
     readMotion(options);
-    readForces(options.accelerometer);
+    readForces(options.sensors.accelerometer);
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
     if (std::string sentence = describeUnusedFiles(mav0_, {"cam0", "cam1", "imu0", "state_groundtruth_estimate0"});

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/sensors/accelerometer_finding.hpp"
 
-#include "urban_nav_core/inertial/axis_map.hpp"
-#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_ros/sensor_corrections.hpp"
 
 namespace urban_nav_input {
 
@@ -10,30 +9,13 @@ using urban_nav_core::AccelerometerConvention;
 using urban_nav_core::AccelerometerFault;
 using urban_nav_core::AccelerometerVerdict;
 
-namespace {
-
-/// Returns the arguments that state a convention, those of its parts that differ from `present` alone.
-std::vector<std::string> toOptions(const AccelerometerConvention& convention, const AccelerometerConvention& present) {
-  std::vector<std::string> options;
-  if (convention.axes != present.axes) {
-    options.emplace_back("--set");
-    options.push_back("input.accelerometer_axes=" + urban_nav_core::printAxisMap(convention.axes));
-  }
-  if (convention.scale != present.scale) {
-    options.emplace_back("--set");
-    options.push_back("input.accelerometer_scale=" + urban_nav_core::printNumber(convention.scale));
-  }
-  return options;
-}
-
-}  // namespace
-
 std::vector<Finding> accelerometerFindings(const std::string& topic, const AccelerometerVerdict& verdict,
                                            const AccelerometerConvention& present) {
   if (verdict.sound()) return {};
   Finding finding{FindingKind::Imu, topic + ": " + verdict.sentence() + "; the accelerometer is not used", ""};
   if (verdict.repair) {
-    finding.options = toOptions({verdict.repair->axes * present.axes, verdict.repair->scale * present.scale}, present);
+    for (const urban_nav_ros::CorrectionSetting& setting : urban_nav_ros::settingsFor(verdict, present))
+      finding.options.insert(finding.options.end(), {"--set", "input." + setting.name + "=" + setting.value});
     for (std::size_t i = 0; i < finding.options.size(); ++i) finding.remedy += (i > 0 ? " " : "") + finding.options[i];
     finding.remedy +=
         "; for later recordings let the driver state specific force in m/s2 in the axes of its frame, "

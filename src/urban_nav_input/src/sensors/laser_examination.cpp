@@ -8,6 +8,7 @@
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/sensor_corrections.hpp"
 
 namespace urban_nav_input {
 
@@ -92,37 +93,16 @@ std::string LaserExamination::share(std::int64_t count) const {
   return std::to_string(count) + " of " + std::to_string(scans_) + " scans";
 }
 
-namespace {
-
-/// Returns the likely cause of a median range in unknown units; `repair`: m per unit, 1 if none fits.
-std::string unitCause(double median, double repair) {
-  if (repair == 0.001) return ": the ranges are in millimetres";
-  if (repair != 0.01) return ", farther than any planar laser measures";
-  return ": the ranges are in centimetres (in millimetres the median would be " + formatNumber(0.001 * median, 3) +
-         " m)";
-}
-
-}  // namespace
-
 Finding LaserExamination::unitFinding() const {
-  Finding finding{FindingKind::Lasers, "", ""};
-  const bool is_angle = unit_fault_ == static_cast<std::int64_t>(ScanFault::AngleUnit);
-  const double present = is_angle ? convention_.angle_scale : convention_.range_scale;
-  if (is_angle)
-    finding.text = topic_ + ": the beams of " + share(unit_scans_) + " span " + formatNumber(unit_value_, 4) +
-                   " rad, more than a turn (2 pi)" + (unit_repair_ != 1.0 ? ": the angles are in degrees" : "");
-  else
-    finding.text = topic_ + ": the median range of " + share(unit_scans_) + " is " + formatNumber(unit_value_, 4) +
-                   " m" + unitCause(unit_value_, unit_repair_);
-  finding.text += "; these scans are not used";
-  if (unit_repair_ == 1.0) {
-    finding.remedy = "check the driver of this laser";
-    return finding;
+  const urban_nav_core::ScanVerdict verdict{static_cast<ScanFault>(unit_fault_), unit_value_, unit_repair_};
+  Finding finding{FindingKind::Lasers,
+                  topic_ + ": " + share(unit_scans_) + " are not used: " + urban_nav_ros::describeUnits(verdict),
+                  "check the driver of this laser"};
+  for (const auto& setting : urban_nav_ros::settingsFor(verdict, role_, convention_)) {
+    finding.options = {"--set", "input." + setting.name + "=" + setting.value};
+    finding.remedy = finding.options[0] + " " + finding.options[1] + "; for later recordings let the driver publish " +
+                     (verdict.fault == ScanFault::AngleUnit ? "radians" : "metres");
   }
-  finding.options = {"--set", "input." + role_ + (is_angle ? "_angle_scale=" : "_range_scale=") +
-                                  urban_nav_core::printNumber(unit_repair_ * present)};
-  finding.remedy = finding.options[0] + " " + finding.options[1] + "; for later recordings let the driver publish " +
-                   (is_angle ? "radians" : "metres");
   return finding;
 }
 

@@ -151,7 +151,7 @@ MotionExamination::Ratios MotionExamination::compare(const std::vector<SeenMotio
 }
 
 std::optional<Finding> MotionExamination::distanceFinding(const Ratios& ratios, const std::string& wheels,
-                                                          const MotionConvention& present) const {
+                                                          const urban_nav_ros::SensorCorrections& present) const {
   const auto ratio = findRatio(ratios.distances, kLeastDistance);
   if (ratio && ratio->value != 0.0 && !isOne(ratio->value))
     return scaleFinding(FindingKind::Wheels,
@@ -170,7 +170,8 @@ std::optional<Finding> MotionExamination::distanceFinding(const Ratios& ratios, 
 }
 
 std::optional<Finding> MotionExamination::turnFinding(const Ratios& ratios, bool are_wheels_sound,
-                                                      const std::string& imu, const MotionConvention& present) {
+                                                      const std::string& imu,
+                                                      const urban_nav_ros::SensorCorrections& present) {
   auto turn = findRatio(ratios.gyroscope_turns, kLeastTurn);
   const bool by_stereo = turn.has_value();
   if (!turn && are_wheels_sound) turn = findRatio(ratios.gyroscope_wheels, 5.0 * kLeastTurn);
@@ -190,7 +191,8 @@ std::optional<Finding> MotionExamination::turnFinding(const Ratios& ratios, bool
 }
 
 std::vector<Finding> MotionExamination::findings(const std::vector<SeenMotion>& seen, const std::string& wheels,
-                                                 const std::string& imu, const MotionConvention& present) const {
+                                                 const std::string& imu,
+                                                 const urban_nav_ros::SensorCorrections& present) const {
   const Ratios ratios = compare(seen);
   std::vector<Finding> findings;
   if (auto finding = distanceFinding(ratios, wheels, present)) findings.push_back(std::move(*finding));

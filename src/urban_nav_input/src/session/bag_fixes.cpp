@@ -30,7 +30,7 @@ void placeAntenna(Recording& recording, const std::vector<std::string>& given, c
 }  // namespace
 
 BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<std::string>& topics,
-                      const std::vector<std::string>& transforms, double delay) {
+                      const std::vector<std::string>& transforms, urban_nav_core::StampNs delay) {
   BagFixes fixes;
   if (paths.empty() || inputKind(paths.front()) != InputKind::Bag) return fixes;
   Recording recording(paths);
@@ -45,7 +45,7 @@ BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<s
     frame = message->header.frame_id;
     auto reading = urban_nav_ros::toGpsReading(*message);
     if (!reading) continue;
-    reading->stamp -= static_cast<urban_nav_core::StampNs>(std::llround(1e6 * delay));
+    reading->stamp -= delay;
     if (reading->stamp > 0) fixes.readings.push_back(*reading);
   }
   if (!frame.empty()) placeAntenna(recording, transforms, frame, fixes);

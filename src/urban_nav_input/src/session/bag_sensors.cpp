@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/bag_sensors.hpp"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "urban_nav_input/sensors/accelerometer_finding.hpp"
 #include "urban_nav_input/sensors/ground_finding.hpp"
@@ -13,19 +15,6 @@ using urban_nav_core::SpecificForce;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector3d;
 
-namespace {
-
-/// Takes a delay (ms) from a stamp. Returns false if nothing above zero remains.
-bool takeDelay(double delay, std_msgs::Header& header) {
-  if (delay == 0.0) return true;
-  const StampNs stamp = urban_nav_ros::toStampNs(header.stamp) - static_cast<StampNs>(std::llround(1e6 * delay));
-  if (stamp <= 0) return false;
-  header.stamp = urban_nav_ros::toRosTime(stamp);
-  return true;
-}
-
-}  // namespace
-
 void BagSensors::addLaser(const std::string& topic, const urban_nav_core::Pose& T_base_laser) {
   const std::optional<ChosenTopic> right = topics_.find(Role::LaserRight);
   const bool is_right = right && right->name == topic;
@@ -33,7 +22,7 @@ void BagSensors::addLaser(const std::string& topic, const urban_nav_core::Pose& 
   laser_places_.push_back(T_base_laser);
   laser_grounds_.emplace_back();
   lasers_.emplace_back(toString(is_right ? Role::LaserRight : Role::LaserLeft), topic,
-                       options_.lasers[is_right ? 1 : 0]);
+                       options_.sensors.lasers[is_right ? 1 : 0]);
 }
 
 void BagSensors::addSweep(const std::string& topic, StampNs reference, StampNs receipt) {
@@ -43,13 +32,12 @@ void BagSensors::addSweep(const std::string& topic, StampNs reference, StampNs r
 }
 
 bool BagSensors::add(sensor_msgs::Imu& imu, const std::string& topic, StampNs receipt) {
-  if (!takeDelay(options_.imu_delay, imu.header)) return false;
+  if (!urban_nav_ros::correctStamp(options_.sensors.imu_delay, imu.header)) return false;
   const StampNs stamp = urban_nav_ros::toStampNs(imu.header.stamp);
   clocks_.add(toString(Role::Imu), topic, stamp, receipt);
   auto &force = imu.linear_acceleration, &rate = imu.angular_velocity;
   imu_.add(stamp, {{force.x, force.y, force.z, rate.x, rate.y, rate.z}});
-  const double scale = options_.motion.gyroscope_scale;
-  rate.x *= scale, rate.y *= scale, rate.z *= scale;
+  urban_nav_ros::correctRates(options_.sensors.gyroscope_scale, imu);
   if (R_base_imu_)
     motion_.addGyroscope(stamp, R_base_imu_->row(2).dot(urban_nav_core::Vector3d(rate.x, rate.y, rate.z)));
   if (accelerometer_)
@@ -58,15 +46,14 @@ bool BagSensors::add(sensor_msgs::Imu& imu, const std::string& topic, StampNs re
 }
 
 bool BagSensors::add(nav_msgs::Odometry& wheels, const std::string& topic, StampNs receipt) {
-  if (!takeDelay(options_.wheels_delay, wheels.header)) return false;
+  if (!urban_nav_ros::correctStamp(options_.sensors.wheels_delay, wheels.header)) return false;
   const StampNs stamp = urban_nav_ros::toStampNs(wheels.header.stamp);
   clocks_.add(toString(Role::Wheels), topic, stamp, receipt);
   auto& p = wheels.pose.pose.position;
   const auto& q = wheels.pose.pose.orientation;
   const auto& twist = wheels.twist.twist;
   wheels_.add(stamp, {{p.x, p.y, q.z, q.w, twist.linear.x, twist.angular.z}});
-  const double scale = options_.motion.wheels_scale;
-  p.x *= scale, p.y *= scale, p.z *= scale;
+  urban_nav_ros::correctPositions(options_.sensors.wheels_scale, wheels);
   const double yaw = std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
   motion_.addWheels(stamp, {{p.x, p.y, yaw}}, twist.linear.x);
   return true;
@@ -75,7 +62,7 @@ bool BagSensors::add(nav_msgs::Odometry& wheels, const std::string& topic, Stamp
 void BagSensors::add(const sensor_msgs::NavSatFix& fix, const std::string& topic, StampNs receipt) {
   gps_.add(fix);
   sensor_msgs::NavSatFix corrected = fix;
-  if (takeDelay(options_.gps_delay, corrected.header))
+  if (urban_nav_ros::correctStamp(options_.sensors.gps_delay, corrected.header))
     clocks_.add(toString(Role::Gps), topic, urban_nav_ros::toStampNs(corrected.header.stamp), receipt);
 }
 
@@ -94,11 +81,14 @@ std::vector<SpecificForce> BagSensors::forces() const {
 }
 
 std::optional<double> BagSensors::findDelay(const std::string& role) const {
-  if (role == toString(Role::Imu)) return options_.imu_delay;
-  if (role == toString(Role::Wheels)) return options_.wheels_delay;
-  if (role == toString(Role::Gps)) return options_.gps_delay;
-  if (role == toString(Role::LaserLeft)) return 1e-6 * static_cast<double>(options_.lasers[0].delay);
-  if (role == toString(Role::LaserRight)) return 1e-6 * static_cast<double>(options_.lasers[1].delay);
+  const urban_nav_ros::SensorCorrections& sensors = options_.sensors;
+  const std::array<std::pair<Role, StampNs>, 5> delays = {{{Role::Imu, sensors.imu_delay},
+                                                           {Role::Wheels, sensors.wheels_delay},
+                                                           {Role::Gps, sensors.gps_delay},
+                                                           {Role::LaserLeft, sensors.lasers[0].delay},
+                                                           {Role::LaserRight, sensors.lasers[1].delay}}};
+  for (const auto& [of, delay] : delays)
+    if (role == toString(of)) return 1e-6 * static_cast<double>(delay);
   for (std::size_t i = 0; i < options_.points.delays.size(); ++i)
     if (role == toString(pointsRole(i))) return options_.points.delays[i];
   return std::nullopt;
@@ -110,7 +100,8 @@ std::vector<Finding> BagSensors::findings() const {
     findings.insert(findings.end(), more.begin(), more.end());
   };
   if (accelerometer_)
-    append(accelerometerFindings(topics_.find(Role::Imu)->name, accelerometer_->verdict(), options_.accelerometer));
+    append(accelerometerFindings(topics_.find(Role::Imu)->name, accelerometer_->verdict(),
+                                 options_.sensors.accelerometer));
   for (const LaserExamination& laser : lasers_) append(laser.findings());
   if (const std::optional<ChosenTopic> imu = topics_.find(Role::Imu))
     append(imu_.findings(imu->name, FindingKind::Imu, true));
@@ -129,7 +120,7 @@ std::vector<Finding> BagSensors::sightFindings(const Sight& sight, double stereo
   std::vector<SeenMotion> motions = sight.motions;
   for (SeenMotion& motion : motions)
     motion.T_from_to = urban_nav_core::Pose(motion.T_from_to.q(), stereo_scale * motion.T_from_to.t());
-  std::vector<Finding> findings = motion_.findings(motions, name(Role::Wheels), name(Role::Imu), options_.motion);
+  std::vector<Finding> findings = motion_.findings(motions, name(Role::Wheels), name(Role::Imu), options_.sensors);
   if (!is_camera_placed) return findings;
   std::vector<double> heights;
   for (const SeenGround& ground : sight.grounds)

@@ -34,7 +34,7 @@ class BagSensors {
   void addLaser(const std::string& topic, const urban_nav_core::Pose& T_base_laser);
   void placeImu(const urban_nav_core::Matrix3d& R_base_imu) {
     R_base_imu_ = R_base_imu;
-    accelerometer_.emplace(R_base_imu, options_.accelerometer);
+    accelerometer_.emplace(R_base_imu, options_.sensors.accelerometer);
   }
 
   /// Adds an image; stamp and receipt in ns.

@@ -65,7 +65,7 @@ TEST(BagFixes, AreReadWithTheirUncertaintyAndThePlaceOfTheAntenna) {
 
 TEST(BagFixes, AreMeasuredEarlierByTheDelay) {
   const testing::TemporaryFolder folder;
-  const BagFixes fixes = readBagFixes({bagWithFixes(folder, "/gps/fix")}, {}, {}, 18'000.0);
+  const BagFixes fixes = readBagFixes({bagWithFixes(folder, "/gps/fix")}, {}, {}, 18'000'000'000);
   ASSERT_EQ(fixes.readings.size(), 2U);
   EXPECT_EQ(fixes.readings[0].stamp, 1'225'719'854'000'000'000);
 }

@@ -27,6 +27,7 @@
 #include "urban_nav_live/topic_monitor.hpp"
 #include "urban_nav_live/worker_loop.hpp"
 #include "urban_nav_ros/parameters.hpp"
+#include "urban_nav_ros/sensor_inputs.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_ros {
@@ -51,7 +52,8 @@ class StageNode {
     ros::NodeHandle service_nh;  ///< private, served by several threads: a service that waits delays no message
     std::string name;            ///< of the nodelet
   };
-  /// `stage`: its name, before "/status". `topic`: what the stage makes, the title of its diagnostics.
+  /// `stage`: its name, before "/status". `topic`: what the stage makes, the title of its diagnostics. Throws UserError
+  /// for parameters of SensorInputs.
   StageNode(Handles handles, const std::string& stage, const std::string& topic);
   StageNode(const StageNode&) = delete;
   StageNode& operator=(const StageNode&) = delete;
@@ -61,6 +63,8 @@ class StageNode {
   const std::string& name() const { return handles_.name; }
   urban_nav_live::TopicMonitor& monitor() { return monitor_; }
   urban_nav_live::InputGate& gate() { return gate_; }
+  /// Corrections that apply to what subscribe() delivers, except for that of the accelerometer.
+  const SensorInputs& sensors() const { return sensors_; }
 
   /// Returns the parameters of the nodelet and of its stage from the private namespace. Throws UserError.
   template <typename Own, typename Stage>
@@ -68,7 +72,8 @@ class StageNode {
     return readParameters(handles_.private_nh, own, stage);
   }
 
-  /// Subscribes. `callback`: called with each message that is not dropped by a pause, in a thread of ROS.
+  /// Subscribes. `callback`: called with each message that is not dropped by a pause, corrected by the parameters
+  /// `input/...`, in a thread of ROS.
   template <typename Message>
   void subscribe(const std::string& topic, const TopicOptions& options,
                  const std::function<void(const boost::shared_ptr<const Message>&)>& callback);
@@ -114,6 +119,7 @@ class StageNode {
 
   Handles handles_;
   const std::string stage_;
+  const SensorInputs sensors_;
   urban_nav_live::TopicMonitor monitor_;
   urban_nav_live::InputGate gate_;
   std::vector<ros::Subscriber> subscribers_, awaited_;
@@ -179,7 +185,9 @@ void StageNode::subscribe(const std::string& topic, const TopicOptions& options,
   const std::string name = handles_.nh.resolveName(topic);
   if (options.is_monitored) monitor_.expect(name, options.timeout, options.group);
   const boost::function<void(const boost::shared_ptr<const Message>&)> received =
-      [this, name, callback, is_paused = options.is_paused](const boost::shared_ptr<const Message>& message) {
+      [this, name, topic, callback, is_paused = options.is_paused](const boost::shared_ptr<const Message>& original) {
+        const boost::shared_ptr<const Message> message = sensors_.correct(topic, original);
+        if (!message) return gate_.countInvalid();
         urban_nav_core::StampNs stamp = 0;
         if constexpr (ros::message_traits::HasHeader<Message>::value) stamp = toStampNs(message->header.stamp);
         monitor_.received(name, stamp);

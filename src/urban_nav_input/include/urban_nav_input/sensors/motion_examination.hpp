@@ -11,14 +11,9 @@
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_input/examination/finding.hpp"
 #include "urban_nav_input/sensors/sight.hpp"
+#include "urban_nav_ros/sensor_corrections.hpp"
 
 namespace urban_nav_input {
-
-/// Scales of the messages of a role, as parameters state them.
-struct MotionConvention {
-  double wheels_scale = 1.0;     ///< m per unit of the positions of wheel odometry
-  double gyroscope_scale = 1.0;  ///< rad/s per unit of the rates of the IMU
-};
 
 /// Compares the motion that wheels and a gyroscope state with each other and with the motion that stereo sees: scale
 /// and sign of distances and of turns. What moved too little for a ratio is not assessed. Not thread-safe.
@@ -30,7 +25,7 @@ class MotionExamination {
   void addGyroscope(urban_nav_core::StampNs stamp, double yaw_rate);
   /// `seen`: some motions of the recording, in any order. `wheels`, `imu`: names of the topics.
   std::vector<Finding> findings(const std::vector<SeenMotion>& seen, const std::string& wheels, const std::string& imu,
-                                const MotionConvention& present) const;
+                                const urban_nav_ros::SensorCorrections& present) const;
   void archive(urban_nav_core::Archive& archive) {
     archive(wheel_stamps_, wheels_, speed_stamp_, speed_, by_speed_, gyroscope_stamps_, gyroscope_, last_pose_,
             last_rate_);
@@ -45,9 +40,9 @@ class MotionExamination {
   };
   Ratios compare(const std::vector<SeenMotion>& seen) const;
   std::optional<Finding> distanceFinding(const Ratios& ratios, const std::string& wheels,
-                                         const MotionConvention& present) const;
+                                         const urban_nav_ros::SensorCorrections& present) const;
   static std::optional<Finding> turnFinding(const Ratios& ratios, bool are_wheels_sound, const std::string& imu,
-                                            const MotionConvention& present);
+                                            const urban_nav_ros::SensorCorrections& present);
 
   std::vector<urban_nav_core::StampNs> wheel_stamps_, gyroscope_stamps_;
   std::vector<std::array<double, 2>> wheels_;  // signed distance, m; heading without jumps, rad; both since the start

@@ -17,10 +17,10 @@ struct BagFixes {
 };
 
 /// Reads the fixes of the bags of one session, in the order of the bags. `topics`: wishes, as chooseTopics() takes
-/// them. `transforms`, `delay` (ms): as SourceOptions::transforms and gps_delay. Messages without a fix, or with
+/// them. `transforms`, `delay` (ns): as SourceOptions::transforms and gps_delay. Messages without a fix, or with
 /// numbers that are not finite, are left out (toGpsReading()). Nothing if `paths` are no bags. Throws DataError for a
 /// damaged bag.
 BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<std::string>& topics,
-                      const std::vector<std::string>& transforms = {}, double delay = 0.0);
+                      const std::vector<std::string>& transforms = {}, urban_nav_core::StampNs delay = 0);
 
 }  // namespace urban_nav_input

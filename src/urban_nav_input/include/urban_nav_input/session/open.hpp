@@ -7,14 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "urban_nav_core/inertial/accelerometer_check.hpp"
 #include "urban_nav_core/laser/cloud/point_times.hpp"
-#include "urban_nav_core/laser/scan_check.hpp"
 #include "urban_nav_input/recording/receipt_range.hpp"
-#include "urban_nav_input/sensors/motion_examination.hpp"
 #include "urban_nav_input/sensors/pairing_examination.hpp"
 #include "urban_nav_input/session/sessions.hpp"
 #include "urban_nav_input/session/source.hpp"
+#include "urban_nav_ros/sensor_corrections.hpp"
 
 namespace urban_nav_input {
 
@@ -28,21 +26,17 @@ struct PointsOptions {
 
 /// What the user said about inputs.
 struct SourceOptions {
-  std::vector<std::string> topics;                             ///< ROLE:=NAME, for bags
-  std::string calibration;                                     ///< file for bags and KITTI folders; empty: their own
-  double rate = 0.0;                                           ///< Hz of an image folder without stamps; 0: 10 Hz
-  std::string motion_input = "none";                           ///< as input.motion_input
-  double wheel_noise = 0.0;                                    ///< as input.wheel_noise
-  double gyro_noise = 0.0;                                     ///< as input.gyro_noise
-  PairingConvention pairing = {};                              ///< as input.right_delay and input.pairing_tolerance
-  double baseline_scale = 1.0;                                 ///< as input.baseline_scale
-  std::vector<std::string> read_elsewhere = {};                ///< topics of bags that do not count as unused
-  double imu_delay = 0.0;                                      ///< ms, as input.imu_delay
-  double wheels_delay = 0.0, gps_delay = 0.0;                  ///< ms, as input.wheels_delay and input.gps_delay
-  MotionConvention motion = {};                                ///< as input.wheels_scale and input.gyroscope_scale
-  std::array<urban_nav_core::LaserConvention, 2> lasers = {};  ///< left, right: as input.laser_left_delay and so on
-  std::vector<std::string> transforms = {};  ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, which take precedence over tf
-  urban_nav_core::AccelerometerConvention accelerometer = {};  ///< as input.accelerometer_axes and _scale
+  std::vector<std::string> topics;                ///< ROLE:=NAME, for bags
+  std::string calibration;                        ///< file for bags and KITTI folders; empty: their own
+  double rate = 0.0;                              ///< Hz of an image folder without stamps; 0: 10 Hz
+  std::string motion_input = "none";              ///< as input.motion_input
+  double wheel_noise = 0.0;                       ///< as input.wheel_noise
+  double gyro_noise = 0.0;                        ///< as input.gyro_noise
+  PairingConvention pairing = {};                 ///< as input.right_delay and input.pairing_tolerance
+  double baseline_scale = 1.0;                    ///< as input.baseline_scale
+  std::vector<std::string> read_elsewhere = {};   ///< topics of bags that do not count as unused
+  urban_nav_ros::SensorCorrections sensors = {};  ///< as input.imu_delay and so on
+  std::vector<std::string> transforms = {};       ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, which take precedence over tf
   PointsOptions points = {};
   /// Whether sweeps of 3D LiDARs are read. A session without images is then one if it has sweeps; otherwise it is
   /// refused.

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/Header.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "urban_nav_core/inertial/accelerometer_check.hpp"
+#include "urban_nav_core/laser/scan_check.hpp"
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace urban_nav_ros {
+
+/// Conventions of drivers that differ from the definitions of their messages: parameters `input.imu_delay` and so on of
+/// readers of recordings, `input/imu_delay` and so on of nodelets. Base of their parameters; the rows are those of
+/// withSensorCorrections().
+struct SensorCorrectionParameters {
+  std::string accelerometer_axes;                          // as parseAxisMap() reads
+  double accelerometer_scale;                              // m/s2
+  double gyroscope_scale;                                  // rad/s
+  double wheels_scale;                                     // m
+  double imu_delay, wheels_delay, gps_delay;               // ms
+  double laser_left_delay, laser_right_delay;              // ms
+  double laser_left_range_scale, laser_right_range_scale;  // m
+  double laser_left_angle_scale, laser_right_angle_scale;  // rad
+  double laser_left_time_scale, laser_right_time_scale;    // s
+};
+
+/// Corrections by SensorCorrectionParameters.
+struct SensorCorrections {
+  urban_nav_core::AccelerometerConvention accelerometer = {};
+  double gyroscope_scale = 1.0, wheels_scale = 1.0;
+  urban_nav_core::StampNs imu_delay = 0, wheels_delay = 0, gps_delay = 0;  // ns
+  std::array<urban_nav_core::LaserConvention, 2> lasers = {};              // left, right
+};
+
+/// Returns the corrections. Throws UserError for unknown axes and for a wheels_scale of zero.
+SensorCorrections toCorrections(const SensorCorrectionParameters& parameters);
+
+/// Takes a delay (ns) from a stamp. Returns false, and changes nothing, if nothing above zero remains.
+bool correctStamp(urban_nav_core::StampNs delay, std_msgs::Header& header);
+/// Scales the rates of a message of an IMU, and the positions of one of wheel odometry.
+void correctRates(double scale, sensor_msgs::Imu& imu);
+void correctPositions(double scale, nav_msgs::Odometry& wheels);
+
+/// Parameter of SensorCorrectionParameters and its value.
+struct CorrectionSetting {
+  std::string name, value;
+};
+/// Returns what repairs an accelerometer whose messages are read by the convention `present`; empty: nothing does.
+std::vector<CorrectionSetting> settingsFor(const urban_nav_core::AccelerometerVerdict& verdict,
+                                           const urban_nav_core::AccelerometerConvention& present);
+/// Returns what repairs the scans of a laser. `role`: "laser_left" or "laser_right".
+std::vector<CorrectionSetting> settingsFor(const urban_nav_core::ScanVerdict& verdict, const std::string& role,
+                                           const urban_nav_core::LaserConvention& present);
+
+/// Returns what is wrong with the units of scans, and the likely cause: "the median range is 4200 m: the ranges are in
+/// millimetres"; empty where nothing is.
+std::string describeUnits(const urban_nav_core::ScanVerdict& verdict);
+
+/// Rows of SensorCorrectionParameters; each has its value in a finding of `doctor`.
+template <typename P>
+std::vector<urban_nav_core::Row<P>> sensorCorrectionRows();
+
+/// Returns `own` rows followed by those of SensorCorrectionParameters.
+template <typename P>
+std::vector<urban_nav_core::Row<P>> withSensorCorrections(std::vector<urban_nav_core::Row<P>> own) {
+  for (auto& row : sensorCorrectionRows<P>()) own.push_back(std::move(row));
+  return own;
+}
+
+constexpr double kLongestDelay = 1e13;  ///< ms: of a clock that was never set
+
+/// Returns the row of the delay of a sensor.
+template <typename P>
+urban_nav_core::Row<P> delayRow(const std::string& name, double P::*member, const std::string& what) {
+  return {name,
+          member,
+          "ms",
+          0.0,
+          -kLongestDelay,
+          kLongestDelay,
+          {},
+          "How much later " + what + " are stamped than they were measured; it is taken from their stamps.",
+          "docs/files.md",
+          {},
+          urban_nav_core::Audience::Experts};
+}
+
+namespace detail {
+
+template <typename P>
+urban_nav_core::Row<P> scaleRow(const std::string& name, double P::*member, const char* unit, double low,
+                                const std::string& sentence) {
+  return {name, member, unit, 1.0, low, 1e6, {}, sentence, "docs/files.md", {}, urban_nav_core::Audience::Experts};
+}
+
+template <typename P>
+std::vector<urban_nav_core::Row<P>> laserRows(const std::string& laser, double P::*delay, double P::*range,
+                                              double P::*angle, double P::*time) {
+  const auto scale = [&laser](const char* what, double P::*member, const char* unit, double low,
+                              const std::string& sentence) {
+    return scaleRow<P>(laser + what, member, unit, low, sentence);
+  };
+  return {delayRow<P>(laser + "_delay", delay, "scans of " + laser),
+          scale("_range_scale", range, "m", 1e-6,
+                "Range of 1 in the messages of " + laser + ": 0.001 where they state millimetres."),
+          scale("_angle_scale", angle, "rad", 1e-6,
+                "Angle of 1 in the messages of " + laser + ": 0.0174532925 where they state degrees."),
+          scale("_time_scale", time, "s", 0.0,
+                "time_increment of 1 in the messages of " + laser +
+                    ": 0.001 where they state milliseconds; 0: all beams have the stamp of their scan.")};
+}
+
+}  // namespace detail
+
+template <typename P>
+std::vector<urban_nav_core::Row<P>> sensorCorrectionRows() {
+  using detail::scaleRow;
+  std::vector<urban_nav_core::Row<P>> rows = {
+      {"accelerometer_axes",
+       &P::accelerometer_axes,
+       "",
+       "x,y,z",
+       false,
+       false,
+       {},
+       "Which axis of the messages of the IMU is x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x "
+       "for exchanged axes.",
+       "docs/files.md"},
+      scaleRow<P>("accelerometer_scale", &P::accelerometer_scale, "m/s2", 1e-6,
+                  "Specific force of 1 in the messages of the IMU: 9.80665 where they state it in g."),
+      scaleRow<P>("gyroscope_scale", &P::gyroscope_scale, "rad/s", 1e-6,
+                  "Rate of 1 in the messages of the IMU: 0.0174532925 where they state deg/s."),
+      scaleRow<P>("wheels_scale", &P::wheels_scale, "m", -1e6,
+                  "Distance of 1 in the positions of wheel odometry: 0.001 where they state millimetres, -1 where "
+                  "forward is negative."),
+      delayRow<P>("imu_delay", &P::imu_delay, "messages of the IMU"),
+      delayRow<P>("wheels_delay", &P::wheels_delay, "messages of wheel odometry"),
+      delayRow<P>("gps_delay", &P::gps_delay, "fixes of the GPS receiver")};
+  for (auto& row : detail::laserRows<P>("laser_left", &P::laser_left_delay, &P::laser_left_range_scale,
+                                        &P::laser_left_angle_scale, &P::laser_left_time_scale))
+    rows.push_back(std::move(row));
+  for (auto& row : detail::laserRows<P>("laser_right", &P::laser_right_delay, &P::laser_right_range_scale,
+                                        &P::laser_right_angle_scale, &P::laser_right_time_scale))
+    rows.push_back(std::move(row));
+  return rows;
+}
+
+}  // namespace urban_nav_ros
