@@ -82,6 +82,12 @@ class FabmapStage {
   bool idle();
   std::string reset();
   void close() {}
+  static constexpr int kFinishOrder = 0;  // before the stage that measures its closures
+  void finish(std::chrono::milliseconds /*limit*/) {
+    feed_->finish();  // a panorama that waits for further images is one with those it has
+    processPanoramas();
+    places_->commit();
+  }
   urban_nav_live::StageReport report() const { return places_->report(); }
 
  private:

@@ -55,6 +55,7 @@ class LoopMetricStage {
   void finish(std::chrono::milliseconds limit) {
     recorder_->end();
     if (limit.count() > 0 && !verifier_->finishSession(limit)) node_.logError(givenUp(verifier_->counts().waiting));
+    store_->flush();
   }
   void close() { finish(ros::ok() ? node_.drainTime() : std::chrono::milliseconds(0)); }
   urban_nav_live::StageReport report() const { return makeReport(state()); }

@@ -156,6 +156,16 @@ void LivePlaces::syncStore() {
   });
 }
 
+void LivePlaces::commit() {
+  if (!store_.isWanted()) return;
+  syncStore();
+  try {
+    store_.flush();
+  } catch (const urban_nav_core::UserError&) {
+    return;  // the fault of the store's state
+  }
+}
+
 void LivePlaces::reset() {
   endSession();
   if (store_.isWanted())

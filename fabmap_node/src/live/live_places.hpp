@@ -50,6 +50,9 @@ class LivePlaces {
   PlaceOutput process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images);
   /// Opens the store when an attempt is due, and hands places on to it. To be called some ten times a second.
   void syncStore();
+  /// Hands all places on to the store, if one is wanted, and waits until they are committed, or storeState() has a
+  /// fault.
+  void commit();
   /// Forgets all places and begins a new session. What is in the store, or on its way, remains there.
   void reset();
   /// Writes the places of all sessions to a store, which may exist, with the id of the session that is being recorded.
