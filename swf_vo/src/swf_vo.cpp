@@ -11,6 +11,7 @@
 #include "health/health.hpp"
 #include "health/image_check.hpp"
 #include "health/row_check.hpp"
+#include "motion/mean_choice.hpp"
 #include "motion/motion_sensors.hpp"
 #include "output.hpp"
 #include "prediction.hpp"
@@ -39,7 +40,7 @@ constexpr double kAstrayPeriods = 3.5;
 constexpr int kLandmarksPerFeature = 4;
 
 constexpr const char* kStateName = "swf_vo";
-constexpr std::uint32_t kStateVersion = 7;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t kStateVersion = 8;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;
@@ -198,8 +199,7 @@ class SwfVo::Implementation {
     if (seen != nullptr && (trusted || !started_) && !(is_loose && blurred)) remember(*seen);
     if (seen != nullptr) observe(*seen, trusted);
     const UpdateReport update = window_.update();
-    if (started_ && by_images && !reckons && window_.hasPose(frame_ - 1))
-      sensors_.check(before, pair.stamp, window_.pose(frame_ - 1).inverse() * window_.newest().pose);
+    if (started_ && by_images && !reckons && window_.hasPose(frame_ - 1)) check(before, pair.stamp, predicted);
 
     if (started_) learn(last, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
@@ -234,7 +234,7 @@ class SwfVo::Implementation {
 
   void archive(urban_nav_core::Archive& archive) {
     archive(started_, doubtful_, frame_, newest_known_, stamp_, seconds_, period_);
-    archive(images_, rows_, prediction_, sensors_, front_end_, window_, health_);
+    archive(images_, rows_, prediction_, sensors_, mean_choice_, front_end_, window_, health_);
     output_.archive(archive, window_);
     archive.require(!started_ || window_.poses() > 0, "the window is empty");
   }
@@ -242,7 +242,8 @@ class SwfVo::Implementation {
  private:
   /// A step before the images of its end are processed.
   struct Predicted {
-    ProcessInput u;                        // at constant velocity; its mean by sensors where there are any
+    ProcessInput u;                        // at constant velocity; its mean may be that by sensors
+    Pose steady;                           // at constant velocity
     std::optional<ProcessInput> reckoned;  // by sensors alone
     ProcessInput with_sensors;             // by both
   };
@@ -252,11 +253,19 @@ class SwfVo::Implementation {
     sensors_.add(inputs);
     if (!started_) return predicted;
     predicted.u = predicted.with_sensors = prediction_.step(seconds_, inputs);
+    predicted.steady = predicted.u.T_from_to;
     predicted.reckoned = sensors_.predict(from, to, last);
     if (!predicted.reckoned) return predicted;
     predicted.with_sensors = fuse(predicted.u, predicted.reckoned->T_from_to, predicted.reckoned->information);
-    predicted.u.T_from_to = predicted.with_sensors.T_from_to;
+    predicted.u.T_from_to = mean_choice_.choose(predicted.steady, predicted.with_sensors.T_from_to);
     return predicted;
+  }
+
+  /// Compares what predicted a step with what images measured.
+  void check(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Predicted& predicted) {
+    const Pose measured = window_.pose(frame_ - 1).inverse() * window_.newest().pose;
+    sensors_.check(from, to, measured);
+    if (predicted.reckoned) mean_choice_.see(predicted.steady, predicted.with_sensors.T_from_to, measured);
   }
 
   const FrontEndResult& process(const StereoPair& pair, const Pose& last, const Predicted& predicted, bool is_gap_long,
@@ -266,8 +275,9 @@ class SwfVo::Implementation {
     quality.sigma_m = translationSigma(is_gap_long ? predicted.with_sensors : predicted.u);
     quality.seconds = seconds_;
     quality.is_turn_known = isTurnKnown(predicted.reckoned);
-    const FrontEndResult& seen = front_end_.process(frame_, pair, last, last * predicted.u.T_from_to, window_.map(),
-                                                    window_.disparityOffset(), quality, evidence.image.edges);
+    const FrontEndResult& seen =
+        front_end_.process(frame_, pair, last, last * predicted.with_sensors.T_from_to, window_.map(),
+                           window_.disparityOffset(), quality, evidence.image.edges);
     evidence.localised = seen.localised;
     evidence.tracked = static_cast<int>(seen.tracked.size());
     evidence.features = evidence.tracked + static_cast<int>(seen.fresh.size());
@@ -353,6 +363,7 @@ class SwfVo::Implementation {
   RowCheck rows_;
   Prediction prediction_;
   MotionSensors sensors_;
+  MeanChoice mean_choice_;
   FrontEnd front_end_;
   Window window_;
   HealthMonitor health_;
