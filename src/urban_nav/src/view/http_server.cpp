@@ -38,7 +38,7 @@ namespace {
 constexpr std::size_t kServerThreads = 32;  // a stream occupies one as long as its page is open
 constexpr std::size_t kMostStreams = 16;
 constexpr std::size_t kRequestsPerConnection = 10000;
-constexpr int kKeepAlive = 1;     // s without a request until a connection ends; stop() waits as long
+constexpr int kKeepAlive = 3;     // s for the first byte of a request until a connection ends; stop() waits as long
 constexpr int kReadPatience = 5;  // s for the next bytes of a request
 
 HttpRequest toRequest(const httplib::Request& given) {

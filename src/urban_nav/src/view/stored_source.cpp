@@ -141,22 +141,15 @@ Arguments StoredSource::edgeArguments(const EditWords& words) const {
 
 Json StoredSource::edit(const EditWords& words) {
   if (read_only_) throw UserError("urban_nav view", "an edit of a store that is shown by --read-only", "no edits");
-  const std::lock_guard one_at_a_time(editing_);
+  const std::lock_guard lock(mutex_);
   events_.begin(words.print());
-  {
-    const std::lock_guard lock(mutex_);
-    content_.reset();  // so that the log of the store can be removed when the edit closes it
-  }
+  content_.reset();  // the edit is alone with the store, and removes its log in the end
   try {
     const EditResult result = editStore(edgeArguments(words));
     Json json = toJson(result.outcome);
     const std::string text = describe(result);
     json["text"] = text;
-    {
-      const std::lock_guard lock(mutex_);
-      content_.reset();
-      seen_ = fileState(path_);
-    }
+    seen_ = fileState(path_);
     events_.finish(text, result.outcome.changed);
     return json;
   } catch (const std::exception& error) {
@@ -166,9 +159,8 @@ Json StoredSource::edit(const EditWords& words) {
 }
 
 void StoredSource::poll() {
-  const std::unique_lock editing(editing_, std::try_to_lock);
-  if (!editing) return;
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
   std::string now = fileState(path_);
   if (now == seen_) return;
   seen_ = std::move(now);

@@ -16,8 +16,8 @@
 
 namespace urban_nav {
 
-/// The map of a session store. Edits are made by editStore(), one at a time; a store that another program writes is
-/// read and not changed.
+/// The map of a session store. Edits are made by editStore(), one at a time, and nothing is read meanwhile; a store
+/// that another program writes is read and not changed.
 class StoredSource final : public MapSource {
  public:
   using Values = std::map<std::string, std::vector<std::string>>;
@@ -48,8 +48,7 @@ class StoredSource final : public MapSource {
   const Values options_;
   const ParameterTables tables_;
   PageEvents& events_;
-  std::mutex editing_;  ///< one edit at a time
-  std::mutex mutex_;    ///< guards what follows
+  std::mutex mutex_;  ///< guards what follows, and the store: it is not read while it is edited
   std::shared_ptr<Content> content_;
   std::string seen_;  ///< size and time of the file and its log
 };

@@ -227,7 +227,7 @@ TEST_F(ViewServer, AnswersManyAtOnceAndMakesEditsOneByOne) {
     pages.emplace_back([&, page] {
       const RawAnswer edit =
           served.edit(R"({"action": "reject", "arguments": [")" + std::to_string(1 + page % 3) + "\"]}");
-      if (edit.status != 200) ++wrong;
+      EXPECT_EQ(edit.status, 200) << edit.body;
       if (edit.body.find("\"changed\": true") != std::string::npos) ++changed;
       for (int i = 0; i < 10; ++i)
         if (served.get(i % 2 == 0 ? "/api/state" : "/api/paths").status != 200) ++wrong;
