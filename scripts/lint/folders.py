@@ -12,6 +12,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
     ["topics"],
     ["edits"],
     ["inspect", "join"],
+    ["view"],
     ["commands"],
 ]
 

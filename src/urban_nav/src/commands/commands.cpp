@@ -18,6 +18,7 @@
 #include "topics/places/places.hpp"
 #include "topics/stereo/stereo.hpp"
 #include "topics/vo/vo.hpp"
+#include "view/view.hpp"
 
 namespace urban_nav {
 
@@ -40,7 +41,8 @@ std::vector<Command> allCommands() {
           deviceCommand(),
           whyCommand(),
           edgeCommand(),
-          verifyCommand(makeStages)};
+          verifyCommand(makeStages),
+          viewCommand(addStageTables)};
 }
 
 }  // namespace urban_nav

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
 #include "base/console.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
 #include "edits/edge_list.hpp"
-#include "edits/edit_run.hpp"
+#include "edits/edit_store.hpp"
 #include "edits/edits.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
-#include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/stored_ids.hpp"
 
@@ -20,89 +17,11 @@ using urban_nav_store::Store;
 
 namespace {
 
-std::string moveText(double metres) {
-  if (metres < 0.01) return urban_nav_core::formatNumber(1e3 * metres, 3) + " mm";
-  if (metres < 1.0) return urban_nav_core::formatNumber(1e2 * metres, 3) + " cm";
-  return urban_nav_core::formatNumber(metres, 4) + " m";
-}
-
-std::string idList(const std::vector<std::int64_t>& ids) {
-  std::string text;
-  for (const std::int64_t id : ids) text += (text.empty() ? "" : ", ") + std::to_string(id);
-  return text;
-}
-
-std::string figureText(const std::optional<double>& figure) {
-  return figure ? urban_nav_core::formatNumber(*figure, 4) : std::string("unknown");
-}
-
-std::string toText(const EditRequest& request, const EditOutcome& outcome) {
-  if (!outcome.changed) return "nothing changed: " + outcome.reason + "\n";
-  std::string text = "edit " + std::to_string(*outcome.edit) +
-                     (request.action == "undo"   ? " undone"
-                      : request.action == "redo" ? " done again"
-                                                 : " made") +
-                     "; poses moved by up to " + moveText(outcome.moved.largest) + ", rms " +
-                     moveText(outcome.moved.rms) + "\n";
-  if (outcome.edge) text += "closure " + std::to_string(*outcome.edge) + " added\n";
-  if (!outcome.contradicted_by.empty()) text += "contradicted by closures " + idList(outcome.contradicted_by) + "\n";
-  text += "cost " + urban_nav_core::formatNumber(outcome.before.cost, 5) + " -> " +
-          urban_nav_core::formatNumber(outcome.after.cost, 5);
-  if (outcome.before.planes_over_noise || outcome.after.planes_over_noise)
-    text += ", planes over noise " + figureText(outcome.before.planes_over_noise) + " -> " +
-            figureText(outcome.after.planes_over_noise);
-  return text + "\n";
-}
-
-Json toJson(const EditOutcome& outcome) {
-  const auto optional = [](const auto& value) { return value ? Json(*value) : Json(); };
-  Json json = Json::object({{"changed", outcome.changed},
-                            {"reason", outcome.reason},
-                            {"edit", optional(outcome.edit)},
-                            {"edge", optional(outcome.edge)}});
-  json["moved"] = Json::object({{"largest_m", outcome.moved.largest}, {"rms_m", outcome.moved.rms}});
-  Json& ids = json["contradicted_by"] = Json::array();
-  for (const std::int64_t id : outcome.contradicted_by) ids.append(id);
-  json["cost_before"] = outcome.before.cost;
-  json["cost_after"] = outcome.after.cost;
-  json["planes_over_noise_before"] = optional(outcome.before.planes_over_noise);
-  json["planes_over_noise_after"] = optional(outcome.after.planes_over_noise);
-  Json& warnings = json["warnings"] = Json::array();
-  for (const std::string& warning : outcome.warnings) warnings.append(warning);
-  return json;
-}
-
-/// Opens a store for an edit. Throws DataError if another program writes it: the same call succeeds later.
-Store openForEditing(const std::string& path) {
-  try {
-    return Store(path, Access::Write);
-  } catch (const UserError& error) {
-    throw urban_nav_core::DataError(path, error.parts().found, error.parts().allowed);
-  }
-}
-
-/// Reads the request from a store that is open for reading, so that what is refused leaves it as it is.
 int runEdit(const Arguments& arguments, Console& console) {
-  const std::string path = arguments.get("STORE");
-  EditRequest request;
-  StoredMeasurements measurements;
-  {
-    Store store = urban_nav_store::openForReading(path, Access::Snapshot);
-    measurements = readMeasurements(store);
-    request = readEditRequest(arguments, store, measurements);
-  }
-  EditOutcome outcome;
-  if (request.unchanged.empty()) {
-    Store store = openForEditing(path);
-    outcome = makeEdit(store, measurements, request);
-    store.close();
-  } else {
-    Store store = urban_nav_store::openForReading(path, Access::Snapshot);
-    outcome = makeEdit(store, measurements, request);
-  }
-  for (const std::string& warning : outcome.warnings) console.warn(warning);
-  console.print(toText(request, outcome));
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(outcome).print());
+  const EditResult result = editStore(arguments);
+  for (const std::string& warning : result.outcome.warnings) console.warn(warning);
+  console.print(describe(result));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(result.outcome).print());
   return 0;
 }
 

@@ -15,14 +15,6 @@ using urban_nav_store::StoredEdit;
 
 namespace {
 
-/// Constraints from planes are found anew whenever the map is rendered: no edit concerns them.
-std::vector<StoredClosure> closuresOfPlaces(Store& store) {
-  std::vector<StoredClosure> closures;
-  for (StoredClosure& closure : listClosures(store))
-    if (closure.edge.kind != urban_nav_store::EdgeKind::Plane) closures.push_back(std::move(closure));
-  return closures;
-}
-
 /// Returns the command of an edit as it follows STORE, quoted for a shell: "reject 3". `numbers`: of the edges of
 /// the store.
 std::string printCommand(const StoredEdit& edit, const std::map<urban_nav_store::EdgeKey, std::int64_t>& numbers) {
@@ -37,14 +29,27 @@ std::string printCommand(const StoredEdit& edit, const std::map<urban_nav_store:
 
 }  // namespace
 
-std::string listEdges(Store& store) {
-  std::string text = makeList(closuresOfPlaces(store));
+std::vector<StoredClosure> listEditableClosures(Store& store) {
+  std::vector<StoredClosure> closures;
+  for (StoredClosure& closure : listClosures(store))
+    if (closure.edge.kind != urban_nav_store::EdgeKind::Plane) closures.push_back(std::move(closure));
+  return closures;
+}
+
+std::vector<ListedEdit> listEdits(Store& store) {
   const std::map<urban_nav_store::EdgeKey, std::int64_t> numbers = urban_nav_store::readEdgeNumbers(store);
-  const std::vector<StoredEdit> edits = urban_nav_store::EditJournal(store).all();
+  std::vector<ListedEdit> edits;
+  for (const StoredEdit& edit : urban_nav_store::EditJournal(store).all())
+    edits.push_back({edit.number, printCommand(edit, numbers), edit.undone, edit.undone && !edit.dropped});
+  return edits;
+}
+
+std::string listEdges(Store& store) {
+  std::string text = makeList(listEditableClosures(store));
+  const std::vector<ListedEdit> edits = listEdits(store);
   text += edits.empty() ? "no edits\n" : "edits:\n";
-  for (const StoredEdit& edit : edits)
-    text += "  " + std::to_string(edit.number) + "  " + printCommand(edit, numbers) +
-            (edit.undone ? "  (undone)" : "") + "\n";
+  for (const ListedEdit& edit : edits)
+    text += "  " + std::to_string(edit.number) + "  " + edit.command + (edit.undone ? "  (undone)" : "") + "\n";
   return text;
 }
 
@@ -58,7 +63,7 @@ Json edgesAsJson(Store& store) {
   };
   Json json = Json::object();
   Json& closures = json["closures"] = Json::array();
-  for (const StoredClosure& closure : closuresOfPlaces(store)) {
+  for (const StoredClosure& closure : listEditableClosures(store)) {
     const urban_nav_store::Edge& edge = closure.edge;
     closures.append(Json::object({{"id", closure.id},
                                   {"session_a", findName(edge.a.session)},
@@ -70,11 +75,9 @@ Json edgesAsJson(Store& store) {
                                   {"reason", edge.reason},
                                   {"weight", edge.weight}}));
   }
-  const std::map<urban_nav_store::EdgeKey, std::int64_t> numbers = urban_nav_store::readEdgeNumbers(store);
   Json& edits = json["edits"] = Json::array();
-  for (const StoredEdit& edit : urban_nav_store::EditJournal(store).all())
-    edits.append(
-        Json::object({{"number", edit.number}, {"command", printCommand(edit, numbers)}, {"undone", edit.undone}}));
+  for (const ListedEdit& edit : listEdits(store))
+    edits.append(Json::object({{"number", edit.number}, {"command", edit.command}, {"undone", edit.undone}}));
   return json;
 }
 

@@ -61,6 +61,8 @@ class Child {
       ::usleep(500);
     }
   }
+  /// Sends a signal while it runs.
+  void send(int signal) const { ::kill(child_, signal); }
   double secondsUsed() const { return seconds_; }
 
  private:

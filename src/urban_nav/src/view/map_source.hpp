@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/json.hpp"
+#include "view/edit_words.hpp"
+
+namespace urban_nav {
+
+/// A map that the page shows and changes, wherever the map is: in a store, or in nodelets that build it.
+/// Implementations are thread-safe; functions throw UserError for what the user can correct and DataError for what the
+/// data do not allow.
+class MapSource {
+ public:
+  MapSource() = default;
+  MapSource(const MapSource&) = delete;
+  MapSource& operator=(const MapSource&) = delete;
+  virtual ~MapSource() = default;
+
+  /// Returns sessions, closures and edits.
+  virtual std::string state() = 0;
+  /// Returns the poses of all sessions in the order of state(): for each one seconds since its beginning, x, y, z (m,
+  /// in its map) as float32 in little endian.
+  virtual std::string paths() = 0;
+  /// Returns why a closure has its verdict.
+  virtual Json explain(std::int64_t closure) = 0;
+  /// Returns the picture of a try to measure a closure as JPEG; nullopt without one.
+  virtual std::optional<std::string> picture(std::int64_t closure, std::size_t number) = 0;
+  /// Makes an edit and returns its effect: the keys of `urban_nav edge --json`, and `text`.
+  virtual Json edit(const EditWords& words) = 0;
+};
+
+}  // namespace urban_nav

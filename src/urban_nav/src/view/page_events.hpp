@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace urban_nav {
+
+/// The state that open pages follow: how often the map has changed, and the command that runs. Thread-safe.
+class PageEvents {
+ public:
+  struct State {
+    std::int64_t number = 0;    ///< counts the changes of what follows
+    std::int64_t revision = 1;  ///< counts the changes of the map
+    std::string running;        ///< command that runs; empty: none
+    std::string outcome;        ///< result of the last command, for a person
+  };
+
+  State state() const;
+  void begin(const std::string& command);
+  /// The command has ended; the map may have changed.
+  void finish(const std::string& outcome, bool changed);
+  /// The map has changed by another program.
+  void changed();
+  /// Waits until the state has another number than `known`, about a second at most, and returns it.
+  State wait(std::int64_t known) const;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  State state_;
+};
+
+/// Returns a state as one line of JSON.
+std::string asData(const PageEvents::State& state);
+
+}  // namespace urban_nav

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/page_routes.hpp"
+
+#include "base/web_files.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "view/gate.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+HttpAnswer asJson(const std::string& json, int status = 200) { return {status, "application/json", json}; }
+
+HttpAnswer asError(int status, const std::string& sentence) {
+  return asJson(Json::object({{"error", sentence}}).print(), status);
+}
+
+HttpAnswer notThere() { return {404, "text/plain; charset=utf-8", "not there\n"}; }
+
+/// Returns a whole number of the address.
+std::int64_t numberIn(const HttpRequest& request, const std::string& name) {
+  const std::vector<std::string> values = request.parameter(name);
+  const auto number = values.size() == 1 ? urban_nav_core::parseInteger(values.front()) : std::nullopt;
+  if (!number || *number < 0) throw UserError(name, "is missing or no whole number", name + "=N in the address");
+  return *number;
+}
+
+void replaceFirst(std::string& text, const std::string& mark, const std::string& content) {
+  const std::size_t at = text.find(mark);
+  if (at != std::string::npos) text.replace(at, mark.size(), content);
+}
+
+}  // namespace
+
+std::string viewPage() {
+  std::string page(webFile("page.html"));
+  const std::string nonce = drawToken();
+  replaceFirst(page, "NONCE", nonce);
+  replaceFirst(page, "NONCE", nonce);
+  replaceFirst(page, "<!-- style -->",
+               "<style nonce=\"" + nonce + "\">" + std::string(webFile("page.css")) + "</style>");
+  replaceFirst(page, "<!-- scripts -->",
+               "<script nonce=\"" + nonce + "\">" +
+                   webFiles({"camera.js", "text.js", "server.js", "lists.js", "explanation.js", "plan.js", "page.js"}) +
+                   "</script>");
+  return page;
+}
+
+HttpAnswer PageRoutes::answer(const HttpRequest& request) const {
+  try {
+    return request.method == "POST" ? post(request) : get(request);
+  } catch (const UserError& error) {
+    return asError(400, error.what());
+  } catch (const urban_nav_core::DataError& error) {
+    return asError(409, error.what());
+  } catch (const std::exception& error) {
+    return asError(500, error.what());
+  }
+}
+
+HttpAnswer PageRoutes::get(const HttpRequest& request) const {
+  if (request.path == "/") return {200, "text/html; charset=utf-8", viewPage()};
+  if (request.path == "/api/state") return asJson(source_.state());
+  if (request.path == "/api/paths") return {200, "application/octet-stream", source_.paths()};
+  if (request.path == "/api/why") return asJson(source_.explain(numberIn(request, "id")).print());
+  if (request.path == "/api/picture") {
+    const auto picture =
+        source_.picture(numberIn(request, "id"), static_cast<std::size_t>(numberIn(request, "number")));
+    return picture ? HttpAnswer{200, "image/jpeg", *picture} : HttpAnswer{204, "image/jpeg", ""};
+  }
+  if (request.path == "/api/now") return asJson(asData(events_.state()));
+  if (request.path == "/api/events" && request.method == "GET") return follow();
+  return notThere();
+}
+
+HttpAnswer PageRoutes::post(const HttpRequest& request) const {
+  if (request.path != "/api/edit") return notThere();
+  return asJson(source_.edit(parseEditWords(request.body)).print());
+}
+
+HttpAnswer PageRoutes::follow() const {
+  HttpAnswer answer;
+  answer.type = "text/event-stream";
+  answer.stream = [this, known = std::int64_t{-1}](std::string& next) mutable {
+    const PageEvents::State state = events_.wait(known);
+    // Server-sent events (HTML standard, section 9.2). A comment now and then shows whether the page is still there.
+    next = state.number == known ? ":\n\n" : "data: " + asData(state) + "\n\n";
+    known = state.number;
+    return true;
+  };
+  return answer;
+}
+
+}  // namespace urban_nav

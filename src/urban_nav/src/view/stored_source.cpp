@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/stored_source.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "base/parameters.hpp"
+#include "edits/edge_list.hpp"
+#include "edits/edit_store.hpp"
+#include "topics/loops/explanation.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_store/bytes.hpp"
+#include "urban_nav_store/store_writer.hpp"
+#include "urban_nav_store/stored_ids.hpp"
+#include "urban_nav_store/stored_map.hpp"
+#include "view/state_json.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
+
+namespace {
+
+constexpr std::size_t kKeptExplanations = 20;  // with their pictures, about 0.1 MB each
+
+/// Returns a text that changes when a file or its log is written.
+std::string fileState(const std::string& path) {
+  std::string text;
+  for (const char* suffix : {"", "-wal"}) {
+    struct stat file {};
+    if (::stat((path + suffix).c_str(), &file) != 0) continue;
+    text += std::to_string(file.st_ino) + " " + std::to_string(file.st_size) + " " +
+            std::to_string(file.st_mtim.tv_sec) + "." + std::to_string(file.st_mtim.tv_nsec) + ";";
+  }
+  return text;
+}
+
+}  // namespace
+
+/// A store that is open for reading, and what has been read of it.
+struct StoredSource::Content {
+  explicit Content(const std::string& path) : store(urban_nav_store::openForReading(path)) {
+    for (const auto& map : readMaps(store, urban_nav_store::selectSessions(store, {}))) maps.push_back(map);
+    closures = listEditableClosures(store);
+    edits = listEdits(store);
+  }
+
+  Store store;
+  std::vector<std::vector<StoredTrajectory>> maps;
+  std::vector<StoredClosure> closures;
+  std::vector<ListedEdit> edits;
+  std::map<std::int64_t, Page> explanations;
+};
+
+StoredSource::StoredSource(const std::string& path, bool read_only, Values options, ParameterTables tables,
+                           PageEvents& events)
+    : path_(path), read_only_(read_only), options_(std::move(options)), tables_(std::move(tables)), events_(events) {
+  const std::lock_guard lock(mutex_);
+  content();
+}
+
+StoredSource::Content& StoredSource::content() {
+  if (!content_) {
+    seen_ = fileState(path_);
+    content_ = std::make_shared<Content>(path_);
+  }
+  return *content_;
+}
+
+/// Calls a function with the content; once more if another program wrote the store meanwhile.
+template <typename Read>
+auto StoredSource::reading(const Read& read) {
+  const std::lock_guard lock(mutex_);
+  try {
+    return read(content());
+  } catch (const urban_nav_core::DataError&) {
+    if (fileState(path_) == seen_) throw;
+    content_.reset();
+    return read(content());
+  }
+}
+
+std::string StoredSource::state() {
+  return reading([&](const Content& content) {
+    ShownState shown{content.maps, content.closures, content.edits};
+    shown.store = path_;
+    shown.revision = events_.state().revision;
+    shown.read_only = read_only_;
+    shown.written_by_another = urban_nav_store::isBeingWritten(path_);
+    return stateAsJson(shown).print();
+  });
+}
+
+std::string StoredSource::paths() {
+  return reading([](const Content& content) {
+    std::string bytes;
+    for (const std::vector<StoredTrajectory>& map : content.maps)
+      for (const StoredTrajectory& each : map) appendPath(bytes, each.T_map_base);
+    return bytes;
+  });
+}
+
+const Page& StoredSource::explanation(std::int64_t closure) {
+  Content& its = content();
+  if (const auto known = its.explanations.find(closure); known != its.explanations.end()) return known->second;
+  const auto found = std::find_if(its.closures.begin(), its.closures.end(),
+                                  [&](const StoredClosure& each) { return each.id == closure; });
+  if (found == its.closures.end())
+    throw UserError("closure", std::to_string(closure) + ": no closure has this ID", "an ID of the list");
+  const double half_length =
+      loadParameters(Arguments(options_, tables_)).get(urban_nav_registration::table()).cloud_half_length;
+  if (its.explanations.size() >= kKeptExplanations) its.explanations.clear();
+  return its.explanations[closure] = explainOnPage(*found, its.store, half_length);
+}
+
+Json StoredSource::explain(std::int64_t closure) {
+  return reading([&](Content&) { return pageAsJson(explanation(closure)); });
+}
+
+std::optional<std::string> StoredSource::picture(std::int64_t closure, std::size_t number) {
+  return reading([&](Content&) -> std::optional<std::string> {
+    for (const Section& section : explanation(closure).sections)
+      for (const PagePicture& each : section.pictures)
+        if (number-- == 0) return std::string(each.jpeg.begin(), each.jpeg.end());
+    return std::nullopt;
+  });
+}
+
+Arguments StoredSource::edgeArguments(const EditWords& words) const {
+  Values values = options_;
+  values["STORE"] = {path_};
+  values["ACTION"] = {words.action};
+  if (!words.arguments.empty()) values["ARGUMENT"] = words.arguments;
+  for (const auto& [name, value] : words.options) values[name] = {value};
+  return Arguments(std::move(values), tables_);
+}
+
+Json StoredSource::edit(const EditWords& words) {
+  if (read_only_) throw UserError("urban_nav view", "an edit of a store that is shown by --read-only", "no edits");
+  const std::lock_guard lock(mutex_);
+  events_.begin(words.print());
+  content_.reset();  // the edit is alone with the store, and removes its log in the end
+  try {
+    const EditResult result = editStore(edgeArguments(words));
+    Json json = toJson(result.outcome);
+    const std::string text = describe(result);
+    json["text"] = text;
+    seen_ = fileState(path_);
+    events_.finish(text, result.outcome.changed);
+    return json;
+  } catch (const std::exception& error) {
+    events_.finish(error.what(), false);
+    throw;
+  }
+}
+
+void StoredSource::poll() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  std::string now = fileState(path_);
+  if (now == seen_) return;
+  seen_ = std::move(now);
+  content_.reset();
+  events_.changed();
+}
+
+Json pageAsJson(const Page& page) {
+  Json json = Json::object({{"title", page.title}, {"subtitle", page.subtitle}});
+  Json& verdicts = json["verdicts"] = Json::array();
+  for (const Verdict& verdict : page.verdicts)
+    verdicts.append(Json::object({{"headline", verdict.headline}, {"sentence", verdict.sentence}}));
+  Json& tiles = json["tiles"] = Json::array();
+  for (const Tile& tile : page.tiles) tiles.append(tile.label + ": " + tile.value + " " + tile.unit);
+  Json& sections = json["sections"] = Json::array();
+  std::size_t pictures = 0;
+  for (const Section& section : page.sections) {
+    Json one = Json::object({{"title", section.title}, {"introduction", section.introduction}});
+    Json& drawn = one["pictures"] = Json::array();
+    for (const PagePicture& picture : section.pictures)
+      drawn.append(Json::object({{"number", pictures++},
+                                 {"caption", picture.caption},
+                                 {"width", picture.width},
+                                 {"height", picture.height}}));
+    Json& tables = one["tables"] = Json::array();
+    for (const PageTable& table : section.tables) {
+      Json its = Json::object({{"title", table.title}, {"caption", table.caption}});
+      Json& head = its["head"] = Json::array();
+      for (const std::string& cell : table.head) head.append(cell);
+      Json& rows = its["rows"] = Json::array();
+      for (const std::vector<std::string>& row : table.rows) {
+        Json cells = Json::array();
+        for (const std::string& cell : row) cells.append(cell);
+        rows.append(std::move(cells));
+      }
+      tables.append(std::move(its));
+    }
+    sections.append(std::move(one));
+  }
+  return json;
+}
+
+}  // namespace urban_nav

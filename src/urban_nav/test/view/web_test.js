@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Those scripts of the page that need no browser: node web_test.js
+"use strict";
+const assert = require("node:assert"),
+  test = require("node:test");
+for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "page"])
+  require(`../../web/${name}.js`);
+const nav = globalThis.urbanNav;
+
+const close = (a, b, tolerance = 1e-9) =>
+  a.forEach((v, k) => assert.ok(Math.abs(v - b[k]) < tolerance, `${a} is not ${b}`));
+const SESSIONS = [
+  {id: "aaaaaaaaaaaaaaaa", name: "day1", map: 0, begin: "1225719872.123456789", seconds: 12, poses: 3, length_m: 20},
+  {id: "bbbbbbbbbbbbbbbb", name: "<b>'\"", map: 1, begin: "1225806272.000000001", seconds: 10, poses: 2, length_m: 18},
+];
+const CLOSURES = [
+  {id: 1, kind: "icp", verdict: "accepted", a: {session: 0, seconds: 1}, b: {session: 1, seconds: 2}},
+  {id: 4, kind: "stereo", verdict: "rejected", a: {session: 0, seconds: 0}, b: {session: 0, seconds: 2}},
+  {id: 9, kind: "stereo", verdict: "accepted", a: {session: 1, seconds: 0}, b: {session: 1, seconds: 2}},
+];
+
+test("a camera projects its centre into the middle, right to the right and up to the top", () => {
+  for (const yaw of [-2, 0, 0.7, 3])
+    for (const pitch of [-0.3, 0, 0.6, Math.PI / 2]) {
+      const camera = new nav.Camera([3, -2, 1], 20, yaw, pitch),
+        m = camera.matrix(800, 600, 100),
+        [right, up, back] = camera.axes();
+      const along = (axis, by) =>
+        nav.project(
+          m,
+          camera.centre.map((c, k) => c + by * axis[k]),
+          800,
+          600,
+        );
+      close(along(right, 0), [400, 300, 20], 1e-6);
+      const r = along(right, 1),
+        u = along(up, 1);
+      assert.ok(r[0] > 400 && Math.abs(r[1] - 300) < 1e-6);
+      assert.ok(u[1] < 300 && Math.abs(u[0] - 400) < 1e-6);
+      close([r[0] - 400], [300 - u[1]], 1e-6); // a metre is a metre in both directions
+      close([along(back, 5)[2]], [15], 1e-6);
+      assert.strictEqual(along(back, 25), null);
+      close(
+        [right, up, back].flatMap((a) => [right, up, back].map((b) => a.reduce((s, v, k) => s + v * b[k], 0))),
+        [1, 0, 0, 0, 1, 0, 0, 0, 1],
+      );
+    }
+});
+
+test("a camera that moves keeps the point below the pointer there", () => {
+  const camera = new nav.Camera([0, 0, 0], 30, 0.4, 0.8),
+    point = [...camera.centre];
+  camera.move(37, -12, 500);
+  close(nav.project(camera.matrix(900, 500, 10), point, 900, 500).slice(0, 2), [450 + 37, 250 - 12], 1e-6);
+});
+
+test("a camera that is fitted sees all corners of a box", () => {
+  for (const pitch of [0.2, 0.9, Math.PI / 2])
+    for (const [width, height] of [
+      [900, 300],
+      [300, 900],
+    ]) {
+      const camera = new nav.Camera([0, 0, 0], 1, 1.1, pitch),
+        low = [-40, 10, -1],
+        high = [80, 31, 4];
+      camera.fit(low, high, width / height);
+      const m = camera.matrix(width, height, 200);
+      for (let corner = 0; corner < 8; ++corner) {
+        const at = nav.project(
+          m,
+          low.map((v, k) => ((corner >> k) & 1 ? high[k] : v)),
+          width,
+          height,
+        );
+        assert.ok(at && at[0] > 0 && at[0] < width && at[1] > 0 && at[1] < height, `corner ${corner}: ${at}`);
+      }
+    }
+});
+
+test("a camera neither turns over nor reaches zero distance", () => {
+  const camera = new nav.Camera();
+  camera.turn(0, 1e6);
+  assert.strictEqual(camera.pitch, Math.PI / 2);
+  camera.turn(0, -1e6);
+  assert.strictEqual(camera.pitch, -0.3);
+  camera.zoom(-1e3);
+  assert.ok(camera.distance > 0);
+  camera.zoom(1e3);
+  assert.ok(Number.isFinite(camera.distance));
+});
+
+test("events are taken whole, whatever pieces they come in", () => {
+  const stream = 'data: {"a": 1}\n\n:\n\ndata: {"b":\ndata: 2}\n\nevent: x\ndata: {"c": 3}\n\n';
+  for (let size = 1; size < stream.length + 1; ++size) {
+    let left = "";
+    const taken = [];
+    for (let at = 0; at < stream.length; at += size) {
+      const [events, rest] = nav.takeEvents(left + stream.slice(at, at + size));
+      taken.push(...events);
+      left = rest;
+    }
+    assert.deepStrictEqual(
+      taken.map((e) => JSON.parse(e)),
+      [{a: 1}, {b: 2}, {c: 3}],
+    );
+    assert.strictEqual(left, "");
+  }
+});
+
+test("filters let pass what fits all of them", () => {
+  const ids = (filter) => nav.filterClosures(CLOSURES, filter).map((c) => c.id);
+  assert.deepStrictEqual(ids({}), [1, 4, 9]);
+  assert.deepStrictEqual(ids({verdict: "accepted", kind: "", session: ""}), [1, 9]);
+  assert.deepStrictEqual(ids({verdict: "accepted", kind: "stereo"}), [9]);
+  assert.deepStrictEqual(ids({session: "0"}), [1, 4]);
+  assert.deepStrictEqual(ids({session: "1", verdict: "rejected"}), []);
+});
+
+test("steps through a list stop at its ends", () => {
+  assert.strictEqual(nav.neighbour(CLOSURES, 4, 1), 9);
+  assert.strictEqual(nav.neighbour(CLOSURES, 9, 1), 9);
+  assert.strictEqual(nav.neighbour(CLOSURES, 9, -1e9), 1);
+  assert.strictEqual(nav.neighbour(CLOSURES, null, 1), 1);
+  assert.strictEqual(nav.neighbour(CLOSURES, 77, -1), 9);
+  assert.strictEqual(nav.neighbour([], 4, 1), null);
+});
+
+test("stamps keep all of their nanoseconds", () => {
+  assert.strictEqual(nav.addSeconds("1225719872.123456789", 0), "1225719872.123456789");
+  assert.strictEqual(nav.addSeconds("1225719872.999999999", 1e-9), "1225719873.000000000");
+  assert.strictEqual(nav.addSeconds("1225719872", 0.25), "1225719872.250000000");
+});
+
+test("a moment is a stamp, or since the beginning of a session where two have that time", () => {
+  assert.strictEqual(nav.momentWord(SESSIONS, 0, 2), "1225719874.123456789");
+  const twins = [SESSIONS[0], {...SESSIONS[1], begin: "1225719880.000000000"}];
+  assert.strictEqual(nav.momentWord(twins, 0, 9.5), "aaaaaaaaaaaaaaaa+9.500000");
+  for (const [sessions, index, seconds] of [
+    [SESSIONS, 0, 3.25],
+    [SESSIONS, 1, 0],
+    [twins, 0, 11],
+    [twins, 1, 9.75],
+  ]) {
+    const found = nav.findMoment(sessions, nav.momentWord(sessions, index, seconds));
+    assert.strictEqual(found.session, index);
+    close([found.seconds], [seconds], 1e-5);
+  }
+});
+
+test("moments written by hand are found as `edge` finds them", () => {
+  assert.deepStrictEqual(nav.findMoment(SESSIONS, " day1+3.5 "), {session: 0, seconds: 3.5});
+  assert.deepStrictEqual(nav.findMoment(SESSIONS, "+2"), {session: 0, seconds: 2});
+  assert.deepStrictEqual(nav.findMoment(SESSIONS, "bbbb+2"), {session: 1, seconds: 2});
+  for (const word of ["", "x", "day9+1", "day1+99", "12", "1e9", "+", "day1+-1"])
+    assert.strictEqual(nav.findMoment(SESSIONS, word), null, word);
+});
+
+test("an edit has the words of the command", () => {
+  const state = {sessions: SESSIONS},
+    fields = {t1: "day1+3.5", t2: "day1+9", pose: "1,0,0,0,0,0,1", "pose-sigma": "", at: "1,2,3", "pin-sigma": "0.01"};
+  const words = (action, selected = 4, given = fields) => nav.editWords(action, state, selected, given);
+  assert.deepStrictEqual(words("reject"), [{action: "reject", arguments: ["4"], options: {}}, ""]);
+  assert.deepStrictEqual(words("undo", null), [{action: "undo", arguments: [], options: {}}, ""]);
+  assert.deepStrictEqual(words("measure"), [{action: "measure", arguments: ["day1+3.5", "day1+9"], options: {}}, ""]);
+  assert.deepStrictEqual(words("assert"), [
+    {action: "assert", arguments: ["day1+3.5", "day1+9"], options: {pose: "1,0,0,0,0,0,1"}},
+    "",
+  ]);
+  assert.deepStrictEqual(words("pin"), [
+    {action: "pin", arguments: ["day1+3.5"], options: {at: "1,2,3", sigma: "0.01"}},
+    "",
+  ]);
+  assert.deepStrictEqual(words("cut"), [{action: "cut", arguments: ["day1", "day1+3.5"], options: {}}, ""]);
+  assert.deepStrictEqual(words("origin"), [{action: "origin", arguments: ["day1+3.5"], options: {}}, ""]);
+  for (const [action, selected, given] of [
+    ["reject", null, fields],
+    ["measure", 4, {...fields, t2: ""}],
+    ["origin", 4, {}],
+    ["assert", 4, {...fields, pose: ""}],
+    ["pin", 4, {...fields, at: ""}],
+    ["cut", 4, {t1: "nowhere+1"}],
+  ]) {
+    const [none, sentence] = words(action, selected, given);
+    assert.strictEqual(none, null);
+    assert.match(sentence, /\.$/);
+  }
+});
+
+/** Bytes as the server sends paths: rows of seconds, x, y, z. */
+const pathBytes = (rows) => new Float32Array(rows.flat()).buffer;
+const ROWS = [
+  [0, 0, 0, 0],
+  [6, 10, 0, 0],
+  [12, 10, 10, 0],
+  [0, 100, 3, 1],
+  [10, 120, 3, 1],
+];
+
+test("maps that nothing joins lie beside each other, sessions of one map where they are", () => {
+  const {paths, box} = nav.placePaths(SESSIONS, pathBytes(ROWS));
+  close([...paths[0].points], [0, 0, 0, 10, 0, 0, 10, 10, 0]);
+  assert.strictEqual(paths[1].points[0], 17, "10 m, a tenth of its own width, and 5 m");
+  close([paths[1].points[3] - paths[1].points[0]], [20]);
+  close(box.low, [0, 0, 0]);
+  close(box.high, [37, 10, 1]);
+  const joined = nav.placePaths(
+    SESSIONS.map((s) => ({...s, map: 0})),
+    pathBytes(ROWS),
+  );
+  close([...joined.paths[1].points], [100, 3, 1, 120, 3, 1]);
+});
+
+test("sessions without poses are no obstacle", () => {
+  const none = {...SESSIONS[0], poses: 0},
+    {paths, box} = nav.placePaths([none, SESSIONS[1]], pathBytes(ROWS.slice(3)));
+  assert.strictEqual(paths[0].points.length, 0);
+  assert.strictEqual(nav.placeOf(paths, {session: 0, seconds: 1}), null);
+  assert.strictEqual(nav.placeOf(paths, null), null);
+  assert.ok(box.low.every(Number.isFinite));
+  assert.ok(nav.placePaths([none], new ArrayBuffer(0)).box.low.every(Number.isFinite));
+});
+
+test("the pose nearest to a time is found", () => {
+  const times = new Float32Array([0, 1, 3, 10]);
+  for (const [t, at] of [
+    [-5, 0],
+    [0.4, 0],
+    [0.6, 1],
+    [2.1, 2],
+    [6.4, 2],
+    [6.6, 3],
+    [99, 3],
+  ])
+    assert.strictEqual(nav.poseAt(times, t), at, `${t}`);
+});
+
+test("a click meets the dot of a closure first, then the nearest pose, else nothing", () => {
+  const {paths, box} = nav.placePaths(
+      SESSIONS.map((s) => ({...s, map: 0})),
+      pathBytes(ROWS),
+    ),
+    camera = new nav.Camera([0, 0, 0], 10, -Math.PI / 2, Math.PI / 2);
+  camera.fit(box.low, box.high, 2);
+  const m = camera.matrix(1000, 500, 200),
+    at = (p) => nav.project(m, p, 1000, 500),
+    pick = (p, dx = 0) => nav.pickInPlan(m, 1000, 500, p[0] + dx, p[1], paths, [CLOSURES[0]]);
+  assert.deepStrictEqual(pick(at([10, 10, 0]), 3), {session: 0, seconds: 12});
+  assert.deepStrictEqual(pick(at([120, 3, 1])), {session: 1, seconds: 10});
+  assert.deepStrictEqual(pick(at([(0 + 100) / 2, 1.5, 0.5])), {closure: 1});
+  assert.strictEqual(pick([3, 3]), null);
+});

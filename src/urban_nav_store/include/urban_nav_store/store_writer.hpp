@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace urban_nav_store {
+
+/// Returns whether a program, this one included, has a store open for writing. False if there is no store.
+bool isBeingWritten(const std::string& path);
+
+}  // namespace urban_nav_store
