@@ -28,8 +28,9 @@ constexpr double kScalePrior = 0.2, kTurnPrior = 0.01, kShiftPrior = 0.02;
 constexpr int kLeastPoints = 20;  // of a keyframe, for the sides of the lasers
 
 Vector toRow(const SurfaceMatch& match) {
+  const Eigen::Vector3d q = match.p - match.excess * match.normal;
   Vector row;
-  row << match.normal.dot(match.p), match.p.cross(match.normal), match.normal;
+  row << match.normal.dot(q), q.cross(match.normal), match.normal;
   return row;
 }
 
@@ -129,8 +130,9 @@ DepthScale estimateDepthScale(const std::vector<KeyframeMatches>& keyframes) {
       for (const SurfaceMatch& match : keyframe.matches) {
         const Vector row = toRow(match);
         const double residual = match.excess - row.dot(x);
+        const double sigma = std::hypot(scatter, match.sigma);
         const double weight =
-            std::min(1.0, kDepthHuber * scatter / std::max(1e-12, std::abs(residual))) / (scatter * scatter);
+            std::min(1.0, kDepthHuber * sigma / std::max(1e-12, std::abs(residual))) / (sigma * sigma);
         residuals.push_back(residual);
         information += weight * row * row.transpose();
         right += weight * match.excess * row;

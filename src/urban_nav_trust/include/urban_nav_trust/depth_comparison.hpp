@@ -16,6 +16,7 @@ struct SurfaceMatch {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();        ///< from the camera to the stereo point, axes of base_link, m
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit, surface
   double excess = 0.0;                                ///< m along the normal, from the surface to the stereo point
+  double sigma = 0.0;                                 ///< m, of the stereo point along the normal, as far as known
 };
 
 /// Matches of the stereo points of one keyframe.
@@ -28,7 +29,8 @@ struct KeyframeMatches {
 
 /// Compares depths by stereo with ranges of lasers on the surfaces that both measured, offline. With s the relative
 /// error of stereo's lengths, r and t a rotation and translation of its mounting, a match has
-///   excess = n . (s p + r x p + t) + noise.
+///   excess = n . (s q + r x q + t) + noise,   q = p - excess n:
+/// q, on the surface, has the laser's error; with p the noise of stereo would multiply itself.
 /// Estimated over all keyframes with Huber's weights and priors of a mounting; keyframes are the clusters of a sandwich
 /// (Liang and Zeger 1986). Derivation: docs/derivations/trust.md.
 struct DepthScale {

@@ -11,11 +11,13 @@
 #include "urban_nav_registration/cloud/local_cloud.hpp"
 #include "urban_nav_registration/cloud/surfels.hpp"
 #include "urban_nav_registration/session/session_lasers.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/near_points.hpp"
 
 namespace urban_nav {
 
+using urban_nav_core::StampNs;
 using urban_nav_registration::LaserAt;
 using urban_nav_registration::LaserScans;
 using urban_nav_registration::Surfel;
@@ -25,15 +27,15 @@ using urban_nav_trust::KeyframeMatches;
 
 namespace {
 
-constexpr std::size_t kMostKeyframes = 20;
-constexpr std::size_t kPointsCompared = 400;  // of a keyframe
-constexpr double kSurfaceTravel = 6.0;        // m before and after a keyframe
-constexpr float kSurfaceVoxel = 0.25F;        // m
+constexpr std::size_t kMostDense = 20, kMostCorners = 40;  // keyframes
+constexpr std::size_t kPointsCompared = 400;               // of a keyframe
+constexpr double kSurfaceTravel = 6.0;                     // m before and after a keyframe
+constexpr float kSurfaceVoxel = 0.25F;                     // m
 constexpr float kLeastPlanarity = 0.9F;
-constexpr float kMostSigma = 0.15F;     // m, of a stereo point
-constexpr float kSurfaceReach = 0.3F;   // m along the normal
-constexpr float kOnSurface = 0.15F;     // m
-constexpr float kUprightNormal = 0.5F;  // of |normal z|, below which a surface is a wall
+constexpr float kSurfaceReach = 0.3F;               // m along the normal
+constexpr float kMostSigma = kSurfaceReach / 3.0F;  // m, of a stereo point along the normal: the reach cuts nothing off
+constexpr float kOnSurface = 0.15F;                 // m
+constexpr float kUprightNormal = 0.5F;              // of |normal z|, below which a surface is a wall
 
 /// Surfaces by the cubes that hold them.
 class SurfaceGrid {
@@ -79,38 +81,110 @@ std::optional<std::vector<LaserAt>> exchangeSides(std::vector<LaserAt> lasers) {
   return lasers;
 }
 
-SurfaceGrid makeGrid(const urban_nav_core::OdometryChain& chain, urban_nav_core::StampNs stamp,
-                     const std::vector<LaserScans>& lasers) {
+SurfaceGrid makeGrid(const urban_nav_core::OdometryChain& chain, StampNs stamp, const std::vector<LaserScans>& lasers) {
   return SurfaceGrid(urban_nav_registration::makeSurfels(
       urban_nav_registration::localCloud(chain, stamp, kSurfaceTravel, lasers), kSurfaceVoxel));
 }
 
-KeyframeMatches match(const NearPoints& row, const SurfaceGrid& stated, const SurfaceGrid* exchanged) {
+/// A point by stereo, with its standard deviation along the line of sight, m.
+struct StereoPoint {
+  Eigen::Vector3f p_base = Eigen::Vector3f::Zero();
+  float sigma = 0.0F;
+};
+
+/// Points that stereo saw at a keyframe.
+struct StereoView {
+  StampNs stamp = 0;
+  Eigen::Vector3d camera = Eigen::Vector3d::Zero();  ///< in base_link, m
+  std::vector<StereoPoint> points;
+};
+
+/// Surfaces by the lasers as stated, and with left and right exchanged, if there are both.
+struct LaserSurfaces {
+  SurfaceGrid stated;
+  std::optional<SurfaceGrid> exchanged;
+};
+
+KeyframeMatches match(const StereoView& view, const LaserSurfaces& surfaces) {
   KeyframeMatches result;
-  result.stamp = row.stamp;
-  const std::vector<NearPoints::Point> points = row.points();
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kPointsCompared);
+  result.stamp = view.stamp;
+  const std::size_t stride = std::max<std::size_t>(1, view.points.size() / kPointsCompared);
   const auto offSurface = [](const Surfel* surfel, const Eigen::Vector3f& p) {
     return surfel->normal.dot(p - surfel->mean);
   };
-  const auto isOnWall = [&](const Surfel* surfel, const Eigen::Vector3f& p) {
-    return surfel != nullptr && std::abs(surfel->normal.z()) < kUprightNormal &&
-           std::abs(offSurface(surfel, p)) < kOnSurface;
-  };
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    const Eigen::Vector3f& p = points[i].p_base;
-    if (points[i].sigma > kMostSigma) continue;
-    const Surfel* surfel = stated.find(p);
-    if (surfel != nullptr && std::abs(offSurface(surfel, p)) < kSurfaceReach)
-      result.matches.push_back(
-          {p.cast<double>() - row.camera, surfel->normal.cast<double>(), static_cast<double>(offSurface(surfel, p))});
-    if (exchanged == nullptr) continue;
-    const bool as_stated = isOnWall(surfel, p), as_exchanged = isOnWall(exchanged->find(p), p);
+  for (std::size_t i = 0; i < view.points.size(); i += stride) {
+    const Eigen::Vector3f& p = view.points[i].p_base;
+    const Eigen::Vector3f ray = (p - view.camera.cast<float>()).normalized();
+    const auto sigmaAcross = [&](const Surfel* surfel) {
+      return view.points[i].sigma * std::abs(surfel->normal.dot(ray));
+    };
+    const auto isOnWall = [&](const Surfel* surfel) {
+      return surfel != nullptr && sigmaAcross(surfel) < kMostSigma && std::abs(surfel->normal.z()) < kUprightNormal &&
+             std::abs(offSurface(surfel, p)) < kOnSurface;
+    };
+    const Surfel* surfel = surfaces.stated.find(p);
+    if (surfel != nullptr && sigmaAcross(surfel) < kMostSigma && std::abs(offSurface(surfel, p)) < kSurfaceReach)
+      result.matches.push_back({p.cast<double>() - view.camera, surfel->normal.cast<double>(),
+                                static_cast<double>(offSurface(surfel, p)), static_cast<double>(sigmaAcross(surfel))});
+    if (!surfaces.exchanged) continue;
+    const bool as_stated = isOnWall(surfel), as_exchanged = isOnWall(surfaces.exchanged->find(p));
     result.points += as_stated || as_exchanged ? 1 : 0;
     result.as_stated += as_stated ? 1 : 0;
     result.exchanged += as_exchanged ? 1 : 0;
   }
   return result;
+}
+
+/// Returns up to `most` of the stamps, evenly spread.
+std::vector<StampNs> spread(const std::vector<StampNs>& stamps, std::size_t most) {
+  std::vector<StampNs> some;
+  const std::size_t stride = std::max<std::size_t>(1, (stamps.size() + most - 1) / most);
+  for (std::size_t i = 0; i < stamps.size(); i += stride) some.push_back(stamps[i]);
+  return some;
+}
+
+/// Returns views of dense stereo: near, and of robots with a short range mostly of the ground.
+std::vector<StereoView> denseViews(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
+  urban_nav_store::TableStore<NearPoints> rows(store);
+  std::vector<StampNs> stamps;
+  rows.forEach(session, [&](const NearPoints& row) { stamps.push_back(row.stamp); });
+  std::vector<StereoView> views;
+  for (const StampNs stamp : spread(stamps, kMostDense)) {
+    NearPoints key;
+    key.session = session;
+    key.stamp = stamp;
+    const std::optional<NearPoints> row = rows.get(key);
+    if (!row) continue;
+    StereoView view{stamp, row->camera, {}};
+    for (const NearPoints::Point& point : row->points()) view.points.push_back({point.p_base, point.sigma});
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+/// Returns views of corners, which are matched at any range: those of the walls along the path.
+std::vector<StereoView> cornerViews(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
+                                    const SessionOdometry& odometry) {
+  using urban_nav_registration::kKeyframeCamera;
+  const urban_nav_core::StereoCamera& camera = odometry.camera;
+  std::vector<StereoView> views;
+  for (const StampNs stamp : spread(store.keyframes().stamps(session, kKeyframeCamera), kMostCorners)) {
+    const auto stored = store.keyframes().get(session, kKeyframeCamera, stamp);
+    if (!stored) continue;
+    StereoView view{stamp, odometry.T_base_camera.t(), {}};
+    for (const urban_nav_registration::KeyframePoint& point :
+         urban_nav_registration::toKeyframe(*stored, session).points) {
+      const Eigen::Vector2d pixel = point.pixel();
+      const double disparity = static_cast<double>(point.disparity);
+      const std::optional<Eigen::Vector3d> p = camera.triangulate({pixel.x(), pixel.y(), pixel.x() - disparity});
+      if (!p || !(disparity > camera.disparity_offset)) continue;
+      const double sigma =
+          static_cast<double>(point.sigma_disparity) * p->norm() / (disparity - camera.disparity_offset);
+      view.points.push_back({(odometry.T_base_camera * *p).cast<float>(), static_cast<float>(sigma)});
+    }
+    views.push_back(std::move(view));
+  }
+  return views;
 }
 
 }  // namespace
@@ -125,21 +199,15 @@ std::vector<KeyframeMatches> matchDepths(urban_nav_store::Store& store, const ur
   const std::optional<std::vector<LaserAt>> other_sides = exchangeSides(lasers);
   std::vector<LaserScans> other_scans;
   if (other_sides) other_scans = urban_nav_registration::storedScans(store.scans(), session, *other_sides);
-  urban_nav_store::TableStore<NearPoints> rows(store);
-  std::vector<urban_nav_core::StampNs> stamps;
-  rows.forEach(session, [&](const NearPoints& row) { stamps.push_back(row.stamp); });
-  const std::size_t stride = std::max<std::size_t>(1, (stamps.size() + kMostKeyframes - 1) / kMostKeyframes);
-  for (std::size_t i = 0; i < stamps.size(); i += stride) {
-    NearPoints key;
-    key.session = session;
-    key.stamp = stamps[i];
-    const std::optional<NearPoints> row = rows.get(key);
-    if (!row) continue;
-    const SurfaceGrid stated = makeGrid(chain, row->stamp, scans);
-    const std::optional<SurfaceGrid> exchanged =
-        other_sides ? std::optional(makeGrid(chain, row->stamp, other_scans)) : std::nullopt;
-    keyframes.push_back(match(*row, stated, exchanged ? &*exchanged : nullptr));
+  for (const StereoView& view : denseViews(store, session))
+    keyframes.push_back(match(view, {makeGrid(chain, view.stamp, scans), std::nullopt}));
+  for (const StereoView& view : cornerViews(store, session, odometry)) {
+    LaserSurfaces surfaces{makeGrid(chain, view.stamp, scans), std::nullopt};
+    if (other_sides) surfaces.exchanged = makeGrid(chain, view.stamp, other_scans);
+    keyframes.push_back(match(view, surfaces));
   }
+  std::sort(keyframes.begin(), keyframes.end(),
+            [](const KeyframeMatches& a, const KeyframeMatches& b) { return a.stamp < b.stamp; });
   return keyframes;
 }
 

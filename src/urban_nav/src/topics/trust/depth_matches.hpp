@@ -10,8 +10,8 @@
 namespace urban_nav {
 
 /// Returns stereo points of some keyframes of a session near the surfaces that its lasers measured within 6 m of
-/// travel, placed along odometry. Empty without near points of dense stereo or scans. Throws DataError if the store is
-/// damaged.
+/// travel, placed along odometry: those of dense stereo, and corners of the keyframes for loop closures, which alone
+/// reach the walls along the path. Empty without either or without scans. Throws DataError if the store is damaged.
 std::vector<urban_nav_trust::KeyframeMatches> matchDepths(urban_nav_store::Store& store,
                                                           const urban_nav_store::SessionId& session,
                                                           const SessionOdometry& odometry);
