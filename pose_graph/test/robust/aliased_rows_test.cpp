@@ -103,5 +103,28 @@ TEST(AliasedRows, DoNotMoveTheMap) { expectRejected(1.0); }
 // Deviations stated twenty times too large let the row fit as it is.
 TEST(AliasedRows, DoNotMoveTheMapWhereTheInformationIsFarTooModest) { expectRejected(1.0 / 400.0); }
 
+// All errors are a twentieth of what the information states, but for one closure in thirty that errs by nearly as much.
+TEST(AliasedRows, CostNoClosureThatErrsAsMuchAsItStates) {
+  for (const std::uint64_t seed : {3, 6, 8}) {
+    auto noise = urban_nav_core::testing::evenNoise(0.05, 0.01);
+    noise.drawn = 0.05;
+    const SimulatedGraph graph = urban_nav_core::testing::manhattanGraph(kPosesOfTown, 12, 0.5, noise, seed);
+    Problem<2> problem = test::simulatedProblem<2>(graph, deadReckoning(graph));
+    std::size_t closures = 0;
+    for (std::size_t e = 0; e < problem.edges.size(); ++e)
+      if (graph.edges[e].b != graph.edges[e].a + 1 && closures++ % 30 == 0)
+        problem.edges[e].Z.t[0] += 0.8 / std::sqrt(problem.edges[e].information(0, 0));
+    const int similar = findSimilar(graph, kLastRevisit - 50);
+    if (similar < 0) continue;
+    test::Dice dice(seed);
+    addAliasedRow(problem, similar, static_cast<int>(kLastRevisit) - 50, dice);
+    const RobustSolution<2> robust = relaxSelected(problem, rolesByNumbers(problem), {});
+    EXPECT_EQ(countAliasedAccepted(robust), 0u) << seed;
+    std::size_t lost = 0;
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) lost += !(robust.edges[e].weight > 0.0);
+    EXPECT_EQ(lost, 0u) << seed << ", of " << closures;
+  }
+}
+
 }  // namespace
 }  // namespace pose_graph

@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "pose_graph/graph_file.hpp"
+#include "robust/generators/admission.hpp"
+#include "support/drawn.hpp"
 
 namespace pose_graph {
 namespace {
@@ -44,6 +50,72 @@ TEST(TrueResidual, FallsWithTheResidualAndStaysFinite) {
       before = now;
     }
   }
+}
+
+// A straight drive there and back, closures between the two directions, and one of them that errs.
+struct ThereAndBack {
+  static constexpr int kPoses = 60, kErring = 70;  // number of the edge
+  Problem<2> problem;
+  std::vector<int> candidates;
+  std::vector<char> in;
+  std::vector<int> row;
+
+  explicit ThereAndBack(double error) {
+    problem.poses.resize(1);
+    for (int i = 1; i < kPoses; ++i) {
+      Rigid<2> step;
+      step.t = {1.0, 0.0};
+      if (i == kPoses / 2) step.R = expRotation(RotationVector<2>(M_PI));
+      problem.poses.push_back(problem.poses.back() * step);
+      measure(i - 1, i);
+    }
+    for (int i = 3; i < kPoses / 2 - 3; ++i) measure(i, kPoses - 1 - i);
+    problem.edges[kErring].Z.t[0] += error;
+    for (int e = 0; e < static_cast<int>(problem.edges.size()); ++e) {
+      if (e >= kPoses - 1) candidates.push_back(e);
+      in.push_back(1);
+      row.push_back(-1);
+    }
+  }
+  void measure(int from, int to) {
+    const auto at = [&](int pose) { return problem.poses[static_cast<std::size_t>(pose)]; };
+    problem.edges.push_back({from, to, at(from).inverse() * at(to), TangentMatrix<2>::Identity() * 1e4});
+  }
+  Evidence evaluate(double own) const {
+    const DeadReckoning<2> reckoning(problem, rolesByNumbers(problem));
+    const ClosureEvaluator<2> evaluator(problem, candidates, reckoning);
+    AcceptedGraph<2> graph(problem);
+    std::vector<Rigid<2>> poses = problem.poses;
+    graph.take(in);
+    graph.settle(poses);
+    return evaluator.evaluate(graph, in, poses, 1.0, row, kSettled, own);
+  }
+};
+
+// A covariance from 24 samples is good to three tenths.
+TEST(OwnVariance, IsThatOfTheClosureInQuestionAlone) {
+  ThereAndBack inside(0.3), outside = inside, wider = inside;
+  outside.in[ThereAndBack::kErring] = wider.in[ThereAndBack::kErring] = 0;
+  for (const double own : {1.0, 25.0, 900.0}) {
+    const double without = outside.evaluate(own).chi2[ThereAndBack::kErring];
+    EXPECT_LT(std::abs(std::log(inside.evaluate(own).chi2[ThereAndBack::kErring] / without)), std::log(1.8)) << own;
+    wider.problem.edges[ThereAndBack::kErring].information = inside.problem.edges[0].information / own;
+    EXPECT_NEAR(wider.evaluate(1.0).chi2[ThereAndBack::kErring], without, 1e-6 * without) << own;
+  }
+}
+
+// Ten closures in a row that are two metres off, which a tenth of a metre of each does not explain.
+TEST(OwnVariance, OfARowIsThatOfAllItsClosures) {
+  ThereAndBack alone(0.0), row(0.0);
+  for (int e = ThereAndBack::kErring - 5; e < ThereAndBack::kErring + 5; ++e) {
+    row.problem.edges[static_cast<std::size_t>(e)].Z.t[1] += 2.0;
+    row.row[static_cast<std::size_t>(e)] = ThereAndBack::kErring;
+  }
+  const double stated = row.evaluate(1.0).group_chi2[ThereAndBack::kErring];
+  const double wider = row.evaluate(100.0).group_chi2[ThereAndBack::kErring];
+  EXPECT_GT(wider, 50.0);
+  EXPECT_LT(wider, stated);
+  EXPECT_LT(alone.evaluate(100.0).group_chi2[ThereAndBack::kErring], 1e-6);
 }
 
 }  // namespace

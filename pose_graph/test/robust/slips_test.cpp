@@ -80,5 +80,24 @@ TEST(Slips, AStepMayHaveSlippedWhereClosuresAreOutsideOrItIsFarOff) {
   EXPECT_FALSE(may(right, right.all, right.all, right.truth));
 }
 
+// The closures that span the step are all of them, one row of the same, two rows, or none.
+TEST(Slips, OneRowOfClosuresContradictsNoStep) {
+  const SlippedChain chain(2.0);
+  std::vector<char> in = chain.all, none_spans = chain.all;
+  std::vector<int> one_row(in.size(), -1), two_rows = one_row;
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (chain.roles[e] != EdgeRole::Candidate) continue;
+    one_row[e] = 39;
+    two_rows[e] = chain.problem.edges[e].from < 15 ? 39 : 54;
+    if (chain.problem.edges[e].from <= 20 && chain.problem.edges[e].to > 20) none_spans[e] = 0;
+  }
+  in[20] = none_spans[20] = 0;
+  const std::vector<Slip<2>> slips = {{20, chain.truth[20].inverse() * chain.truth[21]}};
+  EXPECT_FALSE(joinEndsWithoutAnyRow(chain.problem, chain.roles, in, one_row, slips));
+  EXPECT_TRUE(joinEndsWithoutAnyRow(chain.problem, chain.roles, in, two_rows, slips));
+  EXPECT_FALSE(joinEndsWithoutAnyRow(chain.problem, chain.roles, none_spans, two_rows, slips));
+  EXPECT_TRUE(joinEndsWithoutAnyRow(chain.problem, chain.roles, none_spans, one_row, {}));
+}
+
 }  // namespace
 }  // namespace pose_graph

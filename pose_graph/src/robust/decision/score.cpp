@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "linear/index.hpp"
@@ -28,7 +29,9 @@ constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // of a ratio; of logarith
 constexpr double kComponentsSettled = 0.05;           // of the logarithms of the factors
 constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
 constexpr std::size_t kMostUnconfirmed = 8;
-constexpr int kLongestRow = 30;  // closures that a row of false ones has at most
+// Closures that a row of false ones has at most: public ones are drawn in tens, those of real front ends that take one
+// corridor for another come in up to 25.
+constexpr int kLongestRow = 30;
 
 double logFactorial(double n) { return std::lgamma(n + 1.0); }
 
@@ -145,10 +148,13 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
   log_false_.assign(roles.size(), log_place_);
   ChanceDensity<D> by_chance(reckoning_, candidates_.size());
   for (const int e : candidates_) log_false_[sz(e)] = by_chance.logAt(problem.edges[sz(e)]);
-  neighbour_.assign(roles.size(), -1);
-  row_position_.assign(roles.size(), 0);
-  log_alike_.assign(roles.size(), 0.0);
   const ClosureLoops<D> loops(problem, candidates_, reckoning_);
+  row_ = closureRows(loops, roles.size());
+  neighbour_.assign(roles.size(), -1);
+  std::vector<int> position(roles.size(), 0);  // in its row
+  std::vector<std::size_t> first(loops.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  log_alike_.assign(roles.size(), 0.0);
   const double scale = assertions_ ? 1.0 : informationScale(loops).factor;
   for (std::size_t a = 0; a < loops.size(); ++a)
     loops.partners(a, 1, [&](std::size_t b) {
@@ -158,9 +164,15 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
       double best = -std::numeric_limits<double>::infinity();
       for (const double factor : {1.0, scale, kLooseFactor, kLooseFactor * std::max(1.0, scale)})
         best = std::max(best, loop.log_true - 0.5 * kN * std::log(factor) - 0.5 * loop.chi2 / factor);
-      neighbour_[sz(loops.edge(b))] = loops.edge(a);
-      row_position_[sz(loops.edge(b))] = row_position_[sz(loops.edge(a))] + 1;
-      log_alike_[sz(loops.edge(b))] = best;
+      const int before = loops.edge(a), after = loops.edge(b);
+      neighbour_[sz(after)] = before;
+      position[sz(after)] = position[sz(before)] + 1;
+      first[b] = first[a];
+      // Were it false, it would not err like those before it: similar places are parts of the map.
+      const bool too_long = loops.metresBetween(first[b], b) > reckoning_.extent;
+      if (too_long) first[b] = b;
+      log_alike_[sz(after)] =
+          too_long || position[sz(after)] % kLongestRow == 0 ? -std::numeric_limits<double>::infinity() : best;
     });
 }
 
@@ -198,21 +210,23 @@ double HypothesisEvaluator<D>::chance(const Hypothesis<D>& hypothesis) const {
 
 template <int D>
 double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
-  std::vector<int> inside;
-  for (const int e : candidates_)
-    if (hypothesis.in[sz(e)]) inside.push_back(e);
-  if (inside.empty() || assertions_) return 0.0;
-  ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
-  const double log_predicted =
-      (hypothesis.log_inside - log_odometry_) / static_cast<double>(inside.size());  // density of each, on average
-  const std::size_t every = 1 + inside.size() / kAskedOfMap;
-  double sum = 0.0, asked = 0.0;
-  for (std::size_t i = 0; i < inside.size(); i += every, asked += 1.0) {
-    const std::size_t e = sz(inside[i]);
-    const double on_map = by_chance.logAt(problem_.edges[e], std::exp(-log_predicted));
-    sum += std::max(0.0, on_map - (neighbour_[e] < 0 ? log_false_[e] : std::max(log_false_[e], log_alike_[e])));
+  std::vector<std::size_t> first;
+  double gain = hypothesis.log_inside - log_odometry_;
+  for (const int e : candidates_) {
+    if (!hypothesis.in[sz(e)]) continue;
+    if (isFollower(e)) gain -= log_alike_[sz(e)];
+    else first.push_back(sz(e));
   }
-  return sum / asked * static_cast<double>(inside.size());
+  if (first.empty() || assertions_) return 0.0;
+  ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
+  const double log_predicted = gain / static_cast<double>(first.size());  // density of each, on average
+  const std::size_t every = 1 + first.size() / kAskedOfMap;
+  double sum = 0.0, asked = 0.0;
+  for (std::size_t i = 0; i < first.size(); i += every, asked += 1.0) {
+    const double on_map = by_chance.logAt(problem_.edges[first[i]], std::exp(-log_predicted));
+    sum += std::max(0.0, on_map - log_false_[first[i]]);
+  }
+  return sum / asked * static_cast<double>(first.size());
 }
 
 // Sums of squares over redundancy (Förstner 1979), translation and rotation together.
@@ -351,12 +365,7 @@ Hypothesis<D> HypothesisEvaluator<D>::assessRows(const Hypothesis<D>& hypothesis
   double followers = 0.0;  // their densities given those before them in their row
   for (const int e : candidates_) {
     const int near = neighbour_[sz(e)];
-    if (!hypothesis.in[sz(e)] || near < 0 || !hypothesis.in[sz(near)]) continue;
-    if (log_alike_[sz(e)] < log_false_[sz(e)]) continue;
-    if (row_position_[sz(e)] % kLongestRow == 0) {  // were it false, it would not err like those before it
-      followers += log_alike_[sz(e)] - log_false_[sz(e)];
-      continue;
-    }
+    if (!hypothesis.in[sz(e)] || !isFollower(e) || !hypothesis.in[sz(near)]) continue;
     rows.in[sz(e)] = 0;
     followers += log_alike_[sz(e)];
   }

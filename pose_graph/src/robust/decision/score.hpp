@@ -53,7 +53,8 @@ class HypothesisEvaluator {
   /// By how much closures inside agree by chance rather on the map of the hypothesis than on that of odometry, which is
   /// no evidence for them: closures are found where two places are alike, so that the density of one that is true is
   /// relative to how often two poses of the map lie as it says, over the volume within which the set as a whole
-  /// predicts it. Requires evaluate(); not less than 0. None where closures are assertions: they are found with
+  /// predicts those that rows begin with; what follows in a row is found because of these. Requires evaluate(); not
+  /// less than 0. None where closures are assertions: they are found with
   /// odometry as tight as it says, which draws no map together.
   double gainByContraction(const Hypothesis<D>& hypothesis) const;
 
@@ -61,6 +62,9 @@ class HypothesisEvaluator {
   /// agree with each other exactly, all the more the looser odometry is: variances that follow from them serve to score
   /// one set, not to find another or to relax with.
   bool areAssertions() const { return assertions_; }
+
+  /// Returns closureRows(), by edge.
+  const std::vector<int>& rows() const { return row_; }
 
   /// How many rows of neighbouring closures are inside: closures of one row are no independent witnesses.
   double rowsInside(const Hypothesis<D>& hypothesis) const;
@@ -86,6 +90,11 @@ class HypothesisEvaluator {
   // Relaxes, estimates the factors in so many rounds at most, and fills `log_evidence`.
   void assess(Hypothesis<D>& hypothesis, int rounds) const;
   double chance(const Hypothesis<D>& hypothesis) const;
+  // Whether a closure agrees with the one before it in its row rather than by chance.
+  bool isFollower(int e) const {
+    const std::size_t i = static_cast<std::size_t>(e);
+    return neighbour_[i] >= 0 && log_alike_[i] > log_false_[i];
+  }
   // Estimates both factors anew where the graph is relaxed and factored.
   VarianceFactors estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const;
 
@@ -102,8 +111,9 @@ class HypothesisEvaluator {
   double log_place_ = 0.0;         ///< of one pose anywhere, density
   std::vector<double> log_false_;  ///< by edge, density of its measurement were it anywhere
   std::vector<int> neighbour_;     ///< by edge: a closure near it, before it; -1 without one
-  std::vector<int> row_position_;  ///< by edge, how many closures are before it in its row
-  std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour
+  std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour; minus
+                                   ///< infinity for one that would not, as the row is too long
+  std::vector<int> row_;
 };
 
 extern template class HypothesisEvaluator<2>;

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "linear/disjoint_sets.hpp"
 #include "robust/evidence/closure_loops.hpp"
 #include "robust/generators/admission.hpp"
 #include "robust/generators/session_links.hpp"
@@ -46,9 +45,10 @@ void Selection<D>::run() {
   odometry_ = evaluator_->evaluateOdometry();
   weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
   best_.hypothesis = hypothesisOver(best_.selected, {});
+  best_.members = best_.hypothesis.in;
   evaluator_->evaluate(best_.hypothesis);
   contract(best_.hypothesis);
-  weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
+  weighed_.emplace_back(best_.hypothesis.log_evidence, best_.members);
   if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
   if (!contested_) {
     // A short slip costs few closures; one alone refutes no step.
@@ -67,7 +67,9 @@ void Selection<D>::run() {
 template <int D>
 bool Selection<D>::isUndecided() const {
   if (contested_ || core_) return !(evidence() >= kDecisive);
-  const Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
+  Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
+  rows.by_contraction = 0.0;  // their volume is another one
+  contract(rows);
   const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
   const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
   return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
@@ -127,7 +129,7 @@ bool Selection<D>::isRescaled() const {
 
 template <int D>
 std::optional<std::vector<char>> Selection<D>::findShared() const {
-  std::vector<char> shared = best_.hypothesis.in;
+  std::vector<char> shared = best_.members;
   bool has_rival = contested_ && shareWithSets(shared);
   if (evaluator_ && !evaluator_->areAssertions() && !core_) has_rival |= shareWithoutRows(shared);
   return has_rival ? std::make_optional(shared) : std::nullopt;
@@ -140,7 +142,7 @@ bool Selection<D>::shareWithSets(std::vector<char>& shared) const {
     if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
     std::size_t differ = 0;
     for (std::size_t e = 0; e < roles_.size(); ++e)
-      differ += roles_[e] == EdgeRole::Candidate && in[e] != best_.hypothesis.in[e];
+      differ += roles_[e] == EdgeRole::Candidate && in[e] != best_.members[e];
     if (!(static_cast<double>(differ) > Thresholds::kContested * static_cast<double>(candidates_))) continue;
     has_rival = true;
     for (std::size_t e = 0; e < shared.size(); ++e) shared[e] = shared[e] && in[e];
@@ -231,14 +233,26 @@ SelectedEdges<D> Selection<D>::selectProposed(const VarianceFactors& factors, do
 
 template <int D>
 bool Selection<D>::holdsWithout(const SelectedEdges<D>& selected, const std::vector<Slip<D>>& slips) const {
-  DisjointSets joined(problem_.poses.size());
-  joined.joinAll(problem_.fixed);
-  for (std::size_t e = 0; e < selected.edges.size(); ++e)
-    if (selected.edges[e].weight > 0.0) joined.join(problem_.edges[e].from, problem_.edges[e].to);
-  return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
-    const Edge<D>& edge = problem_.edges[sz(slip.edge)];
-    return joined.areJoined(edge.from, edge.to);
-  });
+  std::vector<char> in;
+  for (const EdgeAssessment& edge : selected.edges) in.push_back(edge.weight > 0.0);
+  return joinEndsWithoutAnyRow(problem_, roles_, in, evaluator_->rows(), slips);
+}
+
+template <int D>
+void Selection<D>::readmit(Proposal& proposal) const {
+  proposal.members = proposal.hypothesis.in;
+  const VarianceFactors& factors = proposal.found_with;
+  if (!(factors.closures < 1.0) || rejected(proposal.selected) == 0) return;
+  const std::vector<char> fitting = findFitting(withFactors(proposed_, proposed_roles_, factors), proposed_roles_,
+                                                proposedFrom(proposal.hypothesis.in, 1), proposal.hypothesis.poses,
+                                                proposedFrom(evaluator_->rows(), -1), 1.0 / factors.closures);
+  for (std::size_t e = 0; e < roles_.size(); ++e) {
+    if (!fitting[e] || (e < barred_.size() && barred_[e])) continue;
+    proposal.members[e] = 1;
+    proposal.selected.edges[e].weight = 1.0;
+    proposal.selected.edges[e].verdict = urban_nav_core::ClosureVerdict::Accepted;
+    proposal.selected.edges[e].reason = Reason::Fits;
+  }
 }
 
 template <int D>
@@ -269,11 +283,12 @@ bool Selection<D>::propose(const VarianceFactors& factors, const std::vector<Sli
     edge.reason = Reason::Slipped;
   }
   made.hypothesis = hypothesisOver(made.selected, factors);
-  const bool known = std::any_of(weighed_.begin(), weighed_.end(),
-                                 [&](const auto& other) { return other.second == made.hypothesis.in; });
+  readmit(made);
+  const bool known =
+      std::any_of(weighed_.begin(), weighed_.end(), [&](const auto& other) { return other.second == made.members; });
   if (known && !forced && !is_doubtful_link) return false;
   evaluator_->evaluate(made.hypothesis);
-  weighed_.emplace_back(made.hypothesis.log_evidence, made.hypothesis.in);
+  weighed_.emplace_back(made.hypothesis.log_evidence, made.members);
   const bool is_new_slip = slips.size() > best_.slips.size();
   const bool likelier = made.hypothesis.log_evidence >
                             best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
@@ -383,8 +398,7 @@ typename Selection<D>::Considered Selection<D>::considerConfirmed(const Problem<
 template <int D>
 void Selection<D>::proposeSlips(const VarianceFactors& factors) {
   const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
-  std::vector<char> in = best_.hypothesis.in;
-  in.resize(proposed_roles_.size(), 1);
+  const std::vector<char> in = proposedFrom(best_.hypothesis.in, 1);
   if (rejected(best_.selected) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
   Considered some = considerConfirmed(scaled);
   std::vector<char> considered = std::move(some.confirmed), all(scaled.edges.size(), 1);
@@ -424,7 +438,7 @@ template <int D>
 void Selection<D>::tryScales() {
   if (!isContested(best_.selected) && !best_.hypothesis.factors.areBeyond(kContestedFactor)) return;
   const auto try_with = [&](const VarianceFactors& factors) {
-    if (!takesNearlyAll() && factors.odometry <= evaluator_->largestOdometryFactor()) propose(factors, slips_);
+    if (!isUnquestioned() && factors.odometry <= evaluator_->largestOdometryFactor()) propose(factors, slips_);
   };
   const bool looser = evidence() < kDecisive || mayFitLooser();
   if (looser) try_with({kFarFactor, kFarFactor});  // what is too sure of itself shuts true ones out
@@ -437,6 +451,19 @@ void Selection<D>::tryScales() {
   // Where variances were stated too large, a slip stands out only now.
   if (slips_.empty() && evidence() >= kDecisive && !best_.found_with.areWithin(kSameFactor, {}))
     proposeSlips(best_.found_with);
+}
+
+template <int D>
+bool Selection<D>::isUnquestioned() {
+  if (rejectsMany(best_.selected) || evidence() < kDecisive) return false;
+  if (!best_.is_contradicted) {
+    const Hypothesis<D>& best = best_.hypothesis;
+    const std::vector<char> contradicted = findContradicted(
+        withFactors(proposed_, proposed_roles_, best.factors), proposed_roles_, proposedFrom(best.in, 1), best.poses,
+        proposedFrom(evaluator_->rows(), -1), std::max(1.0, 1.0 / best.factors.closures));
+    best_.is_contradicted = std::find(contradicted.begin(), contradicted.end(), 1) != contradicted.end();
+  }
+  return !*best_.is_contradicted;
 }
 
 template <int D>
@@ -458,14 +485,8 @@ bool Selection<D>::isSettled() const {
 }
 
 template <int D>
-bool Selection<D>::isTighter() const {
-  const VarianceFactors &now = best_.hypothesis.factors, &then = best_.found_with;
-  return now.odometry <= then.odometry && now.closures <= then.closures;
-}
-
-template <int D>
 void Selection<D>::repeatWithFactors() {
-  for (int i = 0; i < kRepeats && !isSettled() && !(takesNearlyAll() && isTighter()); ++i) {
+  for (int i = 0; i < kRepeats && !isSettled() && !(isTighter() && isUnquestioned()); ++i) {
     const VarianceFactors now = best_.hypothesis.factors;
     repeated_with_ = now;
     if (!propose(now, slips_)) return;

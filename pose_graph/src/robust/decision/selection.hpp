@@ -59,8 +59,10 @@ class Selection {
   struct Proposal {
     SelectedEdges<D> selected;
     Hypothesis<D> hypothesis;
+    std::vector<char> members;  // by edge: those inside the hypothesis, and those that readmit() adds
     std::vector<Slip<D>> slips;
     VarianceFactors found_with;
+    std::optional<bool> is_contradicted;  // once it was asked for
   };
 
   // Edges that the best set and all its rivals have; none where there is no rival.
@@ -84,8 +86,6 @@ class Selection {
   bool isContested(const SelectedEdges<D>& selected) const {
     return candidates_ > 0 && (rejectsMany(selected) || beyond(selected.variance, kContestedFactor));
   }
-  bool takesNearlyAll() const { return !rejectsMany(best_.selected) && evidence() >= kDecisive; }
-
   Hypothesis<D> hypothesisOver(const SelectedEdges<D>& selected, const VarianceFactors& factors) const;
 
   // Takes off what is no evidence, where that decides anything.
@@ -100,10 +100,22 @@ class Selection {
     return roles_[e] == EdgeRole::Candidate && parts_[sz(problem_.edges[e].from)] != parts_[sz(problem_.edges[e].to)];
   }
 
+  // The same by edge of the proposed graph, which has more: in place of steps between sessions.
+  template <typename Value>
+  std::vector<Value> proposedFrom(std::vector<Value> by_edge, typename std::vector<Value>::value_type others) const {
+    by_edge.resize(proposed_roles_.size(), others);
+    return by_edge;
+  }
+
   // Inner selection over the proposed graph without what is barred.
   SelectedEdges<D> selectProposed(const VarianceFactors& factors, double most_work) const;
 
-  // Whether what is accepted joins the two ends of each slip: where nothing does, nothing has refuted the step.
+  // Accepts closures that err no more than they state, where the proposed variances are smaller than that: by these
+  // they were rejected, which are not theirs.
+  void readmit(Proposal& proposal) const;
+
+  // Whether accepted edges join the two ends of each slip, also without any one row of closures: where none do, the
+  // step is not refuted, and one row is one place, which may resemble another one.
   bool holdsWithout(const SelectedEdges<D>& selected, const std::vector<Slip<D>>& slips) const;
 
   // Closures between parts that the best set has not.
@@ -147,6 +159,11 @@ class Selection {
 
   void tryScales();
 
+  // Whether the best set is decisive and takes nearly all closures, of which none contradicts the rest where variances
+  // are those that follow from it, and its own are no less than stated: no other variances find a likelier set. That
+  // it is likelier than odometry alone is not enough.
+  bool isUnquestioned();
+
   // Whether the best set explains far more than chance, with variances near those stated.
   bool isCredible() const { return evidence() >= kDecisive && !best_.hypothesis.factors.areBeyond(kContestedFactor); }
 
@@ -161,7 +178,10 @@ class Selection {
   // Whether the variances that follow from the best set are no larger than those it was found with. Where it takes
   // nearly all closures, another selection with these gains none, and loses those that err as much as they state where
   // most err by far less.
-  bool isTighter() const;
+  bool isTighter() const {
+    const VarianceFactors &now = best_.hypothesis.factors, &then = best_.found_with;
+    return now.odometry <= then.odometry && now.closures <= then.closures;
+  }
 
   void repeatWithFactors();
 
@@ -179,7 +199,7 @@ class Selection {
   Hypothesis<D> odometry_;
   Proposal best_;
   VarianceFactors repeated_with_;
-  std::vector<std::pair<double, std::vector<char>>> weighed_;  // evidence of each set, and what is in it
+  std::vector<std::pair<double, std::vector<char>>> weighed_;  // evidence of each set, and its members
   std::vector<Slip<D>> slips_;
 };
 

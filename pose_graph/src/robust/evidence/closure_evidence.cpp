@@ -104,7 +104,7 @@ std::vector<typename ClosureEvaluator<D>::Samples> ClosureEvaluator<D>::disturb(
 
 template <int D>
 void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const WhitenedJacobians<D>& at, const Samples& moved,
-                                      double uncontrolled, Evidence& made) const {
+                                      double uncontrolled, double own, Evidence& made) const {
   constexpr int kN = kTangentSize<D>;
   const std::size_t e = sz(candidates_[k]);
   const int rank = edges_[e].rank;
@@ -112,13 +112,19 @@ void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const Whitened
   for (int a = rank; a < kN; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
   double log = false_log_[k] - 0.5 * rank * kLogTwoPi;
   if (inside) {
-    // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
+    // The inverse of what is left of its own unit covariance, R, is the covariance that its residual would have were it
+    // outside: an innovation R^-1 r with covariance R^-1, and with R^-1 + (own - 1) I were its own larger.
     log += 0.5 * std::log(std::max(1e-300, C.determinant()));
+    if (own != 1.0) {
+      const TangentMatrix<D> larger = TangentMatrix<D>::Identity() + (own - 1.0) * C;
+      log += 0.5 * (kN - rank) * std::log(own) - 0.5 * std::log(larger.determinant());
+    }
     C.diagonal().array() += uncontrolled;
+    if (own != 1.0) C += (own - 1.0) * C.lazyProduct(C).eval();
     made.chi2[e] = at.error.dot(urban_nav_core::SmallCholesky<kN>(C).solve(at.error)) * kShrink<D> / made.variance;
   } else {
     C.topLeftCorner(rank, rank) /= kShrink<D>;
-    C.diagonal().head(rank).array() += 1.0;
+    C.diagonal().head(rank).array() += own;
     const urban_nav_core::SmallCholesky<kN> factored(C);
     made.chi2[e] = at.error.dot(factored.solve(at.error)) / made.variance;
     for (int a = 0; a < rank; ++a) log -= std::log(factored.factor()(a, a));
@@ -130,7 +136,7 @@ void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const Whitened
 template <int D>
 void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members, const std::vector<Rigid<D>>& poses,
                                         const std::vector<WhitenedJacobians<D>>& at, const std::vector<Samples>& moved,
-                                        double uncontrolled, Evidence& made) const {
+                                        double uncontrolled, double own, Evidence& made) const {
   constexpr int kN = kTangentSize<D>;
   Samples spread = Samples::Zero();
   Tangent<D> sum = Tangent<D>::Zero();
@@ -150,7 +156,12 @@ void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members,
   }
   TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
   C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
-  const double chi2 = sum.dot(urban_nav_core::SmallCholesky<kN>(C).solve(sum)) * kShrink<D> / made.variance;
+  TangentMatrix<D> with_own = C;
+  if (own != 1.0) {  // as of one closure, whose unit covariance is here the inverse of the weight
+    weight.diagonal().array() += 1e-12 * weight.diagonal().maxCoeff();
+    with_own += (own - 1.0) * C.lazyProduct(urban_nav_core::SmallCholesky<kN>(weight).solve(C)).eval();
+  }
+  const double chi2 = sum.dot(urban_nav_core::SmallCholesky<kN>(with_own).solve(sum)) * kShrink<D> / made.variance;
   double width = 0.0;
   for (std::size_t k : members) width = std::max(width, width_log_[k]);
   const double log = width - 0.5 * kN * kLogTwoPi + 0.5 * std::log(std::max(1e-300, C.determinant()));
@@ -163,7 +174,7 @@ void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members,
 template <int D>
 Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vector<char>& in,
                                        const std::vector<Rigid<D>>& poses, double variance,
-                                       const std::vector<int>& small_group, double uncontrolled) const {
+                                       const std::vector<int>& small_group, double uncontrolled, double own) const {
   const std::size_t edges = problem_->edges.size();
   Evidence made;
   made.chi2.assign(edges, 0.0);
@@ -184,11 +195,11 @@ Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vecto
       made.likelier[e] *= -1.0;
       continue;
     }
-    evaluateOne(k, in[e] != 0, at[e], moved[k], uncontrolled, made);
+    evaluateOne(k, in[e] != 0, at[e], moved[k], uncontrolled, own, made);
     if (in[e] && small_group[e] >= 0) groups[small_group[e]].push_back(k);
   }
   for (const auto& [name, members] : groups)
-    if (members.size() > 1) evaluateGroup(members, poses, at, moved, uncontrolled, made);
+    if (members.size() > 1) evaluateGroup(members, poses, at, moved, uncontrolled, own, made);
   return made;
 }
 

@@ -40,9 +40,10 @@ class ClosureEvaluator {
   /// them through the factor of `graph`: the spread of what comes out at an edge is its covariance (of a residual
   /// inside, of a prediction outside), to about three tenths. `variance`: factor of all covariances. `small_group`:
   /// groups by edge, -1 for none, as they are tested for a common bias. `uncontrolled`: redundancy below which a
-  /// residual tells nothing (admission_thresholds.hpp).
+  /// residual tells nothing (admission_thresholds.hpp). `own`: factor of the variances of the closure or the group in
+  /// question alone, all others as they are.
   Evidence evaluate(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                    double variance, const std::vector<int>& small_group, double uncontrolled) const;
+                    double variance, const std::vector<int>& small_group, double uncontrolled, double own = 1.0) const;
 
  private:
   using Samples = Eigen::Matrix<double, kTangentSize<D>, kDisturbances, Eigen::RowMajor>;
@@ -52,10 +53,10 @@ class ClosureEvaluator {
   std::vector<Samples> disturb(AcceptedGraph<D>& graph, const std::vector<char>& in,
                                const std::vector<WhitenedJacobians<D>>& at) const;
   void evaluateOne(std::size_t k, bool inside, const WhitenedJacobians<D>& at, const Samples& moved,
-                   double uncontrolled, Evidence& made) const;
+                   double uncontrolled, double own, Evidence& made) const;
   void evaluateGroup(const std::vector<std::size_t>& members, const std::vector<Rigid<D>>& poses,
                      const std::vector<WhitenedJacobians<D>>& at, const std::vector<Samples>& moved,
-                     double uncontrolled, Evidence& made) const;
+                     double uncontrolled, double own, Evidence& made) const;
 
   const Problem<D>* problem_;
   std::vector<int> candidates_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
@@ -13,17 +14,16 @@
 
 namespace pose_graph {
 
-namespace {}  // namespace
-
 template <int D>
 typename ClosureLoops<D>::Closure ClosureLoops<D>::toClosure(const Problem<D>& problem, int e, double extent) {
   const Edge<D>& edge = problem.edges[sz(e)];
   const TangentMatrix<D> child = boundedCovariance<D>(edge.information, extent);
+  const double metres = child.diagonal().template head<D>().sum(), radians = child.trace() - metres;
   if (edge.from <= edge.to) {
     const TangentMatrix<D> turn = adjoint<D>(edge.Z);
-    return {e, edge.from, edge.to, edge.Z, turn * child * turn.transpose()};
+    return {e, edge.from, edge.to, edge.Z, turn * child * turn.transpose(), {metres, radians}};
   }
-  return {e, edge.to, edge.from, edge.Z.inverse(), child};
+  return {e, edge.to, edge.from, edge.Z.inverse(), child, {metres, radians}};
 }
 
 template <int D>
@@ -36,6 +36,40 @@ ClosureLoops<D>::ClosureLoops(const Problem<D>& problem, const std::vector<int>&
     const auto on_a = closureChains(a), on_b = closureChains(b);
     return on_a != on_b ? on_a < on_b : a.from != b.from ? a.from < b.from : a.edge < b.edge;
   });
+  double metres = 0.0, radians = 0.0;
+  for (std::size_t i = 0; i < chains.Q.size(); ++i) {
+    const TangentMatrix<D> back = adjoint<D>(chains.pose[i].inverse());
+    const TangentMatrix<D> Q = back * chains.Q[i] * back.transpose();
+    const double translation = Q.diagonal().template head<D>().sum();
+    metres += translation;
+    radians += Q.trace() - translation;
+    steps_[0].push_back(metres);
+    steps_[1].push_back(radians);
+  }
+}
+
+template <int D>
+std::size_t ClosureLoops<D>::nextInRow(std::size_t a) const {
+  const Closure& first = closures_[a];
+  for (std::size_t b = a + 1; b < closures_.size() && closureChains(closures_[b]) == closureChains(first); ++b) {
+    const Closure& other = closures_[b];
+    double left[2];  // variances of both closures less those of odometry
+    for (int kind = 0; kind < 2; ++kind)
+      left[kind] = first.variances[kind] + other.variances[kind] - stepVariance(first.from, other.from, kind);
+    const bool near = other.from - first.from <= kRowReach, known = left[0] >= 0.0 && left[1] >= 0.0;
+    if (!near && !known) break;
+    if (near && std::abs(other.to - first.to) <= kRowReach) return b;
+    if (known && stepVariance(first.to, other.to, 0) <= left[0] && stepVariance(first.to, other.to, 1) <= left[1])
+      return b;
+  }
+  return closures_.size();
+}
+
+template <int D>
+double ClosureLoops<D>::metresBetween(std::size_t a, std::size_t b) const {
+  const std::vector<double>& driven = chains_->way;
+  const auto metres = [&](int from, int to) { return std::abs(driven[sz(to)] - driven[sz(from)]); };
+  return std::max(metres(closures_[a].from, closures_[b].from), metres(closures_[a].to, closures_[b].to));
 }
 
 template <int D>
@@ -150,6 +184,23 @@ InformationScale informationScale(const ClosureLoops<D>& closures) {
   return made;
 }
 
+template <int D>
+std::vector<int> closureRows(const ClosureLoops<D>& closures, std::size_t edges) {
+  DisjointSets rows(closures.size());
+  std::vector<std::size_t> first(closures.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  for (std::size_t a = 0; a < closures.size(); ++a) {
+    const std::size_t b = closures.nextInRow(a);
+    if (b == closures.size() || closures.metresBetween(first[a], b) > closures.extent()) continue;
+    first[b] = std::min(first[a], first[b]);
+    rows.join(static_cast<int>(a), static_cast<int>(b));
+  }
+  std::vector<int> row(edges, -1);
+  for (std::size_t i = 0; i < closures.size(); ++i)
+    row[sz(closures.edge(i))] = closures.edge(sz(rows.root(static_cast<int>(i))));
+  return row;
+}
+
 namespace {
 
 constexpr int kPartners = 20;  // compared with each closure at most: one that agrees is enough
@@ -188,6 +239,8 @@ std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& clos
 
 template class ClosureLoops<2>;
 template class ClosureLoops<3>;
+template std::vector<int> closureRows<2>(const ClosureLoops<2>&, std::size_t);
+template std::vector<int> closureRows<3>(const ClosureLoops<3>&, std::size_t);
 template InformationScale informationScale<2>(const ClosureLoops<2>&);
 template InformationScale informationScale<3>(const ClosureLoops<3>&);
 template std::vector<int> consistentGroups<2>(std::size_t, const ClosureLoops<2>&, double, const Thresholds&);

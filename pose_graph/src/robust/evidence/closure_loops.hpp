@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace pose_graph {
 
-/// Two closures and the odometry between their ends. The way from one pose along odometry to the next, over one
+/// Two closures and the odometry between their ends. The path from one pose along odometry to the next, over one
 /// closure, along odometry again and back over the other closure ends where it began if both are true (Olson, Walter,
 /// Leonard, Teller, Single-cluster graph partitioning for robotics applications, RSS 2005).
 struct ClosureLoop {
@@ -27,8 +28,15 @@ class ClosureLoops {
 
   std::size_t size() const { return closures_.size(); }
   int edge(std::size_t i) const { return closures_[i].edge; }
+  double extent() const { return chains_->extent; }
   /// Costs the number of poses between the ends.
   ClosureLoop loop(std::size_t a, std::size_t b) const;
+
+  /// Returns the closure after `a` in its row, size() for none: both ends are at most kRowReach poses from its own, or
+  /// so near that odometry between them is known better than the two closures, which then agree in any case.
+  std::size_t nextInRow(std::size_t a) const;
+  /// Metres of the drive between the ends of two closures, on the side where they are more.
+  double metresBetween(std::size_t a, std::size_t b) const;
 
   /// visit(b) for the closures after `a` that are near it, at most `most`: both ends at most kRowReach poses apart;
   /// between two chains, which nothing else can vouch for, however far apart.
@@ -48,15 +56,22 @@ class ClosureLoops {
   struct Closure {  // its ends in the order of their numbers
     int edge = 0, from = 0, to = 0;
     Rigid<D> Z;
-    TangentMatrix<D> covariance;  // in the frame of `from`
+    TangentMatrix<D> covariance;       // in the frame of `from`
+    double variances[2] = {0.0, 0.0};  // translation and rotation, all axes together
   };
   static Closure toClosure(const Problem<D>& problem, int edge, double extent);
   std::pair<int, int> closureChains(const Closure& c) const {
     return {chains_->of_pose[static_cast<std::size_t>(c.from)], chains_->of_pose[static_cast<std::size_t>(c.to)]};
   }
 
+  // Variance of the steps between two poses in translation (0) or rotation (1), all axes together.
+  double stepVariance(int from, int to, int kind) const {
+    return std::abs(steps_[kind][static_cast<std::size_t>(to)] - steps_[kind][static_cast<std::size_t>(from)]);
+  }
+
   const DeadReckoning<D>* chains_;
   std::vector<Closure> closures_;
+  std::vector<double> steps_[2];  // sums of the variances of all steps up to each pose
 };
 
 /// Of variances: false closures that were found in a row err alike, and nearly agree. Loops whose deviations are at
@@ -79,6 +94,12 @@ struct InformationScale {
 };
 template <int D>
 InformationScale informationScale(const ClosureLoops<D>& loops);
+
+/// Rows of closures, each of which may be one place that resembles another one. Returns for each of so many edges one
+/// closure of its row, -1 for edges that are no candidates. A row longer than the map is wide is several: similar
+/// places are parts of the map.
+template <int D>
+std::vector<int> closureRows(const ClosureLoops<D>& closures, std::size_t edges);
 
 /// What tells a true closure's residual from a false one's, in numbers.
 struct Thresholds {
@@ -114,6 +135,8 @@ std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& clos
 
 extern template class ClosureLoops<2>;
 extern template class ClosureLoops<3>;
+extern template std::vector<int> closureRows<2>(const ClosureLoops<2>&, std::size_t);
+extern template std::vector<int> closureRows<3>(const ClosureLoops<3>&, std::size_t);
 extern template InformationScale informationScale<2>(const ClosureLoops<2>&);
 extern template InformationScale informationScale<3>(const ClosureLoops<3>&);
 

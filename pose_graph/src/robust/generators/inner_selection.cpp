@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "condense/core_graph.hpp"
 #include "linear/index.hpp"
@@ -150,6 +151,87 @@ SelectedEdges<D> selectEdges(const Problem<D>& problem, const std::vector<EdgeRo
               : selectInGraph(problem, roles, DeadReckoning<D>(problem, roles), most_work);
 }
 
+namespace {
+
+// A set of closures at rest, and its evidence for each closure whose own variances are `own` times larger.
+template <int D>
+struct SettledSet {
+  std::vector<Rigid<D>> poses;
+  Thresholds thresholds;
+  ClosureEvaluator<D> evaluator;
+  Evidence evidence;
+
+  SettledSet(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& reckoning,
+             const std::vector<char>& in, std::vector<Rigid<D>> from, const std::vector<int>& row, double own)
+      : poses(std::move(from)),
+        thresholds(candidates.size(), kTangentSize<D>),
+        evaluator(problem, candidates, reckoning) {
+    AcceptedGraph<D> graph(problem);
+    graph.take(in);
+    graph.settle(poses);
+    evidence = evaluator.evaluate(graph, in, poses, 1.0, row, kSettled, own);
+  }
+
+  bool fits(int e) const {
+    return evidence.known && evidence.chi2[sz(e)] <= findLimit(thresholds, evaluator.edge(e)) &&
+           evidence.likelier[sz(e)] >= Thresholds::kEvidence;
+  }
+  bool isContradicted(int e) const {
+    return evidence.known && (evidence.chi2[sz(e)] > sampledMargin() * findLimit(thresholds, evaluator.edge(e)) ||
+                              evidence.group_chi2[sz(e)] > sampledMargin() * thresholds.limit.back());
+  }
+};
+
+std::vector<int> listCandidates(const std::vector<EdgeRole>& roles) {
+  std::vector<int> candidates;
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    if (roles[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
+  return candidates;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<char> findContradicted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                   const std::vector<char>& in, std::vector<Rigid<D>> poses,
+                                   const std::vector<int>& row, double own) {
+  const std::vector<int> candidates = listCandidates(roles);
+  const DeadReckoning<D> reckoning(problem, roles);
+  const SettledSet<D> set(problem, candidates, reckoning, in, std::move(poses), row, own);
+  std::vector<char> contradicted(roles.size(), 0);
+  for (const int e : candidates) contradicted[sz(e)] = in[sz(e)] && set.isContradicted(e);
+  return contradicted;
+}
+
+template <int D>
+std::vector<char> findFitting(const Problem<D>& problem, const std::vector<EdgeRole>& roles, std::vector<char> in,
+                              std::vector<Rigid<D>> poses, const std::vector<int>& row, double own) {
+  const std::vector<int> candidates = listCandidates(roles);
+  const DeadReckoning<D> reckoning(problem, roles);
+  const SettledSet<D> without(problem, candidates, reckoning, in, std::move(poses), row, own);
+  std::vector<char> fitting(roles.size(), 0);
+  Problem<D> wider = problem;
+  for (const int e : candidates) {
+    fitting[sz(e)] = !in[sz(e)] && without.fits(e);
+    if (!fitting[sz(e)]) continue;
+    in[sz(e)] = 1;
+    wider.edges[sz(e)].information /= own;
+  }
+  const SettledSet<D> with(wider, candidates, reckoning, in, without.poses, row, 1.0);
+  for (const int e : candidates) fitting[sz(e)] = fitting[sz(e)] && !with.isContradicted(e);
+  return fitting;
+}
+
+template std::vector<char> findContradicted<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                               const std::vector<char>&, std::vector<Rigid<2>>, const std::vector<int>&,
+                                               double);
+template std::vector<char> findContradicted<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                               const std::vector<char>&, std::vector<Rigid<3>>, const std::vector<int>&,
+                                               double);
+template std::vector<char> findFitting<2>(const Problem<2>&, const std::vector<EdgeRole>&, std::vector<char>,
+                                          std::vector<Rigid<2>>, const std::vector<int>&, double);
+template std::vector<char> findFitting<3>(const Problem<3>&, const std::vector<EdgeRole>&, std::vector<char>,
+                                          std::vector<Rigid<3>>, const std::vector<int>&, double);
 template SelectedEdges<2> selectEdges<2>(const Problem<2>&, const std::vector<EdgeRole>&, double);
 template SelectedEdges<3> selectEdges<3>(const Problem<3>&, const std::vector<EdgeRole>&, double);
 

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
+#include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 #include "objective/whitened_edge.hpp"
@@ -224,6 +227,35 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   return made;
 }
 
+template <int D>
+bool joinEndsWithoutAnyRow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                           const std::vector<int>& row, const std::vector<Slip<D>>& slips) {
+  if (slips.empty()) return true;
+  DisjointSets joined(problem.poses.size());
+  joined.joinAll(problem.fixed);
+  for (std::size_t e = 0; e < in.size(); ++e)
+    if (roles[e] != EdgeRole::Candidate && in[e]) joined.join(problem.edges[e].from, problem.edges[e].to);
+  // Two rows between two stretches are enough: without any one of them another one is left.
+  std::map<std::pair<int, int>, std::set<int>> rows;
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    const int a = joined.root(problem.edges[e].from), b = joined.root(problem.edges[e].to);
+    if (a == b || roles[e] != EdgeRole::Candidate || !in[e]) continue;
+    std::set<int>& between = rows[std::minmax(a, b)];
+    if (between.size() < Thresholds::kLeastAgreeing) between.insert(row[e]);
+  }
+  std::set<int> all = {-1};  // none
+  for (const auto& [stretches, between] : rows) all.insert(between.begin(), between.end());
+  return std::all_of(all.begin(), all.end(), [&](int one) {
+    DisjointSets without = joined;
+    for (const auto& [stretches, between] : rows)
+      if (between.size() > between.count(one)) without.join(stretches.first, stretches.second);
+    return std::all_of(slips.begin(), slips.end(), [&](const Slip<D>& slip) {
+      const Edge<D>& edge = problem.edges[sz(slip.edge)];
+      return without.areJoined(edge.from, edge.to);
+    });
+  });
+}
+
 template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                          const std::vector<char>&, const std::vector<Rigid<2>>&);
 template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
@@ -236,5 +268,10 @@ template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<
                                            const std::vector<char>&, const std::vector<Rigid<2>>&);
 template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                                            const std::vector<char>&, const std::vector<Rigid<3>>&);
+
+template bool joinEndsWithoutAnyRow<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                       const std::vector<int>&, const std::vector<Slip<2>>&);
+template bool joinEndsWithoutAnyRow<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                       const std::vector<int>&, const std::vector<Slip<3>>&);
 
 }  // namespace pose_graph

@@ -37,4 +37,11 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
                                const std::vector<char>& considered, const std::vector<char>& doubted,
                                const std::vector<Rigid<D>>& odometry);
 
+/// Whether the edges inside join the ends of each slip, also without any one row of closures (`row`: by edge, one
+/// closure of each): where none do, nothing contradicts the step, and one row is one place, which may resemble another
+/// one.
+template <int D>
+bool joinEndsWithoutAnyRow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                           const std::vector<int>& row, const std::vector<Slip<D>>& slips);
+
 }  // namespace pose_graph
