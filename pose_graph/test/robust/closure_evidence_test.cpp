@@ -9,6 +9,7 @@
 
 #include "pose_graph/graph_file.hpp"
 #include "robust/generators/admission.hpp"
+#include "robust/generators/inner_selection.hpp"
 #include "support/drawn.hpp"
 
 namespace pose_graph {
@@ -116,6 +117,22 @@ TEST(OwnVariance, OfARowIsThatOfAllItsClosures) {
   EXPECT_GT(wider, 50.0);
   EXPECT_LT(wider, stated);
   EXPECT_LT(alone.evaluate(100.0).group_chi2[ThereAndBack::kErring], 1e-6);
+}
+
+TEST(OwnVariance, ARowContradictsTheRestUnlessItsOwnVarianceExplainsIt) {
+  const auto contradicts = [](double metres, double own) {
+    ThereAndBack drive(0.0);
+    for (int e = ThereAndBack::kErring - 5; e < ThereAndBack::kErring + 5; ++e) {
+      drive.problem.edges[static_cast<std::size_t>(e)].Z.t[1] += metres;
+      drive.row[static_cast<std::size_t>(e)] = ThereAndBack::kErring;
+    }
+    return contradictsItself(drive.problem, rolesByNumbers(drive.problem), drive.in, drive.problem.poses, drive.row,
+                             own);
+  };
+  EXPECT_FALSE(contradicts(0.0, 1.0));
+  EXPECT_TRUE(contradicts(2.0, 1.0));
+  EXPECT_TRUE(contradicts(2.0, 100.0));
+  EXPECT_FALSE(contradicts(2.0, 1e6));
 }
 
 }  // namespace

@@ -458,10 +458,9 @@ bool Selection<D>::isUnquestioned() {
   if (rejectsMany(best_.selected) || evidence() < kDecisive) return false;
   if (!best_.is_contradicted) {
     const Hypothesis<D>& best = best_.hypothesis;
-    const std::vector<char> contradicted = findContradicted(
+    best_.is_contradicted = contradictsItself(
         withFactors(proposed_, proposed_roles_, best.factors), proposed_roles_, proposedFrom(best.in, 1), best.poses,
         proposedFrom(evaluator_->rows(), -1), std::max(1.0, 1.0 / best.factors.closures));
-    best_.is_contradicted = std::find(contradicted.begin(), contradicted.end(), 1) != contradicted.end();
   }
   return !*best_.is_contradicted;
 }

@@ -159,9 +159,9 @@ class Selection {
 
   void tryScales();
 
-  // Whether the best set is decisive and takes nearly all closures, of which none contradicts the rest where variances
-  // are those that follow from it, and its own are no less than stated: no other variances find a likelier set. That
-  // it is likelier than odometry alone is not enough.
+  // Whether the best set is decisive and takes nearly all closures, none of which contradicts the rest where variances
+  // are those that follow from it (contradictsItself()), and its own no less than stated: no other variances find a
+  // likelier set. That it is likelier than odometry alone is not enough.
   bool isUnquestioned();
 
   // Whether the best set explains far more than chance, with variances near those stated.

@@ -176,9 +176,11 @@ struct SettledSet {
     return evidence.known && evidence.chi2[sz(e)] <= findLimit(thresholds, evaluator.edge(e)) &&
            evidence.likelier[sz(e)] >= Thresholds::kEvidence;
   }
-  bool isContradicted(int e) const {
-    return evidence.known && (evidence.chi2[sz(e)] > sampledMargin() * findLimit(thresholds, evaluator.edge(e)) ||
-                              evidence.group_chi2[sz(e)] > sampledMargin() * thresholds.limit.back());
+  bool isContradictedAlone(int e) const {
+    return evidence.known && evidence.chi2[sz(e)] > sampledMargin() * findLimit(thresholds, evaluator.edge(e));
+  }
+  bool isContradictedAsRow(int e) const {
+    return evidence.known && evidence.group_chi2[sz(e)] > sampledMargin() * thresholds.limit.back();
   }
 };
 
@@ -192,15 +194,18 @@ std::vector<int> listCandidates(const std::vector<EdgeRole>& roles) {
 }  // namespace
 
 template <int D>
-std::vector<char> findContradicted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                                   const std::vector<char>& in, std::vector<Rigid<D>> poses,
-                                   const std::vector<int>& row, double own) {
+bool contradictsItself(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                       std::vector<Rigid<D>> poses, const std::vector<int>& row, double own) {
   const std::vector<int> candidates = listCandidates(roles);
   const DeadReckoning<D> reckoning(problem, roles);
   const SettledSet<D> set(problem, candidates, reckoning, in, std::move(poses), row, own);
-  std::vector<char> contradicted(roles.size(), 0);
-  for (const int e : candidates) contradicted[sz(e)] = in[sz(e)] && set.isContradicted(e);
-  return contradicted;
+  std::size_t alone = 0;
+  for (const int e : candidates) {
+    if (!in[sz(e)]) continue;
+    if (set.isContradictedAsRow(e)) return true;
+    alone += set.isContradictedAlone(e);
+  }
+  return static_cast<double>(alone) > Thresholds::kContested * static_cast<double>(candidates.size());
 }
 
 template <int D>
@@ -218,16 +223,15 @@ std::vector<char> findFitting(const Problem<D>& problem, const std::vector<EdgeR
     wider.edges[sz(e)].information /= own;
   }
   const SettledSet<D> with(wider, candidates, reckoning, in, without.poses, row, 1.0);
-  for (const int e : candidates) fitting[sz(e)] = fitting[sz(e)] && !with.isContradicted(e);
+  for (const int e : candidates)
+    fitting[sz(e)] = fitting[sz(e)] && !with.isContradictedAlone(e) && !with.isContradictedAsRow(e);
   return fitting;
 }
 
-template std::vector<char> findContradicted<2>(const Problem<2>&, const std::vector<EdgeRole>&,
-                                               const std::vector<char>&, std::vector<Rigid<2>>, const std::vector<int>&,
-                                               double);
-template std::vector<char> findContradicted<3>(const Problem<3>&, const std::vector<EdgeRole>&,
-                                               const std::vector<char>&, std::vector<Rigid<3>>, const std::vector<int>&,
-                                               double);
+template bool contradictsItself<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                   std::vector<Rigid<2>>, const std::vector<int>&, double);
+template bool contradictsItself<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                   std::vector<Rigid<3>>, const std::vector<int>&, double);
 template std::vector<char> findFitting<2>(const Problem<2>&, const std::vector<EdgeRole>&, std::vector<char>,
                                           std::vector<Rigid<2>>, const std::vector<int>&, double);
 template std::vector<char> findFitting<3>(const Problem<3>&, const std::vector<EdgeRole>&, std::vector<char>,

@@ -27,12 +27,12 @@ template <int D>
 SelectedEdges<D> selectEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                              double most_work = std::numeric_limits<double>::infinity());
 
-/// Which closures of a set contradict the rest of it, alone or as a row that errs alike (`row`: by edge, one closure of
-/// each), where the variances are those of `problem`, and their own `own` times larger.
+/// Whether closures of a set contradict the rest of it, as a row that errs alike (`row`: by edge, one closure of each)
+/// or alone, where the variances are those of `problem`, and their own `own` times larger. Single ones have to be more
+/// than a negligible share (Thresholds::kContested): of thousands, one fails the test by chance.
 template <int D>
-std::vector<char> findContradicted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                                   const std::vector<char>& in, std::vector<Rigid<D>> poses,
-                                   const std::vector<int>& row, double own);
+bool contradictsItself(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                       std::vector<Rigid<D>> poses, const std::vector<int>& row, double own);
 
 /// Which closures outside a set fit it, alone and as rows, where the variances are those of `problem`, and their own
 /// `own` times larger; there has to be evidence for each.
@@ -43,12 +43,10 @@ std::vector<char> findFitting(const Problem<D>& problem, const std::vector<EdgeR
 extern template SelectedEdges<2> selectEdges<2>(const Problem<2>&, const std::vector<EdgeRole>&, double);
 extern template SelectedEdges<3> selectEdges<3>(const Problem<3>&, const std::vector<EdgeRole>&, double);
 
-extern template std::vector<char> findContradicted<2>(const Problem<2>&, const std::vector<EdgeRole>&,
-                                                      const std::vector<char>&, std::vector<Rigid<2>>,
-                                                      const std::vector<int>&, double);
-extern template std::vector<char> findContradicted<3>(const Problem<3>&, const std::vector<EdgeRole>&,
-                                                      const std::vector<char>&, std::vector<Rigid<3>>,
-                                                      const std::vector<int>&, double);
+extern template bool contradictsItself<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                          std::vector<Rigid<2>>, const std::vector<int>&, double);
+extern template bool contradictsItself<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
+                                          std::vector<Rigid<3>>, const std::vector<int>&, double);
 extern template std::vector<char> findFitting<2>(const Problem<2>&, const std::vector<EdgeRole>&, std::vector<char>,
                                                  std::vector<Rigid<2>>, const std::vector<int>&, double);
 extern template std::vector<char> findFitting<3>(const Problem<3>&, const std::vector<EdgeRole>&, std::vector<char>,
