@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/Trust.h>
 #include <urban_nav_msgs/VoStatistics.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include "live/live_trust.hpp"
@@ -52,6 +54,12 @@ std::optional<LivePose> toLivePose(const nav_msgs::Odometry& message) {
                   {*pose, urban_nav_ros::toMatrix6(message.pose.covariance)}};
 }
 
+std::optional<LiveStep> toLiveStep(const urban_nav_msgs::RelativePose& message) {
+  std::optional<urban_nav_core::RelativePose> step = urban_nav_ros::toRelativePose(message);
+  if (!step) return std::nullopt;
+  return LiveStep{step->to, std::move(*step)};
+}
+
 }  // namespace
 
 /// Consistency tests on topics.
@@ -59,7 +67,7 @@ class TrustStage {
  public:
   static constexpr const char* name = "trust";
   static constexpr const char* topic = "trust";
-  using Input = std::variant<LiveFrame, LivePose>;
+  using Input = std::variant<LiveFrame, LivePose, LiveStep>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit TrustStage(Node& node) : node_(node) {
@@ -78,6 +86,8 @@ class TrustStage {
     options.is_monitored = false;
     node.subscribeInput<urban_nav_msgs::VoStatistics>(topics::kVoStatistics, options,
                                                       [](const auto& message) { return toFrame(*message); });
+    node.subscribeInput<urban_nav_msgs::RelativePose>(topics::kVoRelativePose, options,
+                                                      [](const auto& message) { return toLiveStep(*message); });
   }
 
   void handle(Input& input) {

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
-#include "urban_nav_trust/offset_monitor.hpp"
 #include "urban_nav_trust/position_probability.hpp"
 
 namespace urban_nav_trust {
 
 namespace {
+
+constexpr double kNegligible = 1e-6;  // probability of a factor
 
 /// Returns the distance travelled at a stamp, m. Requires frames.
 double travelledAt(const std::vector<FrameEvidence>& frames, urban_nav_core::StampNs stamp) {
@@ -17,9 +18,9 @@ double travelledAt(const std::vector<FrameEvidence>& frames, urban_nav_core::Sta
   return after == frames.end() ? frames.back().travelled : after->travelled;
 }
 
-TrustState classify(const FrameEvidence& frame, bool has_failures, bool is_compared) {
+TrustState classify(const FrameEvidence& frame, bool has_failures, bool is_confirmed) {
   if (frame.is_lost) return TrustState::Lost;
-  if (has_failures || !is_compared) return TrustState::Unsure;
+  if (has_failures || !is_confirmed) return TrustState::Unsure;
   return frame.is_joined ? TrustState::Known : TrustState::New;
 }
 
@@ -44,26 +45,26 @@ bool hasFailed(const ConsistencyTest& test, const Parameters& parameters) {
   return !(test.p_value >= parameters.false_alarm);
 }
 
-bool comparesSensors(const ConsistencyTest& test) { return test.name != kOffsetTest; }
-
-bool comparesSensors(const TestResults& results) {
-  return std::any_of(results.tests.begin(), results.tests.end(),
-                     [](const ConsistencyTest& test) { return comparesSensors(test); });
-}
-
-FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures, bool is_compared,
-                       const Parameters& parameters) {
+FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures,
+                       const Confirmation& confirmation, const Parameters& parameters) {
   FrameTrust trust;
   trust.stamp = frame.stamp;
-  trust.state = classify(frame, !failures.empty(), is_compared);
-  Eigen::Matrix3d covariance = frame.covariance;
+  trust.state = classify(frame, !failures.empty(), confirmation.isComplete());
+  double widening = 0.0;
   for (const Failure& failure : failures) {
     trust.tests += (trust.tests.empty() ? "" : " ") + failure.test;
     const double drift = 0.01 * parameters.unexplained_drift * failure.distance;
-    covariance.diagonal().array() += drift * drift;
+    widening += drift * drift;
+  }
+  for (std::size_t i = 0; i < kScaleCount; ++i) {
+    const double weight = confirmation.scales[i], scale = covarianceScales()[i];
+    if (!(weight > kNegligible)) continue;
+    const Eigen::Matrix3d covariance = scale * scale * frame.covariance + widening * Eigen::Matrix3d::Identity();
+    for (std::size_t k = 0; k < kRadii.size(); ++k)
+      trust.probabilities[k] += weight * probabilityWithin(kRadii[k], covariance);
   }
   for (std::size_t k = 0; k < kRadii.size(); ++k) {
-    trust.probabilities[k] = probabilityWithin(kRadii[k], covariance);
+    trust.probabilities[k] = std::min(1.0, trust.probabilities[k]);
     if (k > 0) trust.probabilities[k] = std::max(trust.probabilities[k], trust.probabilities[k - 1]);  // last bits
   }
   return trust;
@@ -77,6 +78,7 @@ std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, c
     if (hasFailed(test, parameters) && test.interval.from <= frames.back().stamp &&
         test.interval.to >= frames.front().stamp)
       failed.push_back(&test);
+  const Confirmation confirmation = confirm(results);
   std::vector<FrameTrust> trusts;
   for (const FrameEvidence& frame : frames) {
     std::vector<Failure> failures;
@@ -85,7 +87,7 @@ std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, c
       const urban_nav_core::StampNs end = spreads ? test->interval.to : std::min(frame.stamp, test->interval.to);
       failures.push_back({test->name, travelledAt(frames, end) - travelledAt(frames, test->interval.from)});
     }
-    trusts.push_back(assessFrame(frame, failures, comparesSensors(results), parameters));
+    trusts.push_back(assessFrame(frame, failures, confirmation, parameters));
   }
   return trusts;
 }
@@ -105,8 +107,10 @@ MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& res
     map.reason = "odometry is lost in more than half of the frames";
   } else if (!failed.empty()) {
     map.reason = failed;
-  } else if (!comparesSensors(results)) {
-    map.reason = "nothing could be compared: each quantity was measured by one sensor only";
+  } else if (const std::string missing = missingSentence(confirm(results), results); !missing.empty()) {
+    map.reason = missing;
+  } else if (2 * count(frames, TrustState::Unsure) > frames.size()) {
+    map.reason = "in sessions with more than half of the frames, turns or lengths were measured by one sensor only";
   } else if (count(frames, TrustState::Known) == 0) {
     map.state = TrustState::New;
     map.reason = "no session is joined to the first one";

@@ -34,7 +34,19 @@ double turnProbability(double chi2, std::int64_t windows) {
 MotionMonitor::Constant::Constant(const Parameters& parameters) : detector(parameters.false_alarm, kWindowsPerHour) {}
 
 MotionMonitor::MotionMonitor(const Parameters& parameters)
-    : false_alarm_(parameters.false_alarm), speed_(parameters), direction_(parameters), clock_(parameters) {}
+    : false_alarm_(parameters.false_alarm),
+      speed_(parameters),
+      direction_(parameters),
+      clock_(parameters),
+      turn_evidence_(kTurnFloor),
+      length_evidence_(kSlip) {}
+
+void MotionMonitor::add(const urban_nav_core::RelativePose& step) {
+  const urban_nav_core::Matrix6d& drift = step.drift_covariance.isZero(0.0) ? step.covariance : step.drift_covariance;
+  if (!drift.allFinite()) return;
+  turn_drift_ += drift.bottomRightCorner<3, 3>().trace() / 3.0;
+  forward_drift_ += drift(0, 0);
+}
 
 bool MotionMonitor::add(const FrameMeasurements& frame) {
   if (!any_frame_) last_ = frame.stamp;
@@ -70,6 +82,9 @@ bool MotionMonitor::closeTurnWindow() {
     largest_turn_ = chi2;
     worst_turn_ = turn_;
   }
+  turn_evidence_.add(turn_.turn_error.squaredNorm(), 3.0, turn_drift_,
+                     std::max(0.0, turn_.turn_variance - turn_drift_));
+  turn_drift_ = 0.0;
   turn_ = Window();
   return turnProbability(chi2, kWindowsPerHour) < false_alarm_;
 }
@@ -78,11 +93,23 @@ bool MotionMonitor::closeMoveWindow() {
   bool changed = false;
   if (std::abs(move_.forward) > kLeastForward) {
     const double noise = std::sqrt(move_.forward_variance) / std::abs(move_.forward);
+    addLengthEvidence();
     changed |= speed_.add({move_.interval, move_.forward_error / move_.forward, std::hypot(noise, kSlip)});
     changed |= direction_.add({move_.interval, move_.sideways / move_.forward, std::hypot(noise, kPlay)});
   }
+  forward_drift_ = 0.0;
   move_ = Window();
   return changed;
+}
+
+// The ratio of the lengths is what the windows before have shown.
+void MotionMonitor::addLengthEvidence() {
+  const std::vector<ChangeDetector::Segment> segments = speed_.detector.segments();
+  if (segments.empty()) return;
+  const double forward = std::abs(move_.forward), known = segments.back().sigma * forward,
+               error = move_.forward_error - segments.back().mean * move_.forward;
+  length_evidence_.add(error * error, 1.0, forward_drift_,
+                       std::max(0.0, move_.forward_variance - forward_drift_) + known * known, forward);
 }
 
 bool MotionMonitor::addClock(const FrameMeasurements& frame) {

@@ -15,6 +15,8 @@ TestResults TrustMonitor::results() const {
   for (ConsistencyTest& test : motion_.tests()) results.tests.push_back(std::move(test));
   for (AbsentMeasurement& missing : motion_.absent()) results.absent.push_back(std::move(missing));
   results.segments = offset_.segments();
+  results.turns = motion_.turnEvidence();
+  results.lengths = motion_.lengthEvidence();
   return results;
 }
 

@@ -5,6 +5,12 @@
 
 #include <cmath>
 
+#include "urban_nav_trust/closure_comparison.hpp"
+#include "urban_nav_trust/depth_comparison.hpp"
+#include "urban_nav_trust/motion_monitor.hpp"
+#include "urban_nav_trust/position_probability.hpp"
+#include "urban_nav_trust/session_comparisons.hpp"
+
 namespace urban_nav_trust {
 namespace {
 
@@ -24,6 +30,9 @@ ConsistencyTest makeTest(const std::string& name, double p, std::size_t from, st
   return {name, {frames[from].stamp, frames[to].stamp}, 1.0, 1.0, p, name + " differs.", "Repair it."};
 }
 
+/// Tests of turns and of lengths that pass.
+std::vector<ConsistencyTest> bothPass() { return {makeTest(kTurnTest, 0.3, 0, 99), makeTest(kSpeedTest, 0.3, 0, 99)}; }
+
 TEST(Assessment, WithNothingToCompareItIsUnsureWithAReason) {
   const auto frames = assessFrames(drive(), {}, true, {});
   for (const FrameTrust& frame : frames) EXPECT_EQ(frame.state, TrustState::Unsure);
@@ -41,11 +50,51 @@ TEST(Assessment, ASensorThatAgreesWithItselfConfirmsNothing) {
   EXPECT_EQ(assessMap(frames, results, {}).state, TrustState::Unsure);
 }
 
+TEST(Assessment, IsKnownOnlyWhereBothTurnsAndLengthsWereCompared) {
+  const auto assess = [](const std::vector<const char*>& names) {
+    TestResults results;
+    for (const char* name : names) results.tests.push_back(makeTest(name, 0.3, 0, 99));
+    results.absent = {{kTurnTest, "no gyroscope"}, {kSpeedTest, "no wheels"}};
+    return assessMap(assessFrames(drive(), results, true, {}), results, {});
+  };
+  EXPECT_EQ(assess({kTurnTest, kSpeedTest}).state, TrustState::Known);
+  EXPECT_EQ(assess({kStereoClosureTest, kDepthScaleTest}).state, TrustState::Known);
+  EXPECT_EQ(assess({kLaserClosureTest}).state, TrustState::Known);
+  EXPECT_EQ(assess({kLidarTest}).state, TrustState::Known);
+  const MapTrust without_wheels = assess({kTurnTest, kExchangeTest}), without_gyroscope = assess({kSpeedTest}),
+                 without_both = assess({kClockTest});
+  for (const MapTrust& map : {without_wheels, without_gyroscope, without_both}) {
+    EXPECT_EQ(map.state, TrustState::Unsure);
+    EXPECT_NE(map.reason.find("measured"), std::string::npos) << map.reason;
+  }
+  EXPECT_NE(without_wheels.reason.find("no wheels"), std::string::npos) << without_wheels.reason;
+  EXPECT_NE(without_gyroscope.reason.find("no gyroscope"), std::string::npos) << without_gyroscope.reason;
+}
+
+// Were the covariance right, 5 cm per axis would be within 10 cm with probability 0.739.
+TEST(Assessment, ACovarianceThatNothingConfirmsGivesWideProbabilities) {
+  TestResults nothing, confirmed;
+  confirmed.tests = bothPass();
+  ScaleWeights narrow;
+  for (std::size_t i = 0; i < kScaleCount; ++i) narrow[i] = -30.0 * static_cast<double>(i);
+  confirmed.turns.add(narrow);
+  TestResults turns_alone = confirmed;
+  confirmed.lengths.add(narrow);
+  const double of_nothing = assessFrames(drive(), nothing, true, {})[5].probabilities[0],
+               of_turns = assessFrames(drive(), turns_alone, true, {})[5].probabilities[0],
+               of_both = assessFrames(drive(), confirmed, true, {})[5].probabilities[0];
+  EXPECT_NEAR(of_both, probabilityWithin(0.1, std::pow(covarianceScales()[0] * 0.05, 2) * Eigen::Matrix3d::Identity()),
+              1e-6);
+  EXPECT_LT(of_nothing, 0.25);
+  EXPECT_NEAR(of_turns, of_nothing, 1e-6) << "lengths may be as wrong as before";
+  EXPECT_GT(of_both, of_nothing + 0.3);
+}
+
 TEST(Assessment, IsKnownWhereTestsPassAndOdometryIsNotLost) {
   auto evidence = drive();
   evidence[40].is_lost = true;
   TestResults results;
-  results.tests = {makeTest("a", 0.3, 0, 99)};
+  results.tests = bothPass();
   const auto frames = assessFrames(evidence, results, true, {});
   for (std::size_t i = 0; i < frames.size(); ++i)
     EXPECT_EQ(frames[i].state, i == 40 ? TrustState::Lost : TrustState::Known) << i;
@@ -56,7 +105,8 @@ TEST(Assessment, IsKnownWhereTestsPassAndOdometryIsNotLost) {
 
 TEST(Assessment, AFailureWidensAndNamesItselfFromItsBeginOn) {
   TestResults results;
-  results.tests = {makeTest("a", 1e-9, 50, 99), makeTest("b", 0.5, 0, 99)};
+  results.tests = bothPass();
+  results.tests.push_back(makeTest("a", 1e-9, 50, 99));
   Parameters parameters;
   parameters.unexplained_drift = 2.0;
   const auto frames = assessFrames(drive(), results, false, parameters);
@@ -79,7 +129,7 @@ TEST(Assessment, SessionsThatJoinNothingAreNew) {
   auto evidence = drive();
   for (FrameEvidence& frame : evidence) frame.is_joined = false;
   TestResults results;
-  results.tests = {makeTest("a", 0.3, 0, 99)};
+  results.tests = bothPass();
   const auto frames = assessFrames(evidence, results, true, {});
   EXPECT_EQ(frames[5].state, TrustState::New);
   EXPECT_EQ(assessMap(frames, results, {}).state, TrustState::New);
@@ -89,7 +139,7 @@ TEST(Assessment, MostlyLostIsLostAndNoPoseIsUnsure) {
   auto evidence = drive();
   for (std::size_t i = 0; i < 60; ++i) evidence[i].is_lost = true;
   TestResults results;
-  results.tests = {makeTest("a", 0.3, 0, 99)};
+  results.tests = bothPass();
   EXPECT_EQ(assessMap(assessFrames(evidence, results, true, {}), results, {}).state, TrustState::Lost);
   EXPECT_EQ(assessMap({}, results, {}).state, TrustState::Unsure);
   EXPECT_FALSE(assessMap({}, results, {}).reason.empty());

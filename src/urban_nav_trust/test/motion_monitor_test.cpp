@@ -33,6 +33,10 @@ class MeasuredDrive {
       frame.sideways = 0.05 * std::tan(yaw) + 2e-3 * normal_(random_);
       frame.imu_delay = delay + 1e-3 * normal_(random_);
       frame.imu_delay_sigma = 1e-3;
+      urban_nav_core::RelativePose step;
+      step.drift_covariance = urban_nav_core::Matrix6d::Zero();
+      step.drift_covariance.diagonal() << 1e-8, 1e-8, 1e-8, 1e-12, 1e-12, 1e-12;
+      monitor.add(step);
       monitor.add(frame);
     }
   }
@@ -61,6 +65,16 @@ TEST(MotionMonitor, IsSilentInFiftyDrivesOfAMinute) {
     EXPECT_EQ(monitor.tests().size(), 4U);
     EXPECT_TRUE(monitor.absent().empty());
   }
+}
+
+TEST(MotionMonitor, IsEvidenceOfOdometrysCovarianceOfTurnsAndLengths) {
+  MotionMonitor monitor({});
+  EXPECT_TRUE(monitor.turnEvidence().isEmpty());
+  MeasuredDrive(1).drive(monitor, 60.0);
+  EXPECT_FALSE(monitor.turnEvidence().isEmpty());
+  EXPECT_FALSE(monitor.lengthEvidence().isEmpty());
+  // 4.5 urad in a second are stated, 2.2 mrad of noise are known: no factor of 20 would show.
+  EXPECT_NEAR(monitor.turnEvidence().probabilities()[kScaleCount - 1], 1.0 / kScaleCount, 0.05);
 }
 
 TEST(MotionMonitor, NamesWhatHasChangedAndWhen) {

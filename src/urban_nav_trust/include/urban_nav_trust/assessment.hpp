@@ -9,14 +9,15 @@
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_trust/consistency_test.hpp"
 #include "urban_nav_trust/parameters.hpp"
+#include "urban_nav_trust/test_results.hpp"
 
 namespace urban_nav_trust {
 
 /// Whether the robot is where the map shows.
 enum class TrustState {
-  Known,   ///< independent measurements were compared and agree; the probabilities hold
+  Known,   ///< independent measurements of turns and of lengths were compared and agree
   New,     ///< in a map of its own, which nothing ties to the first one
-  Unsure,  ///< a test fails, or nothing could be compared
+  Unsure,  ///< a test fails, or turns or lengths could not be compared
   Lost     ///< odometry is lost: the position is a prediction
 };
 /// "KNOWN", "NEW", "UNSURE", "LOST".
@@ -28,7 +29,7 @@ constexpr std::array<double, 3> kRadii = {0.1, 0.5, 2.0};
 /// A frame before the tests are applied.
 struct FrameEvidence {
   urban_nav_core::StampNs stamp = 0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< position in the map, m^2
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< position in the map as odometry and graph state it, m^2
   double travelled = 0.0;                                ///< m along the path from its begin
   bool is_lost = false;                                  ///< status of odometry
   bool is_joined = true;                                 ///< part of the first map
@@ -41,13 +42,6 @@ struct FrameTrust {
   std::string tests;                      ///< names of the tests that fail here, separated by blanks
 };
 
-/// Results of all tests of a map.
-struct TestResults {
-  std::vector<ConsistencyTest> tests;
-  std::vector<AbsentMeasurement> absent;
-  std::vector<ConstantSegment> segments;
-};
-
 /// Returns whether a test fails: its p-value is below `false_alarm`.
 bool hasFailed(const ConsistencyTest& test, const Parameters& parameters);
 
@@ -56,13 +50,11 @@ struct Failure {
   std::string test;
   double distance = 0.0;  ///< m travelled in the interval of the test
 };
-/// Returns whether a test compares two sensors: one of a sensor with itself confirms no map.
-bool comparesSensors(const ConsistencyTest& test);
-bool comparesSensors(const TestResults& results);
-/// Returns the trust in a frame. `is_compared`: at least one test compared two sensors. Each failure widens the
-/// covariance by Parameters::unexplained_drift of its distance.
-FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures, bool is_compared,
-                       const Parameters& parameters);
+/// Returns the trust in a frame. Its covariance is known up to the factor of Confirmation::scales, over which the
+/// probabilities are averaged; each failure widens it by Parameters::unexplained_drift of its distance. UNSURE unless
+/// the confirmation is complete.
+FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures,
+                       const Confirmation& confirmation, const Parameters& parameters);
 
 /// Returns the trust in each frame of a session. `frames`: in order of time. `spreads`: closures tie the path after a
 /// failure to the path before it, so that it affects every frame; otherwise it affects those from its begin on.

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_trust/change_detector.hpp"
 #include "urban_nav_trust/consistency_test.hpp"
+#include "urban_nav_trust/covariance_scale.hpp"
 #include "urban_nav_trust/frame_measurements.hpp"
 #include "urban_nav_trust/parameters.hpp"
 
@@ -26,8 +28,13 @@ class MotionMonitor {
 
   /// Adds a frame, in order of time. Returns whether it shows a change.
   bool add(const FrameMeasurements& frame);
+  /// Adds a final step of odometry, in order of time: the drift that it states, for the evidence.
+  void add(const urban_nav_core::RelativePose& step);
   std::vector<ConsistencyTest> tests() const;
   std::vector<AbsentMeasurement> absent() const;
+  /// Return the evidence of gyroscope and wheels on the covariance that odometry states.
+  ScaleEvidence turnEvidence() const { return turn_evidence_.evidence(); }
+  ScaleEvidence lengthEvidence() const { return length_evidence_.evidence(); }
 
  private:
   /// Sums over the steps of a window.
@@ -49,6 +56,7 @@ class MotionMonitor {
   };
   bool closeTurnWindow();
   bool closeMoveWindow();
+  void addLengthEvidence();
   bool addClock(const FrameMeasurements& frame);
   static std::optional<ConsistencyTest> makeTest(const Wording& wording, const Constant& constant);
   std::optional<ConsistencyTest> turnTest() const;
@@ -60,6 +68,8 @@ class MotionMonitor {
   Window worst_turn_;
   Interval turn_span_;
   Constant speed_, direction_, clock_;
+  WindowEvidence turn_evidence_, length_evidence_;
+  double turn_drift_ = 0.0, forward_drift_ = 0.0;  // variances since the last window: rad^2, m^2
   urban_nav_core::StampNs last_ = 0, clock_due_ = 0;
   bool any_frame_ = false;
 };

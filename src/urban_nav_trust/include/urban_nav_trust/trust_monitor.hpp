@@ -2,11 +2,11 @@
 #pragma once
 
 #include "urban_nav_core/types/stamp.hpp"
-#include "urban_nav_trust/assessment.hpp"
 #include "urban_nav_trust/frame_measurements.hpp"
 #include "urban_nav_trust/motion_monitor.hpp"
 #include "urban_nav_trust/offset_monitor.hpp"
 #include "urban_nav_trust/parameters.hpp"
+#include "urban_nav_trust/test_results.hpp"
 
 namespace urban_nav_trust {
 
@@ -17,6 +17,8 @@ class TrustMonitor {
 
   /// Adds a stereo frame, in order of time. Returns whether it shows a change of the rig.
   bool add(const FrameMeasurements& frame);
+  /// Adds a final step of odometry, in order of time, before the frame that came with it.
+  void add(const urban_nav_core::RelativePose& step) { motion_.add(step); }
   TestResults results() const;
 
  private:

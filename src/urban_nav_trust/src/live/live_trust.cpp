@@ -4,6 +4,9 @@
 #include <algorithm>
 
 #include "urban_nav_core/sequence/time_jump.hpp"
+#include "urban_nav_trust/closure_comparison.hpp"
+#include "urban_nav_trust/depth_comparison.hpp"
+#include "urban_nav_trust/session_comparisons.hpp"
 
 namespace urban_nav_trust {
 
@@ -12,6 +15,11 @@ using urban_nav_core::Health;
 namespace {
 
 constexpr urban_nav_core::StampNs kPeriod = 1'000'000'000;  // between estimates without news
+
+/// Tests that need a whole session, and measurements that no stage compares live.
+constexpr const char* kOffline[] = {kDepthScaleTest,   kExchangeTest,     kStereoClosureTest,
+                                    kLaserClosureTest, kGravityTest,      kLidarTest,
+                                    kLidarScaleTest,   "panorama_colour", "gps_position"};
 
 bool isNews(const LiveEstimate& before, const LiveEstimate& now) {
   return before.frame.state != now.frame.state || before.frame.tests != now.frame.tests ||
@@ -51,6 +59,8 @@ void LiveTrust::add(const LiveFrame& frame) {
   if (monitor_.add(frame.compared) && !changed_at_) changed_at_ = travelled_;
 }
 
+void LiveTrust::add(const LiveStep& step) { monitor_.add(step.step); }
+
 void LiveTrust::add(const LivePose& pose) {
   if (urban_nav_core::jumpsBack(pose.stamp, newest_)) reset();
   newest_ = std::max(newest_, pose.stamp);
@@ -67,6 +77,7 @@ void LiveTrust::add(const LivePose& pose) {
 LiveEstimate LiveTrust::assess(const LivePose& pose) const {
   LiveEstimate estimate;
   estimate.results = monitor_.results();
+  for (const char* name : kOffline) estimate.results.absent.push_back({name, "not compared on a running robot"});
   FrameEvidence evidence;
   evidence.stamp = pose.stamp;
   evidence.covariance = pose.T_odom_base.covariance.topLeftCorner<3, 3>();
@@ -75,7 +86,7 @@ LiveEstimate LiveTrust::assess(const LivePose& pose) const {
   std::vector<Failure> failures;
   for (const ConsistencyTest& test : estimate.results.tests)
     if (hasFailed(test, parameters_)) failures.push_back({test.name, travelled_ - changed_at_.value_or(0.0)});
-  estimate.frame = assessFrame(evidence, failures, comparesSensors(estimate.results), parameters_);
+  estimate.frame = assessFrame(evidence, failures, confirm(estimate.results), parameters_);
   estimate.reason = assessMap({estimate.frame}, estimate.results, parameters_).reason;
   return estimate;
 }

@@ -10,6 +10,7 @@
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/status.hpp"
 #include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_trust/assessment.hpp"
 #include "urban_nav_trust/trust_monitor.hpp"
 
 namespace urban_nav_trust {
@@ -26,6 +27,12 @@ struct LiveFrame {
 struct LivePose {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::PoseWithCovariance T_odom_base;
+};
+
+/// A final step of odometry, when it has left the window: later than its frame, and no mark of time.
+struct LiveStep {
+  urban_nav_core::StampNs stamp = 0;  ///< of its end
+  urban_nav_core::RelativePose step;
 };
 
 /// Trust in the pose of now.
@@ -49,6 +56,7 @@ class LiveTrust {
   LiveTrust(const Parameters& parameters, Listener listener);
 
   void add(const LiveFrame& frame);
+  void add(const LiveStep& step);
   void add(const LivePose& pose);
   /// Begins a new session.
   void reset();

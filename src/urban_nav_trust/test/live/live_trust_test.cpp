@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace urban_nav_trust {
 namespace {
 
@@ -21,18 +23,25 @@ class LiveTrustTest : public ::testing::Test {
       frame.compared.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
       frame.compared.disparity_step_sigma_px = sigma_px;
       frame.compared.turn_sigma = 1e-3;
+      frame.compared.forward = 0.05;
+      frame.compared.forward_sigma = has_wheels ? 1e-3 : 0.0;
+      LiveStep step;
+      step.stamp = step.step.to = frame.stamp;
+      step.step.drift_covariance = 1e-8 * urban_nav_core::Matrix6d::Identity();
+      trust.add(step);
       trust.add(frame);
       LivePose pose;
       pose.stamp = k_ * kLiveFrame;
       pose.T_odom_base.pose =
           urban_nav_core::Pose(Eigen::Quaterniond::Identity(), {0.05 * static_cast<double>(k_), 0.0, 0.0});
-      pose.T_odom_base.covariance = 1e-4 * urban_nav_core::Matrix6d::Identity();
+      pose.T_odom_base.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
       trust.add(pose);
     }
   }
 
   std::vector<LiveEstimate> estimates;
   LiveTrust trust{Parameters(), [this](const LiveEstimate& estimate) { estimates.push_back(estimate); }};
+  bool has_wheels = true;
   urban_nav_core::StampNs k_ = 0;
 };
 
@@ -50,6 +59,21 @@ TEST_F(LiveTrustTest, IsUnsureUntilSomethingIsComparedAndThenKnown) {
   drive(100);
   EXPECT_EQ(estimates.size(), before + 5) << "one a second while nothing changes";
   EXPECT_EQ(trust.status().health, Health::Ok);
+}
+
+TEST_F(LiveTrustTest, WithAGyroscopeAloneItIsUnsureOfLengthsAndNamesWhatIsMissing) {
+  has_wheels = false;
+  drive(200);
+  const LiveEstimate& last = estimates.back();
+  EXPECT_EQ(last.frame.state, TrustState::Unsure);
+  EXPECT_NE(last.reason.find("lengths"), std::string::npos) << last.reason;
+  EXPECT_NE(last.reason.find("wheel_speed"), std::string::npos) << last.reason;
+  const auto isAbsent = [&](const std::string& name) {
+    return std::any_of(last.results.absent.begin(), last.results.absent.end(),
+                       [&](const AbsentMeasurement& absent) { return absent.name == name && !absent.reason.empty(); });
+  };
+  for (const char* name : {"wheel_speed", "laser_sides", "stereo_laser_scale", "lidar_odometry", "gps_position"})
+    EXPECT_TRUE(isAbsent(name)) << name;
 }
 
 TEST_F(LiveTrustTest, AKnockDegradesWithinASecondAndStays) {

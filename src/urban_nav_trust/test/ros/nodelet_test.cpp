@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
 #include <urban_nav_msgs/Trust.h>
 #include <urban_nav_msgs/VoStatistics.h>
@@ -34,11 +35,19 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
       statistics.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
       statistics.disparity_step_sigma_px = 0.03;
       statistics.turn_sigma = 1e-3;
+      statistics.forward = 0.05;
+      statistics.forward_sigma = 1e-3;
       const nav_msgs::Odometry odometry = urban_nav_ros::toOdometryMessage(
           k_ * kFrame,
           {urban_nav_core::Pose(Eigen::Quaterniond::Identity(), {0.05 * static_cast<double>(k_), 0.0, 0.0}),
-           1e-4 * urban_nav_core::Matrix6d::Identity()},
+           1e-6 * urban_nav_core::Matrix6d::Identity()},
           "odom", "base_link");
+      urban_nav_core::SessionStep step;
+      step.from = (k_ - 1) * kFrame;
+      step.to = k_ * kFrame;
+      step.drift_covariance = 1e-8 * urban_nav_core::Matrix6d::Identity();
+      EXPECT_TRUE(receipts_.await({{"vo/relative_pose", 1}},
+                                  [&] { relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link")); }));
       EXPECT_TRUE(receipts_.await({{"vo/statistics", 1}}, [&] { statistics_.publish(statistics); }));
       EXPECT_TRUE(receipts_.await({{"vo/odometry", 1}}, [&] { odometry_.publish(odometry); }));
     }
@@ -50,6 +59,7 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
  private:
   const urban_nav_ros::testing::Receipts receipts_;
   ros::Publisher statistics_ = advertise<urban_nav_msgs::VoStatistics>("vo/statistics");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
   ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
   urban_nav_core::StampNs k_ = 100;
 };

@@ -14,7 +14,7 @@ using urban_nav_trust::TrustState;
 
 namespace {
 
-constexpr const char* kByCovariance = "By the covariance of each pose";
+constexpr const char* kByCovariance = "By the covariance of each pose, as far as the tests confirm it,";
 constexpr double kMostStated = 0.999;  // what is beyond rests on tails that no data show
 
 /// Returns the sentence on the whole map, which begins with `by`.
@@ -45,7 +45,7 @@ Figure probabilityFigure(const TrustRun& run) {
     plot.series.push_back(std::move(series));
   }
   return {"Probability that the robot is where the map shows", renderSvg(plot),
-          "From the covariance of each pose, widened where a test fails.", true};
+          "From the covariance of each pose and what the tests show of its scale, widened where a test fails.", true};
 }
 
 }  // namespace
@@ -68,9 +68,9 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
   if (failed > 0)
     return {Grade::Bad, "Measurements contradict each other: do not trust the map.",
             std::to_string(failed) + " of " + tests + " consistency tests failed. " + run.map.reason};
-  return {
-      Grade::Fair, "Nothing confirms the map.",
-      run.map.reason + ". " + probabilitySentence(run, "By its own covariance alone, which no measurement confirms,")};
+  return {Grade::Fair, "Too little confirms the map.",
+          run.map.reason + ". " +
+              probabilitySentence(run, "By its covariance, which may be too small by a factor that nothing measured,")};
 }
 
 Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& parameters) {

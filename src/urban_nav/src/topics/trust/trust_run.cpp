@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "swf_vo/parameters.hpp"
+#include "topics/trust/closure_differences.hpp"
 #include "topics/trust/depth_matches.hpp"
+#include "topics/trust/session_estimates.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_test.hpp"
 #include "urban_nav_trust/depth_comparison.hpp"
@@ -52,15 +54,27 @@ TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store
   return results;
 }
 
+/// Runs the tests of a running robot on a session: steps come when they are final, as they do there.
+TestResults monitorSession(const SessionOdometry& run, const urban_nav_trust::Parameters& parameters) {
+  urban_nav_trust::TrustMonitor monitor(parameters);
+  std::size_t next = 1;
+  for (const OdometryFrame& frame : run.frames) {
+    for (; next < run.settled.size() && run.settled[next].stamp <= frame.stamp; ++next)
+      monitor.add(run.settled[next].from_previous);
+    if (frame.accepted) monitor.add(frame.compared);
+  }
+  return monitor.results();
+}
+
 TestResults testSession(MapContext& context, std::size_t number, const urban_nav_trust::Parameters& parameters) {
   if (context.isPrevious(number)) return readTests(context.ids()[number], *context.store);
   const SessionOdometry& run = *context.runs()[number];
-  urban_nav_trust::TrustMonitor monitor(parameters);
-  for (const OdometryFrame& frame : run.frames)
-    if (frame.accepted) monitor.add(frame.compared);
-  TestResults results = monitor.results();
+  TestResults results = monitorSession(run, parameters);
   const double rig_scale = 0.01 * context.options.parameters.get(swf_vo::table()).rig_scale;
   testDepths(matchDepths(*context.store, context.ids()[number], run), rig_scale, results.tests, results.absent);
+  testClosures(closureDifferences(context.names[number], run, context.closures, context.assessments), results);
+  compareGravity(*context.store, context.ids()[number], run, results);
+  testLidar(lidarComparison(run), rig_scale, results);
   if (context.trajectories.size() > 1)
     for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
   storeTests(results, parameters, context.ids()[number], *context.store);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/trust/closure_differences.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::ConsideredConstant;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::MetricClosure;
+using urban_nav_core::OdometryChain;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector6d;
+using urban_nav_trust::ClosureDifference;
+
+namespace {
+
+constexpr double kFreeInformation = 1e-9;  // of a direction, relative to the largest: none
+
+/// Errors of the constants of the rig along a path.
+struct SharedErrors {
+  Vector6d unknown = Vector6d::Zero();  ///< per unit of what is not known of the constant
+  Vector6d unused = Vector6d::Zero();   ///< because steps were made with another value than is known now
+};
+
+/// Returns the covariance of T_a_b by errors of constants that all steps between the two stamps share. A constant is
+/// known as the newest step of the session states it.
+Matrix6d constantCovariance(const SessionOdometry& run, StampNs a, StampNs b) {
+  std::map<std::string, ConsideredConstant> known;
+  for (const ConsideredConstant& constant : run.settled.back().from_previous.constants) known[constant.name] = constant;
+  std::map<std::string, SharedErrors> errors;
+  Pose T_a_step;
+  Matrix6d covariance = Matrix6d::Zero();
+  for (const SmoothedFrame& frame : run.settled) {
+    const urban_nav_core::RelativePose& step = frame.from_previous;
+    if (step.to <= a || step.to > b || step.from == step.to) continue;
+    const Matrix6d to_a = urban_nav_core::adjoint(T_a_step) * urban_nav_core::leftFromBox(step.T_from_to);
+    for (const ConsideredConstant& constant : step.constants) {
+      const auto now = known.find(constant.name);
+      if (now == known.end()) continue;
+      const Vector6d moved = to_a * constant.sensitivity;
+      errors[constant.name].unknown += moved;
+      errors[constant.name].unused += (constant.used - now->second.mean) * moved;
+    }
+    T_a_step = T_a_step * step.T_from_to;
+  }
+  const Matrix6d to_box = urban_nav_core::boxFromLeft(T_a_step);
+  for (const auto& [name, error] : errors) {
+    const Vector6d unknown = known[name].sigma * to_box * error.unknown, unused = to_box * error.unused;
+    covariance += unknown * unknown.transpose() + unused * unused.transpose();
+  }
+  return covariance;
+}
+
+std::optional<ClosureDifference> compare(const MetricClosure& closure, const SessionOdometry& run,
+                                         const OdometryChain& chain) {
+  const std::optional<urban_nav_core::PoseWithCovariance> T_a_b = chain.between(closure.a.stamp, closure.b.stamp);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> information(closure.measured.information);
+  const double largest = information.eigenvalues().maxCoeff();
+  if (!T_a_b || !(largest > 0.0)) return std::nullopt;
+  const Eigen::Index free = (information.eigenvalues().array() <= kFreeInformation * largest).count(), known = 6 - free;
+  const Eigen::MatrixXd axes = information.eigenvectors().rightCols(known);
+  const auto [first, last] = std::minmax(closure.a.stamp, closure.b.stamp);
+  Matrix6d constants = constantCovariance(run, first, last);
+  if (closure.b.stamp < closure.a.stamp) {  // T_b_a is the inverse
+    const Matrix6d turned =
+        urban_nav_core::boxFromRight(T_a_b->pose) * urban_nav_core::leftFromBox(T_a_b->pose.inverse());
+    constants = urban_nav_core::transformCovariance(turned, constants);
+  }
+  ClosureDifference compared;
+  compared.interval = {first, last};
+  compared.by_laser = closure.method == urban_nav_core::ClosureMethod::Icp;
+  compared.difference = axes.transpose() * boxMinus(closure.measured.T_a_b, T_a_b->pose);
+  compared.odometry = axes.transpose() * (T_a_b->covariance + constants) * axes;
+  compared.closure = information.eigenvalues().tail(known).cwiseInverse().asDiagonal();
+  compared.distance_m = distanceBetween(closure.measured.T_a_b, T_a_b->pose);
+  compared.angle_rad = angleBetween(closure.measured.T_a_b, T_a_b->pose);
+  return compared;
+}
+
+}  // namespace
+
+std::vector<ClosureDifference> closureDifferences(const std::string& session, const SessionOdometry& odometry,
+                                                  const std::vector<MetricClosure>& closures,
+                                                  const std::vector<ClosureAssessment>& assessments) {
+  std::vector<ClosureDifference> differences;
+  if (odometry.settled.size() < 2 || assessments.size() != closures.size()) return differences;
+  const OdometryChain chain = odometryChain(odometry);
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    const MetricClosure& closure = closures[i];
+    if (assessments[i].verdict != urban_nav_core::ClosureVerdict::Accepted || closure.a.session != session ||
+        closure.b.session != session || closure.method == urban_nav_core::ClosureMethod::None)
+      continue;
+    if (std::optional<ClosureDifference> each = compare(closure, odometry, chain))
+      differences.push_back(std::move(*each));
+  }
+  return differences;
+}
+
+}  // namespace urban_nav

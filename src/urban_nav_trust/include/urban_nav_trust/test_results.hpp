@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "urban_nav_trust/consistency_test.hpp"
+#include "urban_nav_trust/covariance_scale.hpp"
+
+namespace urban_nav_trust {
+
+/// Results of all tests of a session or of a map.
+struct TestResults {
+  std::vector<ConsistencyTest> tests;
+  std::vector<AbsentMeasurement> absent;
+  std::vector<ConstantSegment> segments;
+  ScaleEvidence turns, lengths;  ///< of odometry's covariance, by independent measurements of turns and of lengths
+};
+
+/// Parts of the motion that independent measurements confirm.
+struct Confirmation {
+  bool any = false;                     ///< some test compared two sensors
+  bool turns = false, lengths = false;  ///< at least one test compared these with another sensor
+  ScaleWeights scales{};                ///< probabilities of covarianceScales()
+  bool isComplete() const { return turns && lengths; }
+};
+/// `disparity_offset` compares a stereo pair with itself and confirms nothing.
+Confirmation confirm(const TestResults& results);
+
+/// Returns why a confirmation is not complete: what was not compared, and the tests that could have done it, each with
+/// the reason of its absence. Empty: it is complete.
+std::string missingSentence(const Confirmation& confirmation, const TestResults& results);
+
+}  // namespace urban_nav_trust

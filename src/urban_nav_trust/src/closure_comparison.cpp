@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/closure_comparison.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace urban_nav_trust {
+
+using urban_nav_core::formatNumber;
+
+namespace {
+
+/// Squared Mahalanobis distance, with odometry's standard deviations `scale` times as large; nullopt if the covariance
+/// is not positive definite.
+std::optional<double> squaredDistance(const ClosureDifference& closure, double scale) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale * scale * closure.odometry + closure.closure);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const double distance = closure.difference.dot(factor.solve(closure.difference));
+  return std::isfinite(distance) ? std::optional(distance) : std::nullopt;
+}
+
+struct Compared {
+  const ClosureDifference* closure = nullptr;
+  double squared_distance = 0.0, p_value = 1.0;
+  double perAxis() const { return squared_distance / static_cast<double>(closure->difference.size()); }
+};
+
+std::optional<Compared> compare(const ClosureDifference& closure) {
+  if (closure.difference.size() == 0 || !closure.difference.allFinite()) return std::nullopt;
+  const std::optional<double> as_stated = squaredDistance(closure, 1.0);
+  if (!as_stated) return std::nullopt;
+  double tail = 0.0;
+  for (const double scale : covarianceScales())
+    tail += 1.0 - urban_nav_core::chiSquareProbability(squaredDistance(closure, scale).value_or(0.0),
+                                                       static_cast<double>(closure.difference.size()));
+  return Compared{&closure, *as_stated, tail / static_cast<double>(kScaleCount)};
+}
+
+void testKind(const std::vector<ClosureDifference>& closures, bool by_laser, TestResults& results) {
+  const char* name = by_laser ? kLaserClosureTest : kStereoClosureTest;
+  std::vector<Compared> compared;
+  for (const ClosureDifference& closure : closures)
+    if (closure.by_laser == by_laser)
+      if (const std::optional<Compared> each = compare(closure)) compared.push_back(*each);
+  if (compared.empty()) {
+    results.absent.push_back({name, by_laser ? "no accepted closure by the lasers" : "no accepted closure by stereo"});
+    return;
+  }
+  std::sort(compared.begin(), compared.end(),
+            [](const Compared& a, const Compared& b) { return a.perAxis() < b.perAxis(); });
+  const ClosureDifference& median = *compared[compared.size() / 2].closure;
+  ScaleEvidence evidence;
+  evidence.add(median.difference, median.odometry, median.closure);
+  results.turns.add(evidence);
+  if (by_laser) results.lengths.add(evidence);
+  const Compared& worst = *std::min_element(compared.begin(), compared.end(),
+                                            [](const Compared& a, const Compared& b) { return a.p_value < b.p_value; });
+  ConsistencyTest test;
+  test.name = name;
+  test.interval = worst.closure->interval;
+  test.statistic = worst.squared_distance;
+  test.degrees_of_freedom = static_cast<double>(worst.closure->difference.size());
+  test.p_value = std::min(1.0, static_cast<double>(compared.size()) * worst.p_value);
+  test.sentence = std::to_string(compared.size()) + (by_laser ? " closures by lasers" : " closures by stereo") +
+                  " differ from odometry by up to " + formatNumber(worst.closure->distance_m) + " m and " +
+                  formatNumber(worst.closure->angle_rad * 180.0 / M_PI) + " deg, " +
+                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times what both state.";
+  test.remedy =
+      "Odometry drifts more than it states, or a closure is false: check the calibration of the stereo pair, and the "
+      "closure with `why`.";
+  results.tests.push_back(std::move(test));
+}
+
+}  // namespace
+
+void testClosures(const std::vector<ClosureDifference>& closures, TestResults& results) {
+  testKind(closures, false, results);
+  testKind(closures, true, results);
+}
+
+}  // namespace urban_nav_trust

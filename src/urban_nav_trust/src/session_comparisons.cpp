@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_trust/session_comparisons.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace urban_nav_trust {
+
+using urban_nav_core::formatNumber;
+
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+constexpr double kPoseNumbers = 6.0;
+
+/// Probability that |x| exceeds that of a normal variable of as many standard deviations.
+double twoSided(double deviations) { return std::erfc(std::abs(deviations) / std::sqrt(2.0)); }
+
+double chiSquareTail(double x, double dof) { return 1.0 - urban_nav_core::chiSquareProbability(x, dof); }
+
+/// Two unit vectors across an upward direction, as columns.
+Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& up) {
+  Eigen::Matrix<double, 3, 2> axes;
+  axes.col(0) = up.unitOrthogonal();
+  axes.col(1) = up.cross(axes.col(0));
+  return axes;
+}
+
+void addLidarScale(const LidarComparison& lidar, double rig_scale, TestResults& results) {
+  if (!(lidar.scale_sigma > 0.0)) {
+    results.absent.push_back({kLidarScaleTest, "stereo's scale was not compared with a LiDAR"});
+    return;
+  }
+  const double z = lidar.scale / std::hypot(lidar.scale_sigma, rig_scale);
+  ConsistencyTest test;
+  test.name = kLidarScaleTest;
+  test.interval = lidar.interval;
+  test.statistic = z * z;
+  test.degrees_of_freedom = 1.0;
+  test.p_value = twoSided(z);
+  test.sentence = "Lengths by stereo exceed those by the LiDAR by " + formatNumber(-100.0 * lidar.scale) + " % (+-" +
+                  formatNumber(100.0 * lidar.scale_sigma, 2) + ").";
+  test.remedy = "Baseline or focal length of the stereo pair is wrong: calibrate it, or set input.baseline_scale to " +
+                formatNumber(1.0 + lidar.scale, 4) + ".";
+  results.tests.push_back(std::move(test));
+}
+
+}  // namespace
+
+void testGravity(const std::optional<UpEstimate>& by_ground, const std::optional<UpEstimate>& by_accelerometer,
+                 const Interval& interval, const char* absent_reason, TestResults& results) {
+  if (!by_ground || !by_accelerometer) {
+    results.absent.push_back({kGravityTest, absent_reason});
+    return;
+  }
+  const Eigen::Matrix<double, 3, 2> axes = across(by_accelerometer->up);
+  const Eigen::Vector2d difference = axes.transpose() * (by_ground->up - by_accelerometer->up);
+  const Eigen::Matrix2d covariance = axes.transpose() * (by_ground->covariance + by_accelerometer->covariance) * axes;
+  ConsistencyTest test;
+  test.name = kGravityTest;
+  test.interval = interval;
+  test.statistic = difference.dot(covariance.ldlt().solve(difference));
+  test.degrees_of_freedom = 2.0;
+  test.p_value = std::exp(-0.5 * test.statistic);
+  const double angle =
+      std::atan2(by_ground->up.cross(by_accelerometer->up).norm(), by_ground->up.dot(by_accelerometer->up));
+  test.sentence = "The ground that stereo sees is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
+                  formatNumber(kDegrees * std::sqrt(0.5 * covariance.trace()), 2) +
+                  ") against the accelerometer's gravity, on average.";
+  test.remedy = "The stereo head or the IMU is mounted otherwise than /tf_static states: measure its roll and pitch.";
+  results.tests.push_back(std::move(test));
+}
+
+void testLidar(const std::optional<LidarComparison>& comparison, double rig_scale, TestResults& results) {
+  if (!comparison || comparison->stretches < 2) {
+    results.absent.push_back({kLidarTest, "no LiDAR odometry with the images"});
+    results.absent.push_back({kLidarScaleTest, "no LiDAR odometry with the images"});
+    return;
+  }
+  const double axes = kPoseNumbers * static_cast<double>(comparison->stretches);
+  ConsistencyTest test;
+  test.name = kLidarTest;
+  test.interval = comparison->contradictions > 0 ? comparison->worst : comparison->interval;
+  test.statistic = comparison->spread;
+  test.degrees_of_freedom = axes;
+  // All stretches together, and the worst one of them: the smaller of both counts twice (Bonferroni).
+  const double of_all = probabilityUnderUnknownScale(axes * comparison->spread,
+                                                     [&](double x) { return chiSquareTail(x, axes); }),
+               of_worst = static_cast<double>(comparison->stretches) *
+                          probabilityUnderUnknownScale(comparison->largest,
+                                                       [](double x) { return chiSquareTail(x, kPoseNumbers); });
+  test.p_value = std::min(1.0, 2.0 * std::min(of_all, of_worst));
+  test.sentence = "In " + std::to_string(comparison->stretches) +
+                  " stretches of 1 s stereo and LiDAR odometry differ by " +
+                  formatNumber(std::sqrt(comparison->spread), 3) + " times what both state, and " +
+                  std::to_string(comparison->contradictions) + " of them contradict each other.";
+  test.remedy = "Compare --odometry stereo and --odometry laser, and check clocks and mounting.";
+  results.tests.push_back(std::move(test));
+  // The covariance has been multiplied by the spread: what is left is as many numbers of mean square one.
+  ScaleWeights log_likelihoods{};
+  for (std::size_t i = 0; i < kScaleCount; ++i) {
+    const double variance = covarianceScales()[i] * covarianceScales()[i];
+    log_likelihoods[i] = -0.5 * axes * (1.0 / variance + std::log(variance));
+  }
+  results.turns.add(log_likelihoods);
+  results.lengths.add(log_likelihoods);
+  addLidarScale(*comparison, rig_scale, results);
+}
+
+}  // namespace urban_nav_trust
