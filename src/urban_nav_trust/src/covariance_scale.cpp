@@ -31,10 +31,10 @@ double logLikelihood(double squares, double axes, double variance) {
 
 const ScaleWeights& covarianceScales() {
   static const ScaleWeights scales = [] {
-    ScaleWeights made{};
+    ScaleWeights values{};
     for (std::size_t i = 0; i < kScaleCount; ++i)
-      made[i] = std::pow(kMostScale, (static_cast<double>(i) + 0.5) / static_cast<double>(kScaleCount));
-    return made;
+      values[i] = std::pow(kMostScale, (static_cast<double>(i) + 0.5) / static_cast<double>(kScaleCount));
+    return values;
   }();
   return scales;
 }

@@ -43,7 +43,7 @@ TEST(CovarianceScale, DifferencesFindTheFactor) {
   }
 }
 
-TEST(CovarianceScale, AMeasurementThatIsMuchCoarserThanOdometryTellsLittle) {
+TEST(CovarianceScale, AMeasurementThatIsMuchCoarserThanOdometryIsLittleEvidence) {
   ScaleEvidence coarse, fine;
   for (int i = 0; i < 5; ++i) {
     coarse.add(Eigen::VectorXd::Zero(3), 1e-6 * Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity());

@@ -13,11 +13,11 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 
 UpEstimate tilted(double pitch, double roll, double sigma) {
-  UpEstimate made;
-  made.up = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) *
-            Eigen::Vector3d::UnitZ();
-  made.covariance = sigma * sigma * (Eigen::Matrix3d::Identity() - made.up * made.up.transpose());
-  return made;
+  UpEstimate estimate;
+  estimate.up = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()) *
+                Eigen::Vector3d::UnitZ();
+  estimate.covariance = sigma * sigma * (Eigen::Matrix3d::Identity() - estimate.up * estimate.up.transpose());
+  return estimate;
 }
 
 TEST(SessionComparisons, GroundAndGravityFailAsOftenAsStated) {
@@ -49,11 +49,11 @@ TEST(SessionComparisons, AnImuThatIsMountedTiltedFails) {
 }
 
 LidarComparison agreeing() {
-  LidarComparison made;
-  made.interval = {0, 30'000'000'000};
-  made.stretches = 30;
-  made.scale_sigma = 1e-3;
-  return made;
+  LidarComparison comparison;
+  comparison.interval = {0, 30'000'000'000};
+  comparison.stretches = 30;
+  comparison.scale_sigma = 1e-3;
+  return comparison;
 }
 
 TEST(SessionComparisons, StereoAndLidarThatAgreeConfirmTheCovariance) {

@@ -28,7 +28,7 @@ struct LidarComparison {
   std::size_t stretches = 0;
   double spread = 1.0;   ///< mean squared Mahalanobis distance over 6; covariances have been multiplied by it
   double largest = 0.0;  ///< squared distance of the worst contradiction; 0: none
-  Interval worst;        ///< of that
+  Interval worst;        ///< its interval
   std::size_t contradictions = 0;
   double scale = 0.0, scale_sigma = 0.0;  ///< correction of stereo's lengths, relative; sigma 0: not estimated
 };

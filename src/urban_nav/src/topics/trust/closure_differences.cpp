@@ -29,8 +29,8 @@ struct SharedErrors {
   Vector6d unused = Vector6d::Zero();   ///< because steps were made with another value than is known now
 };
 
-/// Returns the covariance of T_a_b by errors of constants that all steps between the two stamps share. The newest step
-/// of the session knows most of a constant.
+/// Returns the covariance of T_a_b by errors of constants that all steps between the two stamps share. A constant is
+/// known as the newest step of the session states it.
 Matrix6d constantCovariance(const SessionOdometry& run, StampNs a, StampNs b) {
   std::map<std::string, ConsideredConstant> known;
   for (const ConsideredConstant& constant : run.settled.back().from_previous.constants) known[constant.name] = constant;
@@ -68,20 +68,20 @@ std::optional<ClosureDifference> compare(const MetricClosure& closure, const Ses
   const Eigen::MatrixXd axes = information.eigenvectors().rightCols(known);
   const auto [first, last] = std::minmax(closure.a.stamp, closure.b.stamp);
   Matrix6d constants = constantCovariance(run, first, last);
-  if (closure.b.stamp < closure.a.stamp) {  // of T_b_a, the inverse
+  if (closure.b.stamp < closure.a.stamp) {  // T_b_a is the inverse
     const Matrix6d turned =
         urban_nav_core::boxFromRight(T_a_b->pose) * urban_nav_core::leftFromBox(T_a_b->pose.inverse());
     constants = urban_nav_core::transformCovariance(turned, constants);
   }
-  ClosureDifference made;
-  made.interval = {first, last};
-  made.by_laser = closure.method == urban_nav_core::ClosureMethod::Icp;
-  made.difference = axes.transpose() * boxMinus(closure.measured.T_a_b, T_a_b->pose);
-  made.odometry = axes.transpose() * (T_a_b->covariance + constants) * axes;
-  made.closure = information.eigenvalues().tail(known).cwiseInverse().asDiagonal();
-  made.distance_m = distanceBetween(closure.measured.T_a_b, T_a_b->pose);
-  made.angle_rad = angleBetween(closure.measured.T_a_b, T_a_b->pose);
-  return made;
+  ClosureDifference compared;
+  compared.interval = {first, last};
+  compared.by_laser = closure.method == urban_nav_core::ClosureMethod::Icp;
+  compared.difference = axes.transpose() * boxMinus(closure.measured.T_a_b, T_a_b->pose);
+  compared.odometry = axes.transpose() * (T_a_b->covariance + constants) * axes;
+  compared.closure = information.eigenvalues().tail(known).cwiseInverse().asDiagonal();
+  compared.distance_m = distanceBetween(closure.measured.T_a_b, T_a_b->pose);
+  compared.angle_rad = angleBetween(closure.measured.T_a_b, T_a_b->pose);
+  return compared;
 }
 
 }  // namespace

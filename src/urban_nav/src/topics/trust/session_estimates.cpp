@@ -40,28 +40,28 @@ void compareGravity(urban_nav_store::Store& store, const urban_nav_store::Sessio
 std::optional<LidarComparison> lidarComparison(const SessionOdometry& odometry) {
   if (!odometry.fusion || odometry.settled.size() < 2) return std::nullopt;
   const OdometryFusion& fusion = *odometry.fusion;
-  LidarComparison made;
+  LidarComparison comparison;
   double seconds = 0.0;
   for (std::size_t i = 0; i < fusion.sources.size() && i + 1 < odometry.settled.size(); ++i) {
     if (fusion.sources[i] != urban_nav_core::StepSource::Both) continue;
-    if (seconds == 0.0) made.interval.from = odometry.settled[i].stamp;
-    made.interval.to = odometry.settled[i + 1].stamp;
+    if (seconds == 0.0) comparison.interval.from = odometry.settled[i].stamp;
+    comparison.interval.to = odometry.settled[i + 1].stamp;
     seconds += urban_nav_core::secondsBetween(odometry.settled[i].stamp, odometry.settled[i + 1].stamp);
   }
-  made.stretches = static_cast<std::size_t>(seconds);  // of 1 s
-  made.spread = fusion.spread;
-  made.contradictions = fusion.conflicts.size();
+  comparison.stretches = static_cast<std::size_t>(seconds);  // each of 1 s
+  comparison.spread = fusion.spread;
+  comparison.contradictions = fusion.conflicts.size();
   for (const urban_nav_core::OdometryConflict& conflict : fusion.conflicts) {
-    if (conflict.statistic <= made.largest) continue;
-    made.largest = conflict.statistic;
-    made.worst = {conflict.from, conflict.to};
+    if (conflict.statistic <= comparison.largest) continue;
+    comparison.largest = conflict.statistic;
+    comparison.worst = {conflict.from, conflict.to};
   }
   for (const urban_nav_core::SharedConstant& constant : fusion.shared) {
     if (constant.name != kScaleConstant) continue;
-    made.scale = constant.value;
-    made.scale_sigma = constant.sigma;
+    comparison.scale = constant.value;
+    comparison.scale_sigma = constant.sigma;
   }
-  return made;
+  return comparison;
 }
 
 }  // namespace urban_nav

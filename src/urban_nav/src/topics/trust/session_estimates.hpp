@@ -14,7 +14,7 @@ namespace urban_nav {
 void compareGravity(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                     const SessionOdometry& odometry, urban_nav_trust::TestResults& results);
 
-/// Returns the comparison of stereo and LiDAR odometry that the fusion of a session made; nullopt: there is none.
+/// Returns the comparison of stereo and LiDAR odometry by the fusion of a session; nullopt without one.
 std::optional<urban_nav_trust::LidarComparison> lidarComparison(const SessionOdometry& odometry);
 
 }  // namespace urban_nav

@@ -68,7 +68,7 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
   if (failed > 0)
     return {Grade::Bad, "Measurements contradict each other: do not trust the map.",
             std::to_string(failed) + " of " + tests + " consistency tests failed. " + run.map.reason};
-  return {Grade::Fair, "Nothing confirms the map.",
+  return {Grade::Fair, "Too little confirms the map.",
           run.map.reason + ". " +
               probabilitySentence(run, "By its covariance, which may be too small by a factor that nothing measured,")};
 }

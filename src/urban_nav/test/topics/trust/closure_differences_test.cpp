@@ -14,7 +14,7 @@ using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-constexpr urban_nav_core::StampNs kSecond = 1'000'000'000;
+constexpr urban_nav_core::StampNs kOneSecond = 1'000'000'000;
 
 Pose step() { return Pose(Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())), {1.0, 0.0, 0.0}); }
 
@@ -24,8 +24,8 @@ SessionOdometry drive() {
   run.settled.resize(11);
   for (std::size_t i = 1; i < run.settled.size(); ++i) {
     SmoothedFrame& frame = run.settled[i];
-    frame.stamp = static_cast<urban_nav_core::StampNs>(i) * kSecond;
-    frame.from_previous.from = frame.stamp - kSecond;
+    frame.stamp = static_cast<urban_nav_core::StampNs>(i) * kOneSecond;
+    frame.from_previous.from = frame.stamp - kOneSecond;
     frame.from_previous.to = frame.stamp;
     frame.from_previous.T_from_to = step();
     frame.from_previous.covariance = frame.from_previous.drift_covariance = 1e-8 * Matrix6d::Identity();
@@ -42,19 +42,19 @@ Pose between(int steps) {
   return pose;
 }
 
-MetricClosure closure(const Pose& T_a_b, const Matrix6d& information) {
-  MetricClosure made;
-  made.a = {"s", 2 * kSecond};
-  made.b = {"s", 8 * kSecond};
-  made.measured = {T_a_b, information};
-  made.method = urban_nav_core::ClosureMethod::Icp;
-  return made;
+MetricClosure measuredClosure(const Pose& T_a_b, const Matrix6d& information) {
+  MetricClosure built;
+  built.a = {"s", 2 * kOneSecond};
+  built.b = {"s", 8 * kOneSecond};
+  built.measured = {T_a_b, information};
+  built.method = urban_nav_core::ClosureMethod::Icp;
+  return built;
 }
 
 ClosureAssessment verdict(ClosureVerdict of_graph) {
-  ClosureAssessment made;
-  made.verdict = of_graph;
-  return made;
+  ClosureAssessment built;
+  built.verdict = of_graph;
+  return built;
 }
 
 std::vector<urban_nav_trust::ClosureDifference> compare(const MetricClosure& each,
@@ -65,11 +65,11 @@ std::vector<urban_nav_trust::ClosureDifference> compare(const MetricClosure& eac
 TEST(ClosureDifferences, AreClosureLessOdometryWithBothCovariances) {
   Vector6d moved;
   moved << 0.2, -0.1, 0.05, 0.0, 0.0, 0.02;
-  const auto found = compare(closure(boxPlus(between(6), moved), 1e4 * Matrix6d::Identity()));
+  const auto found = compare(measuredClosure(boxPlus(between(6), moved), 1e4 * Matrix6d::Identity()));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found[0].by_laser);
   EXPECT_NEAR(found[0].difference.norm(), moved.norm(), 1e-9);
-  EXPECT_EQ(found[0].interval.from, 2 * kSecond);
+  EXPECT_EQ(found[0].interval.from, 2 * kOneSecond);
   EXPECT_NEAR(found[0].closure.trace(), 6e-4, 1e-12);
   // A common scale moves the end by 1 % of where it is.
   EXPECT_NEAR(found[0].odometry.trace(), 1e-4 * between(6).t().squaredNorm(), 1e-5 * between(6).t().squaredNorm());
@@ -81,7 +81,7 @@ TEST(ClosureDifferences, LeaveOutWhatTheClosureDidNotMeasure) {
   information.col(0).setZero();
   Vector6d moved = Vector6d::Zero();
   moved[0] = 5.0;
-  const auto found = compare(closure(boxPlus(between(6), moved), information));
+  const auto found = compare(measuredClosure(boxPlus(between(6), moved), information));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].difference.size(), 5);
   EXPECT_NEAR(found[0].difference.norm(), 0.0, 1e-9);
@@ -89,18 +89,18 @@ TEST(ClosureDifferences, LeaveOutWhatTheClosureDidNotMeasure) {
 
 TEST(ClosureDifferences, AClosureBackInTimeHasTheSameCovariance) {
   const Matrix6d information = 1e4 * Matrix6d::Identity();
-  MetricClosure back = closure(between(6).inverse(), information);
+  MetricClosure back = measuredClosure(between(6).inverse(), information);
   std::swap(back.a, back.b);
-  const auto forth = compare(closure(between(6), information)), found = compare(back);
+  const auto forth = compare(measuredClosure(between(6), information)), found = compare(back);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].difference.norm(), 0.0, 1e-9);
   EXPECT_NEAR(found[0].odometry.trace(), forth[0].odometry.trace(), 0.05 * forth[0].odometry.trace());
 }
 
 TEST(ClosureDifferences, AreOfAcceptedClosuresOfTheSessionAlone) {
-  const MetricClosure each = closure(between(6), 1e4 * Matrix6d::Identity());
+  const MetricClosure each = measuredClosure(between(6), 1e4 * Matrix6d::Identity());
   EXPECT_TRUE(compare(each, ClosureVerdict::Rejected).empty());
-  EXPECT_TRUE(compare(closure(between(6), Matrix6d::Zero())).empty());
+  EXPECT_TRUE(compare(measuredClosure(between(6), Matrix6d::Zero())).empty());
   EXPECT_TRUE(closureDifferences("other", drive(), {each}, {verdict(ClosureVerdict::Accepted)}).empty());
   EXPECT_TRUE(closureDifferences("s", drive(), {each}, {}).empty()) << "not relaxed";
   EXPECT_TRUE(closureDifferences("s", {}, {each}, {verdict(ClosureVerdict::Accepted)}).empty());
