@@ -2,8 +2,13 @@
 // Why a closure has its verdict: sentences, pictures and tables of `urban_nav why`.
 "use strict";
 ((nav) => {
+  /** A text that begins with a closure is a button that selects it. */
+  const content = (text) => {
+    const found = /^closure (\d+)\b/.exec(text);
+    return found ? nav.element("button", {type: "button", className: "link", "data-closure": found[1]}, text) : text;
+  };
   const table = (given) => {
-    const row = (cells, tag) => nav.element("tr", {}, ...cells.map((cell) => nav.element(tag, {}, cell)));
+    const row = (cells, tag) => nav.element("tr", {}, ...cells.map((cell) => nav.element(tag, {}, content(cell))));
     return [
       ...(given.title ? [nav.element("h3", {}, given.title)] : []),
       nav.element(

@@ -15,7 +15,11 @@
     running = "",
     wanted = 0,
     nextPick = "t1",
-    now = null;
+    now = null,
+    points = null,
+    shifts = null,
+    places = {};
+  const view = new nav.PointView(byId("points"));
 
   // State of the page
 
@@ -71,6 +75,7 @@
         if (place) marks.push({at: place, text: name.slice(1), colour: palette.pick});
       }
       if (now) marks.push({at: nav.placeOf(paths, now), text: "", colour: palette.a});
+      view.draw(matrix());
       nav.drawPlan(
         byId("lines"),
         matrix(),
@@ -87,7 +92,38 @@
   const pick = (name, moment) => {
     field(name).value = nav.momentWord(state.sessions, moment.session, moment.seconds);
     nextPick = name === "t1" ? "t2" : "t1";
+    places[name] = moment.place || nav.placeOf(paths, moment);
+    const {t1, t2} = places;
+    nav.putText(
+      byId("apart"),
+      t1 && t2 ? `${Math.hypot(...t1.map((v, k) => v - t2[k])).toFixed(3)} m between both places` : "",
+    );
     draw();
+  };
+  const paint = () => {
+    byId("colour").disabled = !points || points.count === 0;
+    if (points) view.setColours(nav.colourPoints(points, byId("colour").value, nav.sessionColours));
+    draw();
+  };
+  let loadingPoints = false,
+    pointsRevision = 0;
+  /** Points come after the lists and paths, and follow the poses: nothing waits for them. */
+  const loadPoints = async () => {
+    if (loadingPoints || !view.gl) return;
+    loadingPoints = true;
+    try {
+      while (pointsRevision !== state.revision) {
+        pointsRevision = state.revision;
+        const bytes = await server.bytes("/api/points");
+        points = nav.readPoints(bytes, state.sessions, shifts);
+        view.setPlaces(points);
+        paint();
+      }
+    } catch (error) {
+      byId("colour").title = error.message;
+    } finally {
+      loadingPoints = false;
+    }
   };
 
   // Closures and edits
@@ -185,6 +221,17 @@
           server.blob(`/api/picture?id=${id}&number=${number}`),
         );
     });
+  /** Which closures hold the pose at moment 1. */
+  const whyHere = () =>
+    work(async () => {
+      const moment = field("t1").value.trim();
+      if (!moment) throw new Error("Pick moment 1 on the path, or write it.");
+      const page = await server.json(`/api/moment?t=${encodeURIComponent(moment)}`);
+      selected = null;
+      showSelection();
+      nav.putText(byId("selected-title"), page.title);
+      await nav.showExplanation(byId("explanation"), page, () => null);
+    });
   const showEdits = () =>
     nav.syncRows(
       byId("edit-rows"),
@@ -216,7 +263,7 @@
     const first = state === null,
       before = closureOf(selected);
     state = given;
-    ({paths, box} = nav.placePaths(state.sessions, bytes));
+    ({paths, box, shifts} = nav.placePaths(state.sessions, bytes));
     nav.putText(byId("store"), state.store);
     nav.putText(
       byId("notice"),
@@ -232,6 +279,7 @@
     showEdits();
     showSelection();
     if (first) fit();
+    loadPoints();
     const after = closureOf(selected);
     if (before && after && (before.verdict !== after.verdict || before.reason !== after.reason))
       return select(selected);
@@ -291,6 +339,7 @@
     u: () => act("undo"),
     U: () => act("redo"),
     m: () => act("measure"),
+    w: () => whyHere(),
     f: () => fit(),
     t: () => byId("above").click(),
     1: () => byId("to-t1").click(),
@@ -346,11 +395,17 @@
       if (now) pick(name, now);
     });
   nav.steer(byId("lines"), camera, draw, (x, y) => {
-    const met =
-      box &&
-      nav.pickInPlan(matrix(), byId("lines").clientWidth, byId("lines").clientHeight, x, y, paths, drawnClosures());
+    if (!box) return;
+    const at = [matrix(), byId("lines").clientWidth, byId("lines").clientHeight, x, y];
+    const met = nav.pickInPlan(...at, paths, drawnClosures()) || (points && nav.pickPoint(points, ...at));
     if (met && met.closure !== undefined) select(met.closure);
     else if (met) pick(nextPick, met);
+  });
+  byId("colour").addEventListener("change", paint);
+  byId("why-here").addEventListener("click", whyHere);
+  byId("explanation").addEventListener("click", (event) => {
+    const link = event.target.closest("[data-closure]");
+    if (link && closureOf(Number(link.dataset.closure))) select(Number(link.dataset.closure));
   });
   addEventListener("resize", draw);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);

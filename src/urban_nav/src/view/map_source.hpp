@@ -26,6 +26,10 @@ class MapSource {
   /// Returns the poses of all sessions in the order of state(): for each one seconds since its beginning, x, y, z (m,
   /// in its map) as float32 in little endian.
   virtual std::string paths() = 0;
+  /// Returns points of the maps in the encoding of MapPoints; empty without any.
+  virtual std::string points() = 0;
+  /// Returns which closures hold the pose at a moment, which is written as `why --jump` takes it.
+  virtual Json explainMoment(const std::string& moment) = 0;
   /// Returns why a closure has its verdict.
   virtual Json explain(std::int64_t closure) = 0;
   /// Returns the picture of a try to measure a closure as JPEG; nullopt without one.

@@ -12,6 +12,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
+constexpr std::size_t kLongestText = 1024;
+
 HttpAnswer asJson(const std::string& json, int status = 200) { return {status, "application/json", json}; }
 
 HttpAnswer asError(int status, const std::string& sentence) {
@@ -26,6 +28,13 @@ std::int64_t numberIn(const HttpRequest& request, const std::string& name) {
   const auto number = values.size() == 1 ? urban_nav_core::parseInteger(values.front()) : std::nullopt;
   if (!number || *number < 0) throw UserError(name, "is missing or no whole number", name + "=N in the address");
   return *number;
+}
+
+std::string wordIn(const HttpRequest& request, const std::string& name) {
+  const std::vector<std::string> values = request.parameter(name);
+  if (values.size() != 1 || values.front().size() > kLongestText)
+    throw UserError(name, "is missing or too long", name + "=TEXT in the address");
+  return values.front();
 }
 
 void replaceFirst(std::string& text, const std::string& mark, const std::string& content) {
@@ -44,7 +53,8 @@ std::string viewPage() {
                "<style nonce=\"" + nonce + "\">" + std::string(webFile("page.css")) + "</style>");
   replaceFirst(page, "<!-- scripts -->",
                "<script nonce=\"" + nonce + "\">" +
-                   webFiles({"camera.js", "text.js", "server.js", "lists.js", "explanation.js", "plan.js", "page.js"}) +
+                   webFiles({"camera.js", "text.js", "server.js", "lists.js", "explanation.js", "plan.js", "points.js",
+                             "page.js"}) +
                    "</script>");
   return page;
 }
@@ -65,6 +75,8 @@ HttpAnswer PageRoutes::get(const HttpRequest& request) const {
   if (request.path == "/") return {200, "text/html; charset=utf-8", viewPage()};
   if (request.path == "/api/state") return asJson(source_.state());
   if (request.path == "/api/paths") return {200, "application/octet-stream", source_.paths()};
+  if (request.path == "/api/points") return {200, "application/octet-stream", source_.points()};
+  if (request.path == "/api/moment") return asJson(source_.explainMoment(wordIn(request, "t")).print());
   if (request.path == "/api/why") return asJson(source_.explain(numberIn(request, "id")).print());
   if (request.path == "/api/picture") {
     const auto picture =

@@ -37,14 +37,14 @@ Json endAsJson(const urban_nav_store::NodeRef& ref, double seconds,
                        {"t", urban_nav_core::printStamp(ref.stamp)}});
 }
 
-void appendFloat(std::string& bytes, double value) {
+}  // namespace
+
+void appendFloat32(std::string& bytes, double value) {
   const auto number = static_cast<float>(value);
   std::uint32_t bits = 0;
   std::memcpy(&bits, &number, sizeof bits);
   for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 255U);
 }
-
-}  // namespace
 
 Json stateAsJson(const ShownState& state) {
   Json json = Json::object({{"revision", state.revision},
@@ -84,8 +84,8 @@ Json stateAsJson(const ShownState& state) {
 
 void appendPath(std::string& bytes, const std::vector<StampedPose>& path) {
   for (const StampedPose& pose : path) {
-    appendFloat(bytes, urban_nav_core::secondsBetween(path.front().stamp, pose.stamp));
-    for (int axis = 0; axis < 3; ++axis) appendFloat(bytes, pose.pose.t()(axis));
+    appendFloat32(bytes, urban_nav_core::secondsBetween(path.front().stamp, pose.stamp));
+    for (int axis = 0; axis < 3; ++axis) appendFloat32(bytes, pose.pose.t()(axis));
   }
 }
 

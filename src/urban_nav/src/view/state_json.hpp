@@ -24,6 +24,9 @@ struct ShownState {
 /// place in that list, and `edits`. Stamps are texts, s since 1970, as `edge` takes them.
 Json stateAsJson(const ShownState& state);
 
+/// Appends a number as float32 in little endian.
+void appendFloat32(std::string& bytes, double value);
+
 /// Appends the poses of a session: seconds since the first one, x, y, z (m) as float32 in little endian.
 void appendPath(std::string& bytes, const std::vector<urban_nav_core::StampedPose>& path);
 

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 
+#include "base/command_parameters.hpp"
 #include "base/parameters.hpp"
 #include "edits/edge_list.hpp"
 #include "edits/edit_store.hpp"
+#include "edits/jump.hpp"
 #include "topics/loops/explanation.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/parameters.hpp"
@@ -25,6 +27,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
+constexpr double kPointsImageShare = 0.1;      // of memory_mb, for decoded images
 constexpr std::size_t kKeptExplanations = 20;  // with their pictures, about 0.1 MB each
 
 /// Returns a text that changes when a file or its log is written.
@@ -104,6 +107,23 @@ std::string StoredSource::paths() {
   });
 }
 
+std::string StoredSource::points() {
+  const std::lock_guard lock(loading_);
+  const MapPoints::Maps maps = reading([](const Content& content) { return content.maps; });
+  if (!points_) {
+    const double memory_mb =
+        kPointsImageShare * loadParameters(Arguments(options_, tables_)).get(commandTable()).memory_mb;
+    Store store = urban_nav_store::openForReading(path_);  // of its own: colours may take minutes
+    points_.emplace(store, maps, memory_mb);
+  }
+  return points_->place(maps);
+}
+
+Json StoredSource::explainMoment(const std::string& moment) {
+  Store store = urban_nav_store::openForReading(path_);
+  return pageAsJson(explainOnPage(explainJump(store, moment), path_));
+}
+
 const Page& StoredSource::explanation(std::int64_t closure) {
   Content& its = content();
   if (const auto known = its.explanations.find(closure); known != its.explanations.end()) return known->second;
@@ -166,6 +186,8 @@ void StoredSource::poll() {
   seen_ = std::move(now);
   content_.reset();
   events_.changed();
+  const std::unique_lock loading(loading_, std::try_to_lock);
+  if (loading) points_.reset();
 }
 
 Json pageAsJson(const Page& page) {

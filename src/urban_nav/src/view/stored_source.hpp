@@ -11,6 +11,7 @@
 #include "base/page.hpp"
 #include "topics/loops/stored_closure.hpp"
 #include "urban_nav_store/store.hpp"
+#include "view/map_points.hpp"
 #include "view/map_source.hpp"
 #include "view/page_events.hpp"
 
@@ -28,7 +29,9 @@ class StoredSource final : public MapSource {
 
   std::string state() override;
   std::string paths() override;
+  std::string points() override;
   Json explain(std::int64_t closure) override;
+  Json explainMoment(const std::string& moment) override;
   std::optional<std::string> picture(std::int64_t closure, std::size_t number) override;
   Json edit(const EditWords& words) override;
 
@@ -50,7 +53,9 @@ class StoredSource final : public MapSource {
   PageEvents& events_;
   std::mutex mutex_;  ///< guards what follows, and the store: it is not read while it is edited
   std::shared_ptr<Content> content_;
-  std::string seen_;  ///< size and time of the file and its log
+  std::string seen_;    ///< size and time of the file and its log
+  std::mutex loading_;  ///< guards what follows; taken before mutex_
+  std::optional<MapPoints> points_;
 };
 
 /// Returns a page as JSON: what its elements show, without markup; pictures by their numbers, in order.

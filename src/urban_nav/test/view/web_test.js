@@ -3,7 +3,7 @@
 "use strict";
 const assert = require("node:assert"),
   test = require("node:test");
-for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "page"])
+for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "page"])
   require(`../../web/${name}.js`);
 const nav = globalThis.urbanNav;
 
@@ -248,4 +248,77 @@ test("a click meets the dot of a closure first, then the nearest pose, else noth
   assert.deepStrictEqual(pick(at([120, 3, 1])), {session: 1, seconds: 10});
   assert.deepStrictEqual(pick(at([(0 + 100) / 2, 1.5, 0.5])), {closure: 1});
   assert.strictEqual(pick([3, 3]), null);
+});
+
+/** Bytes of points as the server sends them: [x, y, z, seconds, session, sensor, sigma, red, green, blue, reflectance]. */
+const pointBytes = (rows) => {
+  const view = new DataView(new ArrayBuffer(24 * rows.length));
+  rows.forEach((row, i) => {
+    for (let k = 0; k < 4; ++k) view.setFloat32(24 * i + 4 * k, row[k], true);
+    view.setUint16(24 * i + 16, row[4], true);
+    for (let k = 5; k < 11; ++k) view.setUint8(24 * i + 13 + k, row[k]);
+  });
+  return view.buffer;
+};
+const POINTS = [
+  [1, 2, 0, 0.5, 0, 0, 0, 10, 20, 30, 40],
+  [2, 2, 5, 1.5, 1, 1, 255, 50, 60, 70, 80],
+  [3, 2, 2.5, 2.5, 300, 255, 64, 90, 100, 110, 120],
+];
+
+test("points come with the map of their session and keep what is known of them", () => {
+  const points = nav.readPoints(
+    pointBytes(POINTS),
+    SESSIONS,
+    new Map([
+      [0, 0],
+      [1, 100],
+    ]),
+  );
+  assert.strictEqual(points.count, 3);
+  close([...points.places], [1, 2, 0, 102, 2, 5, 3, 2, 2.5]);
+  close([...points.times], [0.5, 1.5, 2.5]);
+  assert.deepStrictEqual([...points.owner], [0, 1, 300]);
+  const colours = (mode) =>
+    [0, 1, 2].map((i) => [...nav.colourPoints(points, mode, nav.sessionColours).slice(4 * i, 4 * i + 3)]);
+  assert.deepStrictEqual(colours("pictures"), [
+    [10, 20, 30],
+    [50, 60, 70],
+    [90, 100, 110],
+  ]);
+  assert.deepStrictEqual(colours("reflectance"), [
+    [40, 40, 40],
+    [80, 80, 80],
+    [120, 120, 120],
+  ]);
+  assert.deepStrictEqual(colours("session")[0], [0x1f, 0x6f, 0xeb]);
+  for (const mode of ["height", "sensor", "sigma", "session"])
+    assert.notDeepStrictEqual(colours(mode)[0], colours(mode)[1], mode);
+  assert.strictEqual(nav.readPoints(new ArrayBuffer(0), SESSIONS, new Map()).count, 0);
+  for (const mode of ["height", "pictures"])
+    assert.strictEqual(
+      nav.colourPoints(nav.readPoints(new ArrayBuffer(0), [], new Map()), mode, nav.sessionColours).length,
+      0,
+    );
+});
+
+test("the colours of a ramp go from blue over green to red", () => {
+  const [low, middle, high] = [0.25, 0.5, 0.75].map(nav.ramp);
+  assert.ok(low[2] === 255 && middle[1] === 255 && high[0] === 255);
+  for (let t = 0; t <= 1; t += 0.01) assert.ok(nav.ramp(t).every((v) => v >= 0 && v <= 255));
+});
+
+test("a click on a point names its moment, the nearer one of two in a line", () => {
+  const points = nav.readPoints(pointBytes(POINTS), [SESSIONS[0], {...SESSIONS[1], map: 0}], new Map([[0, 0]])),
+    camera = new nav.Camera([2, 2, 2], 10, 0, 0),
+    m = camera.matrix(800, 600, 50),
+    at = nav.project(m, [2, 2, 5], 800, 600);
+  const met = nav.pickPoint(points, m, 800, 600, at[0] + 2, at[1]);
+  assert.strictEqual(met.session, 1);
+  assert.strictEqual(met.seconds, 1.5);
+  close(met.place, [2, 2, 5]);
+  assert.strictEqual(nav.pickPoint(points, m, 800, 600, 5, 5), null);
+  const twice = nav.readPoints(pointBytes([POINTS[0], [7, 2, 0, 9, 0, 0, 0, 0, 0, 0, 0]]), SESSIONS, new Map([[0, 0]])),
+    flat = new nav.Camera([2, 2, 0], 10, 0, 0).matrix(800, 600, 50);
+  assert.strictEqual(nav.pickPoint(twice, flat, 800, 600, 400, 300).seconds, 9, "x points at the viewer");
 });
