@@ -63,7 +63,8 @@ MapPoints::MapPoints(urban_nav_store::Store& store, const Maps& maps, double mem
   for (const auto& map : maps) {
     const std::size_t end = begin + map.size();
     forEachMapTile(store, map, memory_mb, [&](const std::vector<laser_mapper::MapPoint>& points) {
-      for (const laser_mapper::MapPoint& shown : points) thinned.add({begin, shown.stamp, {}, shown});
+      for (const laser_mapper::MapPoint& shown : points)
+        thinned.add({begin, shown.stamp, Eigen::Vector3d::Zero(), shown});
     });
     begin = end;
   }
