@@ -13,11 +13,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int kSecondLookCandidates = 10;
-
 RecogniserOptions recogniserOptions(const Parameters& parameters) {
   RecogniserOptions options;
-  options.matcher.second_looks = parameters.descriptor_matching ? kSecondLookCandidates : 0;
+  if (!parameters.descriptor_matching) options.matcher.second_looks = 0;
   options.sequence = parameters.sequence;
   options.detects_stationary = false;  // process() passes on observations of a moving camera only
   options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));

@@ -19,11 +19,4 @@ bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector
   return true;
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(const LookDescriptors& a, const LookDescriptors& b) {
-  std::vector<std::pair<std::size_t, std::size_t>> matches;
-  for (const auto& pair : urban_nav_registration::mutualNearest(a.transpose() * b))
-    matches.emplace_back(static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
-  return matches;
-}
-
 }  // namespace fabmap_node

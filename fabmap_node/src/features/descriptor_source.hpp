@@ -2,10 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
-#include <vector>
 
-#include "fabmap_node/recognition/second_look.hpp"
+#include "fabmap_node/features/place_observation.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 
 namespace fabmap_node {
@@ -14,9 +12,5 @@ namespace fabmap_node {
 /// Returns false if the window has too little contrast.
 bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector2d& centre, double window_px,
                      ByteDescriptor& descriptor);
-
-/// Returns the columns of `a` and `b` that are each other's nearest, clearly nearer than the second nearest on both
-/// sides. Requires unit vectors.
-std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(const LookDescriptors& a, const LookDescriptors& b);
 
 }  // namespace fabmap_node

@@ -10,80 +10,116 @@
 namespace fabmap_node {
 namespace {
 
-// Of a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
-constexpr float kLevelsPerUnit = 40.0F;
-constexpr int kHighestLevel = 15;
+constexpr char kMarker = 0;   // number of cameras in the first form, which is never 0
+constexpr char kVersion = 2;  // follows the marker
+constexpr float kHighestAzimuth = 65535.0F, kHighestHeight = 255.0F;
+constexpr std::size_t kMostFeatures = 65535;
+constexpr std::size_t kHeader = 5;  // marker, version, cameras, number of features
+constexpr std::size_t kPlane = 8;   // bytes
+constexpr std::size_t kEntry = 2 * kPlane + 3;
+static_assert(kHeader + kLookFeatures * kEntry <= 20000);
+
+// First form: cameras, number of features; each with 64 elements of 4 bits, camera, and 16 bits per coordinate.
+constexpr std::size_t kFirstHeader = 3;
+constexpr std::size_t kFirstDescriptor = kLookElements / 2;
+constexpr std::size_t kFirstEntry = kFirstDescriptor + 5;
 constexpr float kHighestCoordinate = 65535.0F;
-constexpr std::size_t kLookHeader = 3;  // cameras, number of features
-constexpr std::size_t kPackedDescriptor = kLookElements / 2;
-constexpr std::size_t kLookEntry = kPackedDescriptor + 5;
 
-std::uint16_t packShare(float share) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * kHighestCoordinate));
+unsigned byteAt(std::string_view bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
+
+unsigned read16(std::string_view bytes, std::size_t at) { return byteAt(bytes, at) | byteAt(bytes, at + 1) << 8; }
+
+std::uint64_t readPlane(std::string_view bytes, std::size_t at) {
+  std::uint64_t plane = 0;
+  for (std::size_t i = 0; i < kPlane; ++i) plane |= std::uint64_t{byteAt(bytes, at + i)} << (8 * i);
+  return plane;
 }
 
-void append16(std::string& bytes, std::uint16_t value) {
-  bytes.push_back(static_cast<char>(value & 255u));
-  bytes.push_back(static_cast<char>(value >> 8));
+void append(std::string& bytes, std::uint64_t value, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 255u));
 }
 
-std::uint16_t read16(std::string_view bytes, std::size_t at) {
-  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[at]) | static_cast<unsigned char>(bytes[at + 1])
-                                                                                << 8);
+std::uint64_t packShare(float share, float highest) {
+  return static_cast<std::uint64_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * highest));
 }
 
-int level(float element) {
-  return std::clamp(static_cast<int>(std::lround(element * kLevelsPerUnit)), 0, kHighestLevel);
+/// Where the parts of packed features are.
+struct LookLayout {
+  bool is_first_form = false;
+  std::uint8_t cameras = 1;
+  std::size_t count = 0;
+};
+
+LookLayout checkLayout(std::string_view bytes, const std::string& name) {
+  LookLayout layout;
+  layout.is_first_form = !bytes.empty() && bytes.front() != kMarker;
+  const std::size_t header = layout.is_first_form ? kFirstHeader : kHeader;
+  const std::size_t entry = layout.is_first_form ? kFirstEntry : kEntry;
+  bool is_whole = bytes.size() >= header;
+  if (is_whole) {
+    layout.cameras = static_cast<std::uint8_t>(byteAt(bytes, layout.is_first_form ? 0 : 2));
+    layout.count = read16(bytes, header - 2);
+    is_whole = layout.cameras > 0 && bytes.size() == header + layout.count * entry &&
+               (layout.is_first_form || bytes[1] == kVersion);
+  }
+  if (!is_whole) throw urban_nav_core::DataError(name, "descriptors of a place that are truncated or damaged", "");
+  return layout;
+}
+
+LookFeature unpackFirst(std::string_view entry) {
+  LookElements elements{};
+  for (std::size_t i = 0; i < kFirstDescriptor; ++i) {
+    const unsigned pair = byteAt(entry, i);
+    elements[2 * i] = static_cast<std::uint16_t>(pair & 15u);
+    elements[2 * i + 1] = static_cast<std::uint16_t>(pair >> 4);
+  }
+  const auto camera = static_cast<float>(byteAt(entry, kFirstDescriptor));
+  return lookFeature(elements, camera + static_cast<float>(read16(entry, kFirstDescriptor + 1)) / kHighestCoordinate,
+                     static_cast<float>(read16(entry, kFirstDescriptor + 3)) / kHighestCoordinate);
+}
+
+LookFeature unpackSecond(std::string_view entry, float cameras) {
+  LookFeature feature;
+  feature.middle = readPlane(entry, 0);
+  feature.top = readPlane(entry, kPlane);
+  feature.azimuth = cameras * static_cast<float>(read16(entry, 2 * kPlane)) / kHighestAzimuth;
+  feature.height = static_cast<float>(byteAt(entry, 2 * kPlane + 2)) / kHighestHeight;
+  return feature;
 }
 
 }  // namespace
 
 std::string packLook(const LookFeatures& look) {
-  const std::size_t count = std::min<std::size_t>(look.size(), 65535);
-  std::string bytes;
-  bytes.reserve(kLookHeader + count * kLookEntry);
-  bytes.push_back(static_cast<char>(look.cameras));
-  append16(bytes, static_cast<std::uint16_t>(count));
+  const std::size_t count = std::min(look.size(), kMostFeatures);
+  const auto cameras = static_cast<float>(look.cameras);
+  std::string bytes = {kMarker, kVersion};
+  bytes.reserve(kHeader + count * kEntry);
+  append(bytes, look.cameras, 1);
+  append(bytes, count, 2);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto descriptor = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (Eigen::Index i = 0; i < descriptor.size(); i += 2)
-      bytes.push_back(static_cast<char>(level(descriptor(i)) | level(descriptor(i + 1)) << 4));
-    const Eigen::Vector2f& direction = look.directions[k];
-    const float camera = std::clamp(std::floor(direction.x()), 0.0F, 255.0F);
-    bytes.push_back(static_cast<char>(static_cast<std::uint8_t>(camera)));
-    append16(bytes, packShare(direction.x() - camera));
-    append16(bytes, packShare(direction.y()));
+    const LookFeature& feature = look.features[k];
+    append(bytes, feature.middle, kPlane);
+    append(bytes, feature.top, kPlane);
+    append(bytes, packShare(feature.azimuth / cameras, kHighestAzimuth), 2);
+    append(bytes, packShare(feature.height, kHighestHeight), 1);
   }
   return bytes;
 }
 
-std::uint8_t checkLook(std::string_view bytes, const std::string& name) {
-  const std::size_t count = bytes.size() < kLookHeader ? 0 : read16(bytes, 1);
-  if (bytes.size() != kLookHeader + count * kLookEntry || bytes.front() == 0)
-    throw urban_nav_core::DataError(name, "descriptors of a place that are truncated or damaged", "");
-  return static_cast<std::uint8_t>(bytes.front());
-}
+std::uint8_t checkLook(std::string_view bytes, const std::string& name) { return checkLayout(bytes, name).cameras; }
 
 LookFeatures unpackLook(std::string_view bytes, const std::string& name) {
+  const LookLayout layout = checkLayout(bytes, name);
   LookFeatures look;
-  look.cameras = checkLook(bytes, name);
-  const std::size_t count = read16(bytes, 1);
-  look.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
-  look.directions.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t at = kLookHeader + k * kLookEntry;
-    auto descriptor = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < kPackedDescriptor; ++i) {
-      const auto pair = static_cast<unsigned char>(bytes[at + i]);
-      descriptor(static_cast<Eigen::Index>(2 * i)) = static_cast<float>(pair & 15u);
-      descriptor(static_cast<Eigen::Index>(2 * i + 1)) = static_cast<float>(pair >> 4);
-    }
-    descriptor /= std::max(1.0F, descriptor.norm());
-    const std::size_t place = at + kPackedDescriptor;
-    look.directions.emplace_back(static_cast<float>(static_cast<unsigned char>(bytes[place])) +
-                                     static_cast<float>(read16(bytes, place + 1)) / kHighestCoordinate,
-                                 static_cast<float>(read16(bytes, place + 3)) / kHighestCoordinate);
-  }
+  look.cameras = layout.cameras;
+  look.features.reserve(layout.count);
+  const std::size_t entry = layout.is_first_form ? kFirstEntry : kEntry;
+  for (std::size_t at = layout.is_first_form ? kFirstHeader : kHeader; at < bytes.size(); at += entry)
+    look.features.push_back(layout.is_first_form
+                                ? unpackFirst(bytes.substr(at, entry))
+                                : unpackSecond(bytes.substr(at, entry), static_cast<float>(look.cameras)));
+  const auto isLower = [](const LookFeature& a, const LookFeature& b) { return a.height < b.height; };
+  if (!std::is_sorted(look.features.begin(), look.features.end(), isLower)) sortByHeight(look.features);
   return look;
 }
 

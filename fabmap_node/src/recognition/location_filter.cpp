@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kPlacesAround = 4;  // on each side: up to four times the speed of the first visit
 constexpr double kChange = 0.05;  // of known to new, new to known, one place to another: each twenty observations
-constexpr double kPlacesElsewhere = 10.0;  // that share what is not around the last place: as many as are compared
+constexpr double kPlacesElsewhere = 30.0;  // that share what is not around the last place: as many as are compared
 constexpr double kLargestLogRatio = 6.0;   // of one observation: no more than a calibration supports
 
 constexpr std::size_t kSequenceLength = 10;

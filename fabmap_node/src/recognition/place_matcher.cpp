@@ -17,7 +17,6 @@ namespace {
 /// A candidate elsewhere shows the same place, in another session or on another lap, if both the query and the best
 /// place agree with it as much as this share of the agreement of query and best place.
 constexpr double kSamePlaceShare = 0.5;
-constexpr std::size_t kThinning = 4;       // of the descriptors of a first look
 constexpr int kSmallestSelection = 10;     // candidates without any look
 constexpr std::size_t kMostSorted = 1000;  // candidates, unless more are needed
 
@@ -82,8 +81,7 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
   const auto isLikelier = [](const Candidate& a, const Candidate& b) {
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
   };
-  const int wanted =
-      options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : kSmallestSelection;
+  const int wanted = options_.second_looks > 0 ? options_.second_looks : kSmallestSelection;
   // Of a large map, the first ones nearly always suffice.
   if (all.size() > kMostSorted) {
     const auto sorted = all.begin() + static_cast<std::ptrdiff_t>(kMostSorted);
@@ -95,13 +93,11 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
   return selectVaried(all, wanted);
 }
 
-/// Compares every `step`-th descriptor of the places with those of the query.
-void PlaceMatcher::compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const {
+void PlaceMatcher::compareAll(const LookFeatures& query, std::vector<Candidate>& candidates) const {
   std::vector<std::string> packed;
   for (const Candidate& candidate : candidates) packed.push_back(packedLook(candidate.place));
   urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-    const LookFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].place]);
-    candidates[i].look = secondLook(query, step > 1 ? thinnedOut(all, step) : all);
+    candidates[i].look = secondLook(query, unpackPlaceLook(packed[i], places_[candidates[i].place]));
   });
 }
 
@@ -145,16 +141,7 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
     const DescribedPlace& query, const std::vector<double>& likelihoods,
     const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
-  if (options_.second_looks > 0 && !candidates.empty()) {
-    const LookFeatures own = unpackPlaceLook(query.look, query);
-    if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
-      compareAll(own, kThinning, candidates);
-      std::stable_sort(candidates.begin(), candidates.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
-      candidates = selectVaried(candidates, options_.second_looks);
-    }
-    compareAll(own, 1, candidates);
-  }
+  if (options_.second_looks > 0 && !candidates.empty()) compareAll(unpackPlaceLook(query.look, query), candidates);
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.look.share != b.look.share ? a.look.share > b.look.share : a.log_likelihood > b.log_likelihood;
   });

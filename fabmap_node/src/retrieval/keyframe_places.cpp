@@ -33,10 +33,8 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr std::size_t kFirstLooks = 30;    // likeliest keyframes by words, of which some descriptors are compared
-constexpr std::size_t kSecondLooks = 8;    // of these, of which all are
-constexpr std::size_t kFirstLookStep = 4;  // of the descriptors of a first look
-constexpr std::size_t kRowsAtATime = 50;   // of some 0.1 ms each
+constexpr std::size_t kSecondLooks = 30;  // likeliest keyframes by words, of which descriptors are compared
+constexpr std::size_t kRowsAtATime = 50;  // of some 0.1 ms each
 
 /// Model whose words the places of a map have.
 struct MapModel {
@@ -88,10 +86,7 @@ class KeyframePlaces::Search {
     const PlaceDescription query = describe(keyframe);
     if (query.status != ObservationStatus::Used || places_.empty()) return {};
     std::vector<Candidate> candidates = likeliest(query.words);
-    const LookFeatures look = unpackLook(query.look, "query");
-    compare(look, kFirstLookStep, candidates);
-    if (candidates.size() > kSecondLooks) candidates.resize(kSecondLooks);
-    compare(look, 1, candidates);
+    compare(unpackLook(query.look, "query"), candidates);
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i)
       found.push_back(places_[candidates[i].place].keyframe);
@@ -166,7 +161,7 @@ class KeyframePlaces::Search {
     index_.logLikelihoods(words, likelihoods);
     std::vector<std::size_t> order(likelihoods.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const std::size_t count = std::min(kFirstLooks, order.size());
+    const std::size_t count = std::min(kSecondLooks, order.size());
     std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                       [&](std::size_t a, std::size_t b) {
                         return likelihoods[a] != likelihoods[b] ? likelihoods[a] > likelihoods[b] : a < b;
@@ -186,13 +181,10 @@ class KeyframePlaces::Search {
     return row ? unpackLook(row->descriptors, "keyframe of the map") : LookFeatures();
   }
 
-  /// Compares every `step`-th descriptor, and puts those that agree most first. What geometry decides about needs no
-  /// caution about the sky.
-  static void compare(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) {
-    urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-      Candidate& each = candidates[i];
-      each.share = secondLook(query, step > 1 ? thinnedOut(each.look, step) : each.look).whole;
-    });
+  /// Compares descriptors, and puts the candidates that agree most first.
+  static void compare(const LookFeatures& query, std::vector<Candidate>& candidates) {
+    urban_nav_core::forEach(candidates.size(), 1,
+                            [&](std::size_t i) { candidates[i].share = secondLook(query, candidates[i].look).share; });
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       if (a.share != b.share) return a.share > b.share;
       return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;

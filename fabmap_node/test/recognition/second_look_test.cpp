@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "support/synthetic_places.hpp"
 
 namespace fabmap_node {
@@ -29,26 +32,58 @@ TEST(SecondLook, PanoramasAgreeUnderAChangeOfHeading) {
   EXPECT_GT(secondLook(lookAt(4, 0, 5), lookFeatures(turned, kEveryFeature)).share, 0.4);
 }
 
-/// Features above the horizon of two synthetic places together, and those below it of two others.
-PlaceObservation skyOver(std::uint32_t sky, std::uint32_t ground, std::uint32_t noise) {
-  PlaceObservation seen;
-  seen.cameras = 5;
-  for (const std::uint32_t more : {0u, 10u}) {
-    for (const PlaceFeature& feature : syntheticPlace(sky + more, noise, 5).features)
-      if (feature.v < 0.45F) seen.features.push_back(feature);
-    for (const PlaceFeature& feature : syntheticPlace(ground + more, noise, 5).features)
-      if (feature.v >= 0.45F) seen.features.push_back(feature);
+TEST(SecondLook, DoesNotDependOnTheOrder) {
+  for (const std::uint8_t cameras : {std::uint8_t{1}, std::uint8_t{5}}) {
+    const LookAgreement one = secondLook(lookAt(1, 0, cameras), lookAt(1, 1, cameras)),
+                        other = secondLook(lookAt(1, 1, cameras), lookAt(1, 0, cameras));
+    EXPECT_EQ(one.matches, other.matches);
+    EXPECT_EQ(one.agreeing, other.agreeing);
+    EXPECT_EQ(one.share, other.share);
   }
-  return seen;
 }
 
-TEST(SecondLook, TheSameSkyOverAnotherPlaceIsNoAgreement) {
-  const LookFeatures here = lookFeatures(skyOver(4, 4, 0), kEveryFeature);
-  const LookAgreement same = secondLook(here, lookFeatures(skyOver(4, 4, 1), kEveryFeature)),
-                      elsewhere = secondLook(here, lookFeatures(skyOver(4, 6, 1), kEveryFeature));
-  EXPECT_GT(same.share, 0.3);
-  EXPECT_GT(elsewhere.whole, 0.1);
-  EXPECT_LT(elsewhere.share, 0.05);
+/// Matches by the definition: each pair at the same height, its nearest and second nearest on both sides.
+int countMatchesPlainly(const LookFeatures& a, const LookFeatures& b) {
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    int sum = 0;
+    const LookFeature &one = a.features[i], &other = b.features[j];
+    for (int k = 0; k < 64; ++k) {
+      const auto level = [k](const LookFeature& f) { return static_cast<int>((f.middle >> k & 1) + (f.top >> k & 1)); };
+      sum += std::abs(level(one) - level(other));
+    }
+    return sum;
+  };
+  const auto isAllowed = [&](std::size_t i, std::size_t j) {
+    return std::abs(a.features[i].height - b.features[j].height) <= 0.12F;
+  };
+  const auto isClear = [&](std::size_t i, std::size_t j) {
+    double second = 57.0;  // of what is unrelated
+    for (std::size_t k = 0; k < b.size(); ++k)
+      if (k != j && isAllowed(i, k)) second = std::min(second, static_cast<double>(distance(i, k)));
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (k != i && isAllowed(k, j)) second = std::min(second, static_cast<double>(distance(k, j)));
+    return distance(i, j) < 0.8 * second;
+  };
+  int matches = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (isAllowed(i, j) && isClear(i, j)) ++matches;
+  return matches;
+}
+
+TEST(SecondLook, MatchesAreThoseOfThePlainDefinition) {
+  for (const std::uint32_t other : {1u, 2u, 3u}) {
+    const LookFeatures a = lookAt(1, 0, 5), b = lookAt(other, 1, 5);
+    EXPECT_EQ(secondLook(a, b).matches, countMatchesPlainly(a, b)) << other;
+  }
+}
+
+TEST(SecondLook, FeaturesAtAnotherHeightDoNotMatchInPanoramas) {
+  PlaceObservation raised = syntheticPlace(4, 1, 5);
+  for (PlaceFeature& feature : raised.features) feature.v = 0.3F * feature.v;
+  PlaceObservation below = syntheticPlace(4, 0, 5);
+  for (PlaceFeature& feature : below.features) feature.v = 0.6F + 0.3F * feature.v;
+  EXPECT_EQ(secondLook(lookFeatures(raised, kEveryFeature), lookFeatures(below, kEveryFeature)).matches, 0);
 }
 
 TEST(SecondLook, DirectionsThatScatterDoNotAgree) {
@@ -74,6 +109,22 @@ TEST(LookFeatures, SelectsUpToTheLimit) {
   const PlaceObservation place = syntheticPlace(1, 0);
   EXPECT_EQ(lookFeatures(place, 20).size(), 20u);
   EXPECT_EQ(lookFeatures(place, kEveryFeature).size(), place.features.size());
+}
+
+TEST(LookFeature, LevelsAreRanksOfTheElements) {
+  LookElements elements{};
+  for (std::size_t k = 0; k < kLookElements; ++k) elements[k] = static_cast<std::uint16_t>(7 * ((k * 37) % 64));
+  const LookFeature feature = lookFeature(elements, 1.5F, 0.25F);
+  for (std::size_t k = 0; k < kLookElements; ++k) {
+    const std::size_t rank = elements[k] / 7;
+    EXPECT_EQ(feature.middle >> k & 1, rank > 20 ? 1u : 0u) << rank;
+    EXPECT_EQ(feature.top >> k & 1, rank > 42 ? 1u : 0u) << rank;
+  }
+  for (std::uint16_t& element : elements) element = static_cast<std::uint16_t>(3 * element + 11);
+  const LookFeature brighter = lookFeature(elements, 1.5F, 0.25F);
+  EXPECT_EQ(brighter.middle, feature.middle);
+  EXPECT_EQ(brighter.top, feature.top);
+  EXPECT_EQ(lookFeature(LookElements{}, 0.0F, 0.0F).middle, 0u) << "equal elements have no rank";
 }
 
 TEST(IsStationary, OnlyWhereFeaturesDoNotMove) {

@@ -108,6 +108,21 @@ TEST(PlaceModel, ReadsBackWhatWasPrinted) {
   EXPECT_EQ(read.tree.p, trainedOnce().model.tree.p);
 }
 
+// They were calibrated for another second look.
+TEST(PlaceModel, ModelsOfVersionTwoKeepTheirWordsAndTakeTheCalibrationsOfTheSuite) {
+  const std::string content = printModelContent(trainedOnce().model);
+  const PlaceModel read = parseModel(urban_nav_core::seal("places model", 2, content), "model");
+  EXPECT_EQ(read.vocabulary.centres(), trainedOnce().model.vocabulary.centres());
+  EXPECT_EQ(read.tree.parent, trainedOnce().model.tree.parent);
+  const PlaceModel suite = defaultModel();
+  PlaceEvidence evidence;
+  evidence.look = evidence.look_margin = 0.3;
+  for (const int cameras : {1, 5}) {
+    EXPECT_EQ(read.calibration(cameras).probability(evidence), suite.calibration(cameras).probability(evidence));
+    ASSERT_EQ(read.sequenceCalibration(cameras).has_value(), suite.sequenceCalibration(cameras).has_value());
+  }
+}
+
 TEST(PlaceModel, ModelsOfOpenCvFeaturesAreRefusedByName) {
   const std::string orb("\2\0\0\0", 4);  // the kind of features, which version 3 of the file begins with
   const std::string bytes = urban_nav_core::seal("places model", 3, orb + printModelContent(trainedOnce().model));

@@ -2,6 +2,7 @@
 """What the default model of places claims between days, within one, and among strangers, in simulated worlds that it was neither trained nor calibrated with.
 
 two days     a site is driven on two days; the second is looked for in both, and in the first alone (places of the second day are no candidates)
+other days   a site is driven for some seconds on days 2, 3 (wet) and 4 (winter) and looked for in day 1
 reversed     as two days, in the first alone; counted is what the second day drives in the direction opposite to the first
 left images  as two days, by the left image of the stereo head alone, two a second
 one day      a drive that returns to where it began is looked for in itself
@@ -31,6 +32,7 @@ except ImportError:
 COLUMNS = ("world", "drives", "evidence", "compared", "revisits", "right place first", "recall at 100 % precision", "above 0.99", "right", "0.9 to 0.99", "right", "0.05 to 0.9", "right")
 CLAIM_COLUMNS = ("world", "drives", "probability", "verdict", "stretch")
 TWO_DAYS = ("quad:930001:40", "street:930002:40", "begbroke:930003:30")
+OTHER_DAYS = ("street:5001:20:12", "quad:5003:20:12")  # world, seed, seconds of day 1, of the others
 STRANGERS = ("quad:930001:40,930004:20,930007:20", "street:930002:40,930005:20,930008:20", "begbroke:930003:30,930006:20,930009:20")
 ONE_DAY = "begbroke:930003:200"  # round the building in 170 s
 REVERSED = "quad:930001:40"  # to the archway
@@ -44,7 +46,7 @@ STRETCH_M, STRETCH_IMAGES = 10.0, 5
 MASK_NS = 20 * 10**9
 FIRST_DAY_ALONE = ("--mask", 1000)  # s, longer than any second day
 OPPOSITE_DEG = 135.0
-KINDS = ("two days", "reversed", "left images", "one day", "strangers", "real images")
+KINDS = ("two days", "other days", "reversed", "left images", "one day", "strangers", "real images")
 
 Match = namedtuple("Match", "drive_a stamp_a drive_b stamp_b probability")  # a: the earlier place, b: the query
 Claim = namedtuple("Claim", "probability right revisit stretch")  # right: True, False, or None for neither
@@ -166,6 +168,14 @@ class Bench:
             bags = [drive(self.folder, world, seed, duration, day) for day in (1, 2)]
             for drives, options, is_pooled in (("two days", (), True), ("two days, in the first alone", FIRST_DAY_ALONE, False)):
                 self.add(world, drives, bags, lambda found, bags=bags: judged(found, bags, True), options=options, is_pooled=is_pooled)
+
+    def other_days(self):
+        for case in OTHER_DAYS:
+            world, seed, first, others = case.split(":")
+            home = drive(self.folder, world, seed, first)
+            for day in (2, 3, 4):
+                bags = [home, drive(self.folder, world, seed, others, day)]
+                self.add(world, f"day {day} after day 1", bags, lambda found, bags=bags: judged(found, bags, True))
 
     def reversed(self):
         world, seed, duration = REVERSED.split(":")

@@ -31,7 +31,8 @@ struct PlaceModel {
 
 /// Returns the bytes of a model: versioned, with a checksum, the same on every machine.
 std::string printModel(const PlaceModel& model);
-/// Returns the model of printModel(). Throws DataError with `name` if the bytes are truncated, damaged, of another
+/// Returns the model of printModel(). Models of the versions before, calibrated for another second look, take the
+/// calibrations of the suite's model. Throws DataError with `name` if the bytes are truncated, damaged, of a later
 /// version, of a model of OpenCV's features, or inconsistent.
 PlaceModel parseModel(std::string_view bytes, const std::string& name);
 /// Returns the bytes of a model without version and checksum: for tests of damaged content.

@@ -9,15 +9,15 @@
 
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/places/place_index.hpp"
+#include "fabmap_node/recognition/compact_look.hpp"
 #include "fabmap_node/recognition/second_look.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace fabmap_node {
 
 struct MatcherOptions {
-  int first_looks = 30;             ///< likeliest candidates of which a quarter of the descriptors is compared
-  int second_looks = 10;            ///< candidates that are compared descriptor by descriptor; 0: none
-  std::size_t look_features = 540;  ///< features that a second look compares: 19 kB a place
+  int second_looks = 30;                      ///< candidates that are compared descriptor by descriptor; 0: none
+  std::size_t look_features = kLookFeatures;  ///< of a place, for its second looks
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< places of one session so far apart in time are elsewhere, ns
 };
 
@@ -93,7 +93,7 @@ class PlaceMatcher {
   std::vector<Candidate> comparedCandidates(const DescribedPlace& query, const std::vector<double>& likelihoods,
                                             const std::function<bool(std::size_t)>& isCandidate) const;
   double logLikelihoodNew(const WordSet& query) const;
-  void compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
+  void compareAll(const LookFeatures& query, std::vector<Candidate>& candidates) const;
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
                    double log_likelihood_new) const;
   bool showSamePlace(const Candidate& best, const Candidate& other) const;

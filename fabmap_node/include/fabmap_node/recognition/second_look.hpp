@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,40 +9,49 @@
 
 namespace fabmap_node {
 
-inline constexpr int kLookElements = 64;
-/// Descriptors of a second look: neighbouring directions of the gradient are added up, so that twice as many fit.
-using LookDescriptors = Eigen::Matrix<float, kLookElements, Eigen::Dynamic>;
+inline constexpr std::size_t kLookElements = 64;
+/// Descriptor of a second look before it is reduced to levels: neighbouring directions of the gradient added up.
+using LookElements = std::array<std::uint16_t, kLookElements>;
 
-/// What a second look compares: descriptors of an observation with their directions.
-struct LookFeatures {
-  std::uint8_t cameras = 1;
-  LookDescriptors descriptors;              ///< unit vectors, one a column
-  std::vector<Eigen::Vector2f> directions;  ///< azimuth and height; see lookFeatures()
-
-  std::size_t size() const { return directions.size(); }
+/// Feature of a second look. Elements of its descriptor have three levels, ranks within the descriptor: bit k of
+/// `middle` is set if element k is above the lowest third, of `top` if it is in the highest third.
+struct LookFeature {
+  std::uint64_t middle = 0, top = 0;
+  float azimuth = 0.0F;  ///< images around the vertical axis, 0 ... cameras, clockwise from camera 0
+  float height = 0.0F;   ///< share of the image's height, 0 ... 1, downwards
 };
 
-/// Selects at most `most` features, evenly over the observation. Directions are shares of the image's width and height;
-/// the azimuth of a panorama counts in images around the vertical axis, 0 ... cameras, clockwise from camera 0.
-LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most);
+/// What a second look compares: features of an observation, heights ascending.
+struct LookFeatures {
+  std::uint8_t cameras = 1;
+  std::vector<LookFeature> features;
 
-/// Returns every `step`-th feature.
-LookFeatures thinnedOut(const LookFeatures& look, std::size_t step);
+  std::size_t size() const { return features.size(); }
+};
+
+/// Returns a feature with the levels of `elements`. Scale and offset of the elements do not matter. Of equal elements
+/// at a limit, the lower level counts.
+LookFeature lookFeature(const LookElements& elements, float azimuth, float height);
+
+/// Sorts features as LookFeatures has them: heights ascending, then azimuths.
+void sortByHeight(std::vector<LookFeature>& features);
+
+/// Selects at most `most` features, evenly over the observation.
+LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most);
 
 /// Result of comparing two observations descriptor by descriptor.
 struct LookAgreement {
   int matches = 0;     ///< descriptors that are each other's nearest, clearly
   int agreeing = 0;    ///< of these, under one displacement (single image) or one change of heading (panorama)
-  double whole = 0.0;  ///< agreeing beyond chance, per feature of the smaller set, 0 ... 1
-  /// `whole` or the same of the features below the horizon, whichever is less: clouds look the same from everywhere
-  /// for minutes.
-  double share = 0.0;
+  double share = 0.0;  ///< agreeing beyond chance, per feature of the smaller set, 0 ... 1
 };
 
-/// Returns the agreement of two observations. Observations of different numbers of cameras do not agree.
+/// Returns the agreement of two observations, which does not depend on their order. Observations of different numbers
+/// of cameras do not agree. Requires heights in ascending order.
 LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b);
 
-/// Returns whether the camera stands still between two observations: most features match at the same pixel.
+/// Returns whether the camera stands still between two observations: most features match at the same pixel. Requires
+/// heights in ascending order.
 bool isStationary(const LookFeatures& a, const LookFeatures& b);
 
 }  // namespace fabmap_node

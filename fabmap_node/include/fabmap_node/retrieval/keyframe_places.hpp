@@ -9,7 +9,7 @@
 namespace fabmap_node {
 
 /// Number of features of a keyframe's second look that a store holds: 9 kB a keyframe.
-inline constexpr std::size_t kKeyframeLookFeatures = 250;
+inline constexpr std::size_t kKeyframeLookFeatures = 500;
 
 /// Finds keyframes by their words, and by a second look at the likeliest ones.
 ///

@@ -105,7 +105,7 @@ std::string findReason(const PlacePair& pair) {
   if (pair.is_masked) return "both are of one session, and too near in time to be a revisit (fabmap_node.mask)";
   const fabmap_node::PlaceComparison& comparison = *pair.comparison;
   if (!comparison.is_compared)
-    return "the place is not among those most alike by words and a first look, which are compared in full";
+    return "the place is not among those most alike by words, which are compared descriptor by descriptor";
   if (!comparison.is_first)
     return "another place is more like the query: only the likeliest is proposed, and the likeliest of another session";
   if (pair.probability <= pair.closure_probability)
