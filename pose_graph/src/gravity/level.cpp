@@ -18,7 +18,7 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kLeastLevelSpans = 3;
-// Of a session that is too short for three spans of 2 s: the longest of these of which there are enough.
+// Spans for a session too short for three of 2 s: the longest length that gives enough of them.
 constexpr double kShortSpans[] = {1.0, 0.5, 0.25};  // s
 constexpr std::size_t kLeastShortSpans = 5;
 // Gravity is 9.78...9.83 on the ground; a scale of 2 % and that fault are allowed for.

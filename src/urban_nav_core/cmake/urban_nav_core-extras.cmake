@@ -67,7 +67,7 @@ function(urban_nav_precompile target)
 endfunction()
 
 # urban_nav_quick(TARGET): a target of tests is compiled with -O1, a fifth quicker than with -O2: what takes time in a test is compiled in
-# the library that it tests. With -O1 GCC sees uninitialised values in std::optional where there are none.
+# the library that it tests. With -O1 GCC sees uninitialised values in std::optional that are initialised.
 function(urban_nav_quick target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O1> -Wno-maybe-uninitialized)
 endfunction()

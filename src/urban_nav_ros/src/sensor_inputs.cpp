@@ -12,7 +12,7 @@ namespace urban_nav_ros {
 namespace {
 
 /// Returns the laser of a topic, 0 left, 1 right; -1: of none.
-int laserOf(const std::string& topic) {
+int findLaser(const std::string& topic) {
   if (topic == topics::kLaserLeft) return 0;
   return topic == topics::kLaserRight ? 1 : -1;
 }
@@ -63,7 +63,7 @@ sensor_msgs::NavSatFixConstPtr SensorInputs::correct(const std::string& topic,
 
 sensor_msgs::LaserScanConstPtr SensorInputs::correct(const std::string& topic,
                                                      const sensor_msgs::LaserScanConstPtr& message) const {
-  const int laser = laserOf(topic);
+  const int laser = findLaser(topic);
   if (laser < 0) return message;
   const urban_nav_core::LaserConvention& convention = corrections_.lasers[static_cast<std::size_t>(laser)];
   const urban_nav_core::ScanVerdict verdict = checkUnits(*message, convention);

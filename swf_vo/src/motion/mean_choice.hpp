@@ -6,10 +6,10 @@
 
 namespace swf_vo {
 
-/// Chooses the mean of the process term (eq. 1) of a step that images measure: the motion at constant velocity or that
-/// by sensors, translation and rotation apart. The one that was nearer to what images measured over some ten frames is
-/// taken; without evidence, constant velocity. On a steady drive the last step predicts the next one better than wheels
-/// that slip; in a turn a gyroscope predicts it better.
+/// Chooses the mean of the process term (eq. 1) of a step that images measure, translation and rotation apart: the
+/// motion at constant velocity or the motion by sensors. The one that was nearer to what images measured over some ten
+/// frames is taken; without evidence, constant velocity. On a steady drive the last step predicts the next one better
+/// than wheels that slip; in a turn a gyroscope predicts it better.
 class MeanChoice {
  public:
   /// Returns T_from_to.

@@ -27,7 +27,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr double kPointsImageShare = 0.1;      // of memory_mb, for decoded images
+constexpr double kPointsImageShare = 0.1;      // share of memory_mb for decoded images
 constexpr std::size_t kKeptExplanations = 20;  // with their pictures, about 0.1 MB each
 
 /// Returns a text that changes when a file or its log is written.
@@ -113,7 +113,7 @@ std::string StoredSource::points() {
   if (!points_) {
     const double memory_mb =
         kPointsImageShare * loadParameters(Arguments(options_, tables_)).get(commandTable()).memory_mb;
-    Store store = urban_nav_store::openForReading(path_);  // of its own: colours may take minutes
+    Store store = urban_nav_store::openForReading(path_);  // a handle of its own: colours may take minutes
     points_.emplace(store, maps, memory_mb);
   }
   return points_->place(maps);

@@ -15,7 +15,7 @@ using urban_nav_core::PlanarPattern;
 
 namespace {
 
-constexpr std::size_t kMostClouds = 100;  // that are looked at, of a laser that sees hardly anything
+constexpr std::size_t kMostClouds = 100;  // read of a laser that sees hardly anything
 
 std::optional<PlanarPattern> findPattern(Recording& recording, const ReceiptRange& part, const std::string& topic,
                                          CloudMessages& reader) {

@@ -26,14 +26,14 @@ class PlanarClouds {
                BagTopics& topics);
 
   bool has(const std::string& topic) const { return patterns_.count(topic) > 0; }
-  /// Returns the first message of a laser, a scan or a cloud that is read as one; null if there is none.
+  /// Returns the first message of a laser, a scan or a cloud that is read as one; null without one.
   boost::shared_ptr<sensor_msgs::LaserScan> first(Recording& recording, const std::string& topic);
-  /// Returns the scan in a message of a laser; null if there is none.
+  /// Returns the scan in a message of a laser; null without one.
   boost::shared_ptr<sensor_msgs::LaserScan> read(const RecordedMessage& message);
   const std::vector<Finding>& findings() const { return findings_; }
 
  private:
-  std::map<std::string, urban_nav_core::PlanarPattern> patterns_;  // by topic
+  std::map<std::string, urban_nav_core::PlanarPattern> patterns_;  // keyed by topic
   std::vector<Finding> findings_;
   CloudMessages messages_;
 };

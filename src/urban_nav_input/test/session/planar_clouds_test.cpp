@@ -61,7 +61,8 @@ sensor_msgs::LaserScan planarScan(double t, const std::string& frame) {
   return scan;
 }
 
-/// What laser drivers publish in place of the scan: points that were measured, with times after the header.
+/// The cloud that a laser driver publishes in place of the scan: points that were measured, with times after the
+/// header.
 sensor_msgs::PointCloud2 toPlanarCloud(const sensor_msgs::LaserScan& scan) {
   sensor_msgs::PointCloud2 cloud;
   cloud.header = scan.header;

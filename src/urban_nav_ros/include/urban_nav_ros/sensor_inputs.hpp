@@ -14,15 +14,15 @@
 
 namespace urban_nav_ros {
 
-/// Parameters of sensors in the namespace `input` beside the nodelets, the same for all of them.
+/// Parameters of sensors in the namespace `input` next to the nodelets, the same for all of them.
 struct LiveCorrectionParameters : SensorCorrectionParameters {
   LiveCorrectionParameters();
 };
 const urban_nav_core::Table<LiveCorrectionParameters>& liveCorrectionTable();
 
-/// Corrects the messages of sensors, by their topics, before a stage reads them: the live counterpart of what readers
-/// of recordings do. The convention of the accelerometer is left to Accelerometer. Names laser scans in other units.
-/// Thread-safe.
+/// Corrects the messages of sensors, by their topics, before a stage reads them: the live counterpart of the readers'
+/// corrections of recordings. The convention of the accelerometer is left to Accelerometer. Names laser scans in other
+/// units. Thread-safe.
 class SensorInputs {
  public:
   SensorInputs() = default;
@@ -49,7 +49,7 @@ class SensorInputs {
  private:
   SensorCorrections corrections_;
   mutable std::mutex mutex_;
-  mutable std::map<std::string, std::string> faults_;  // by topic; guarded by mutex_
+  mutable std::map<std::string, std::string> faults_;  // keyed by topic; guarded by mutex_
 };
 
 }  // namespace urban_nav_ros

@@ -21,7 +21,7 @@ using urban_nav_trust::ClosureDifference;
 
 namespace {
 
-constexpr double kFreeInformation = 1e-9;  // of a direction, relative to the largest: none
+constexpr double kFreeInformation = 1e-9;  // relative to that of the best direction: none
 
 /// Errors of the constants of the rig along a path.
 struct SharedErrors {

@@ -28,14 +28,14 @@ using urban_nav_trust::KeyframeMatches;
 namespace {
 
 constexpr std::size_t kMostDense = 20, kMostCorners = 40;  // keyframes
-constexpr std::size_t kPointsCompared = 400;               // of a keyframe
+constexpr std::size_t kPointsCompared = 400;               // points of a keyframe
 constexpr double kSurfaceTravel = 6.0;                     // m before and after a keyframe
 constexpr float kSurfaceVoxel = 0.25F;                     // m
 constexpr float kLeastPlanarity = 0.9F;
 constexpr float kSurfaceReach = 0.3F;               // m along the normal
 constexpr float kMostSigma = kSurfaceReach / 3.0F;  // m, of a stereo point along the normal: the reach cuts nothing off
 constexpr float kOnSurface = 0.15F;                 // m
-constexpr float kUprightNormal = 0.5F;              // of |normal z|, below which a surface is a wall
+constexpr float kUprightNormal = 0.5F;              // |normal z| below which a surface is a wall
 
 /// Surfaces by the cubes that hold them.
 class SurfaceGrid {

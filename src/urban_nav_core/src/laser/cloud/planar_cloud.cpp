@@ -10,7 +10,7 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr std::size_t kFewestInPlane = 20;  // of a cloud that counts
+constexpr std::size_t kFewestInPlane = 20;  // points of a cloud that counts
 constexpr double kFlatness = 1e-3;          // m, and m per m of range: points in single precision
 constexpr double kLeastStep = 1e-4;         // rad: finer than any planar laser
 constexpr double kMostStep = 0.1;           // rad
@@ -63,7 +63,7 @@ PlanarPoints readPlanarPoints(const CloudView& cloud, const std::string& time_fi
   return planar;
 }
 
-/// Returns the step of which the differences of sorted angles are multiples; 0 if there is none.
+/// Returns the step of which the differences of sorted angles are multiples; 0 without one.
 double findAngleStep(std::vector<double> angles) {
   std::sort(angles.begin(), angles.end());
   std::vector<double> differences;
@@ -134,7 +134,7 @@ std::optional<PlanarScan> toPlanarScan(const CloudView& cloud, const PlanarPatte
   std::stable_sort(points.begin(), points.end(),
                    [sign](const PlanarPoint& a, const PlanarPoint& b) { return sign * a.angle < sign * b.angle; });
   const PlanarPoint &first = points.front(), &last = points.back();
-  const auto indexOf = [&](const PlanarPoint& point) {
+  const auto toIndex = [&](const PlanarPoint& point) {
     return static_cast<std::size_t>(std::llround(sign * (point.angle - first.angle) / pattern.angle_step));
   };
   PlanarScan scan;
@@ -142,11 +142,11 @@ std::optional<PlanarScan> toPlanarScan(const CloudView& cloud, const PlanarPatte
   scan.angle_first = first.angle;
   scan.angle_step = sign * pattern.angle_step;
   scan.range_max = kFarthestInPlane;
-  const std::size_t beams = std::min(indexOf(last), static_cast<std::size_t>(kWholeTurn / pattern.angle_step)) + 1;
+  const std::size_t beams = std::min(toIndex(last), static_cast<std::size_t>(kWholeTurn / pattern.angle_step)) + 1;
   scan.ranges.assign(beams, 0.0F);
   scan.intensities.assign(beams, 0.0F);
   for (const PlanarPoint& point : points) {
-    const std::size_t index = indexOf(point);
+    const std::size_t index = toIndex(point);
     if (index >= beams || scan.ranges[index] > 0.0F) continue;
     scan.ranges[index] = static_cast<float>(point.range);
     scan.intensities[index] = static_cast<float>(point.intensity);

@@ -17,7 +17,7 @@ using testing::SampleField;
 using testing::SamplePoint;
 using Number = CloudField::Number;
 
-constexpr double kStep = 0.5 * M_PI / 180.0;
+constexpr double kBeamStep = 0.5 * M_PI / 180.0;
 
 double rangeAt(double angle) { return 6.0 + 2.0 * std::cos(3.0 * angle); }
 
@@ -29,7 +29,7 @@ std::vector<SamplePoint> halfTurn(bool is_clockwise, int hole = 7) {
     SamplePoint point;
     point.column = i;
     point.share = i / 360.0;
-    const double angle = (is_clockwise ? 1.0 : -1.0) * (M_PI_2 - kStep * i);
+    const double angle = (is_clockwise ? 1.0 : -1.0) * (M_PI_2 - kBeamStep * i);
     point.x = rangeAt(angle) * std::cos(angle);
     point.y = rangeAt(angle) * std::sin(angle);
     points.push_back(point);
@@ -60,7 +60,7 @@ TEST(PlanarCloud, BeamsHaveTheirAnglesRangesAndTimes) {
     for (const double unit : {1.0, 1e-3, 1e-6}) {
       const auto pattern = survey(halfTurn(is_clockwise), fields(unit));
       ASSERT_TRUE(pattern);
-      EXPECT_NEAR(pattern->angle_step, kStep, 1e-6);
+      EXPECT_NEAR(pattern->angle_step, kBeamStep, 1e-6);
       EXPECT_EQ(pattern->is_clockwise, is_clockwise);
       SampleCloud cloud(halfTurn(is_clockwise), fields(unit), 20, kBegin, 0);
       const auto planar = toPlanarScan(cloud.view(), *pattern);

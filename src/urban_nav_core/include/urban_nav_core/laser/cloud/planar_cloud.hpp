@@ -11,11 +11,11 @@
 
 namespace urban_nav_core {
 
-/// How the clouds of a planar laser are read, whose driver publishes points in place of ranges.
+/// Layout of the clouds of a planar laser, whose driver publishes points in place of ranges.
 struct PlanarPattern {
   double angle_step = 0.0;    ///< rad from beam to beam, positive
   bool is_clockwise = false;  ///< the laser measures from larger to smaller angles
-  std::string time_field;     ///< of the times of points, relative to the header; empty: none
+  std::string time_field;     ///< field with the times of points, relative to the header; empty: they have none
   double time_scale = 1.0;    ///< s per unit of it
 };
 
@@ -28,7 +28,7 @@ class PlanarCloudSurvey {
   /// Adds a cloud. One with hardly a point counts for nothing.
   void add(const CloudView& cloud);
   bool isComplete() const { return clouds_ >= kEnough || is_spatial_; }
-  /// Returns how the clouds are read; nullopt if one is not planar, or there was none.
+  /// Returns how the clouds are read; nullopt if one is not planar, or none was added.
   std::optional<PlanarPattern> conclude() const;
 
  private:
@@ -36,7 +36,7 @@ class PlanarCloudSurvey {
   bool is_spatial_ = false;
   std::vector<double> steps_;  // rad, of each cloud
   std::string time_field_;
-  std::vector<double> time_spans_;  // of each cloud, in units of the field
+  std::vector<double> time_spans_;  // one for each cloud, in units of the field
 };
 
 /// Returns the scan of a cloud; nullopt if it has no point that can be used. A direction without a point has the range
