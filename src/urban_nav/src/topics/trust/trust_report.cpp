@@ -17,6 +17,13 @@ namespace {
 constexpr const char* kByCovariance = "By the covariance of each pose, as far as the tests confirm it,";
 constexpr double kMostStated = 0.999;  // what is beyond rests on tails that no data show
 
+/// Returns a reason as a sentence of its own.
+std::string asSentence(std::string reason) {
+  if (!reason.empty() && reason.front() >= 'a' && reason.front() <= 'z')
+    reason.front() = static_cast<char>(reason.front() - 'a' + 'A');
+  return reason + ".";
+}
+
 /// Returns the sentence on the whole map, which begins with `by`.
 std::string probabilitySentence(const TrustRun& run, const std::string& by) {
   std::string text = by + " the probability that a position is where the map shows is ";
@@ -69,7 +76,7 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
     return {Grade::Bad, "Measurements contradict each other: do not trust the map.",
             std::to_string(failed) + " of " + tests + " consistency tests failed. " + run.map.reason};
   return {Grade::Fair, "Too little confirms the map.",
-          run.map.reason + ". " +
+          asSentence(run.map.reason) + " " +
               probabilitySentence(run, "By its covariance, which may be too small by a factor that nothing measured,")};
 }
 
