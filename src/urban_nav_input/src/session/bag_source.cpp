@@ -63,7 +63,12 @@ class BagSource : public Source {
     planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
-      throw DataError(name_, "has no stereo pair of image topics: " + listImageTopics(recording_), "");
+      throw DataError(name_,
+                      "has no stereo pair of image topics: " + listImageTopics(recording_) +
+                          (planar_clouds_.findings().empty()
+                               ? ""
+                               : "; " + planar_clouds_.findings().front().text + ", and hold no pose in space"),
+                      "");
     if (info_.has_images) motion_ = chooseMotion(topics_, options.motion_input, name_);
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -154,6 +155,26 @@ TEST(PlanarClouds, GiveTheBeamsOfScans) {
   };
   EXPECT_EQ(named("/sick_left/cloud: PointCloud2 whose points lie in one plane, 1.15 deg from beam to beam"), 1);
   EXPECT_EQ(named("its clouds are read as scans of laser_right"), 1);
+}
+
+TEST(PlanarClouds, AloneTheyAreNamedAsTheReasonThatThereIsNoPose) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("lasers.bag");
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    for (int i = 0; i < 20; ++i) {
+      const sensor_msgs::LaserScan scan = planarScan(0.045 * i, "laser_left");
+      bag.write("/scanner/cloud", scan.header.stamp, toPlanarCloud(scan));
+    }
+  }
+  try {
+    readSession(path);
+    FAIL() << "no images, no sweeps";
+  } catch (const urban_nav_core::DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("/scanner/cloud: PointCloud2 whose points lie in one plane"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(PlanarClouds, AWishMakesASweepOfACloud) {
