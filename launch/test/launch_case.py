@@ -11,7 +11,7 @@ import rospkg
 import rospy
 import yaml
 
-from graph import Launched, Listener, command, make_bag, published, until
+from graph import SIGINT_TIMEOUT, Launched, Listener, command, make_bag, published, until
 
 sys.path.insert(0, str(Path(rospkg.RosPack().get_path("urban_nav")) / "test" / "support"))
 import drive  # noqa: E402
@@ -41,6 +41,8 @@ class LaunchCase(unittest.TestCase):
         rospy.set_param("/swf_vo/queue_size", 100000)
         rospy.set_param("/swf_vo/max_lateness", 1.0)  # s: left and right images come on connections of their own
         rospy.set_param("/stereo_rectify/queue_size", 100000)
+        for stage in ("swf_vo", "loop_metric", "dense_stereo", "localization"):
+            rospy.set_param(f"/{stage}/drain_s", 0.8 * SIGINT_TIMEOUT)  # nor given up after an interrupt
         cls.folder = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.bag = cls.record(cls.folder)

@@ -28,6 +28,25 @@
     return `${session ? session.name : "?"} +${end.seconds.toFixed(2)} s`;
   };
 
+  /** A length for a person: "0.07 mm", "1.204 m". */
+  nav.lengthText = (metres) => (metres < 0.01 ? `${(1e3 * metres).toFixed(2)} mm` : `${metres.toFixed(3)} m`);
+
+  /** How far a session lies from where another map has it; empty without another map. */
+  nav.comparedText = (compared, session) => {
+    if (!compared) return "";
+    const its = compared.sessions.find((s) => s.session === session);
+    if (!its) return "; not in the other store";
+    if (its.poses === 0) return "; no pose at the same time in the other store";
+    return `; ${nav.lengthText(its.largest_m)} at most from the other store, at +${its.seconds.toFixed(1)} s, rms ${nav.lengthText(its.rms_m)}`;
+  };
+
+  /** What is compared, for the head of the page. */
+  nav.comparedNotice = (compared) => {
+    if (!compared) return "";
+    const absent = compared.absent_here.length > 0 ? `, which also has ${compared.absent_here.join(", ")}` : "";
+    return `compared with ${compared.store}${absent}`;
+  };
+
   /** Adds nanoseconds exactly: stamps are texts of seconds, which have more digits than a number of JavaScript. */
   nav.addSeconds = (stamp, seconds) => {
     const [whole, fraction = ""] = stamp.split(".");

@@ -18,6 +18,7 @@
     now = null,
     points = null,
     shifts = null,
+    compared = null,
     places = {};
   const view = new nav.PointView(byId("points"));
 
@@ -79,7 +80,7 @@
       nav.drawPlan(
         byId("lines"),
         matrix(),
-        {paths, closures: drawnClosures(), selected: closureOf(selected), marks},
+        {paths, compared, closures: drawnClosures(), selected: closureOf(selected), marks},
         palette,
       );
     });
@@ -88,6 +89,16 @@
     const canvas = byId("lines");
     camera.fit(box.low, box.high, canvas.clientWidth / Math.max(1, canvas.clientHeight));
     draw();
+  };
+  /** Shows what the left camera saw at a picked moment, where the store has it. */
+  const showView = async (name, {session, seconds}) => {
+    const image = byId(`view-${name}`),
+      asked = (image.dataset.asked = `${session} ${seconds}`);
+    const blob = await server.blob(`/api/view?session=${session}&seconds=${seconds}`).catch(() => null);
+    if (image.dataset.asked !== asked) return;
+    URL.revokeObjectURL(image.src);
+    image.hidden = !blob;
+    image.src = blob ? URL.createObjectURL(blob) : "";
   };
   const pick = (name, moment) => {
     field(name).value = nav.momentWord(state.sessions, moment.session, moment.seconds);
@@ -98,6 +109,7 @@
       byId("apart"),
       t1 && t2 ? `${Math.hypot(...t1.map((v, k) => v - t2[k])).toFixed(3)} m between both places` : "",
     );
+    showView(name, moment);
     draw();
   };
   const paint = () => {
@@ -232,6 +244,20 @@
       nav.putText(byId("selected-title"), page.title);
       await nav.showExplanation(byId("explanation"), page, () => null);
     });
+  /** Measures both moments and shows the matches; the map stays as it is. */
+  const tryMeasurement = () =>
+    work(async () => {
+      const {t1, t2} = fields();
+      if (!t1 || !t2) throw new Error("Pick moments 1 and 2 on the path, or write them.");
+      const page = await server.json(`/api/try?t1=${encodeURIComponent(t1)}&t2=${encodeURIComponent(t2)}`);
+      selected = null;
+      showSelection();
+      nav.putText(byId("selected-title"), page.accepted ? "Would be accepted; Measure adds it" : "Would not be accepted");
+      tell(page.reason, !page.accepted);
+      await nav.showExplanation(byId("explanation"), page, (number) =>
+        server.blob(`/api/picture?id=0&number=${number}`),
+      );
+    });
   const showEdits = () =>
     nav.syncRows(
       byId("edit-rows"),
@@ -254,17 +280,19 @@
         row.children[0].style.background = nav.sessionColours[k % nav.sessionColours.length];
         nav.putText(
           row.children[1],
-          `${s.name}: ${s.poses} poses, ${s.length_m.toFixed(1)} m, ${s.seconds.toFixed(1)} s, map ${s.map + 1}`,
+          `${s.name}: ${s.poses} poses, ${s.length_m.toFixed(1)} m, ${s.seconds.toFixed(1)} s, map ${s.map + 1}${nav.comparedText(state.compared, k)}`,
         );
       },
     );
 
-  const show = (given, bytes) => {
+  const show = (given, bytes, other) => {
     const first = state === null,
       before = closureOf(selected);
     state = given;
     ({paths, box, shifts} = nav.placePaths(state.sessions, bytes));
+    compared = other ? nav.placeCompared(state.sessions, other, shifts) : null;
     nav.putText(byId("store"), state.store);
+    nav.putText(byId("compared"), nav.comparedNotice(state.compared));
     nav.putText(
       byId("notice"),
       state.written_by_another
@@ -289,9 +317,11 @@
   const load = () =>
     work(async () => {
       do {
-        const [given, bytes] = await Promise.all([server.json("/api/state"), server.bytes("/api/paths")]);
-        if (bytes.byteLength !== 16 * given.sessions.reduce((sum, s) => sum + s.poses, 0)) continue; // of another revision
-        await show(given, bytes);
+        const [given, bytes] = await Promise.all([server.json("/api/state"), server.bytes("/api/paths")]),
+          other = given.compared ? await server.bytes("/api/compared") : null,
+          poses = given.sessions.reduce((sum, s) => sum + s.poses, 0);
+        if (bytes.byteLength !== 16 * poses || (other && other.byteLength !== 12 * poses)) continue; // of another revision
+        await show(given, bytes, other);
       } while (state.revision < wanted);
     });
 
@@ -338,6 +368,7 @@
     Delete: () => act("remove"),
     u: () => act("undo"),
     U: () => act("redo"),
+    c: () => tryMeasurement(),
     m: () => act("measure"),
     w: () => whyHere(),
     f: () => fit(),
@@ -403,6 +434,7 @@
   });
   byId("colour").addEventListener("change", paint);
   byId("why-here").addEventListener("click", whyHere);
+  byId("try").addEventListener("click", tryMeasurement);
   byId("explanation").addEventListener("click", (event) => {
     const link = event.target.closest("[data-closure]");
     if (link && closureOf(Number(link.dataset.closure))) select(Number(link.dataset.closure));

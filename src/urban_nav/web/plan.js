@@ -3,7 +3,8 @@
 "use strict";
 ((nav) => {
   nav.sessionColours = ["#1f6feb", "#d9480f", "#0c8599", "#9c36b5", "#5c940d", "#e67700", "#c2255c", "#495057"];
-  const MOST_DRAWN = 20000; // poses of all paths in a picture
+  const MOST_DRAWN = 20000, // poses of all paths in a picture
+    MOST_LINES = 600; // from poses to where another map has them
 
   /** Positions of all sessions from the bytes of the server: maps that nothing joins lie side by side along x. Returns
    * {times, points} of each session in the order of the state, and the box around all. */
@@ -56,6 +57,20 @@
       if (shift) for (let i = 0; i < paths[s].points.length; i += 3) paths[s].points[i] += shift;
     });
     return {paths, box: all, shifts};
+  };
+
+  /** Where another map has the poses of all paths, from the bytes of the server: x, y, z of each pose, moved along x as the
+   * maps are; not a number where it has no such pose. */
+  nav.placeCompared = (sessions, bytes, shifts) => {
+    const view = new DataView(bytes);
+    let at = 0;
+    return sessions.map((session) => {
+      const shift = shifts.get(session.map) || 0;
+      return Float32Array.from(
+        {length: 3 * session.poses},
+        (_, i) => view.getFloat32(4 * at++, true) + (i % 3 === 0 ? shift : 0),
+      );
+    });
   };
 
   /** Index of the pose of a path nearest to a time. */
@@ -114,7 +129,41 @@
     return best;
   };
 
-  /** Draws all of it. `shown`: {paths, closures, selected, marks: [{at, text, colour}]}; colours by CSS. */
+  /** Draws where another map has the paths, dashed, and lines from there to some of their poses. */
+  const drawCompared = (draw, at, shown, stride) => {
+    const most = shown.paths.reduce((sum, path) => sum + path.times.length, 0),
+      each = Math.max(stride, Math.ceil(most / MOST_LINES));
+    shown.compared.forEach((other, session) => {
+      const here = shown.paths[session];
+      draw.strokeStyle = nav.sessionColours[session % nav.sessionColours.length];
+      const trace = (step, dash, visit) => {
+        draw.setLineDash(dash);
+        draw.beginPath();
+        for (let i = 0; i < here.times.length; i += step) {
+          const there = [other[3 * i], other[3 * i + 1], other[3 * i + 2]];
+          visit(Number.isFinite(there[0]) ? at(there) : null, i);
+        }
+        draw.stroke();
+      };
+      let before = null;
+      draw.lineWidth = 1.5;
+      trace(stride, [5, 4], (p) => {
+        if (p && before) draw.lineTo(p[0], p[1]);
+        else if (p) draw.moveTo(p[0], p[1]);
+        before = p;
+      });
+      draw.lineWidth = 1;
+      trace(each, [], (p, i) => {
+        const q = p && at(pointOf(here, i));
+        if (!q) return;
+        draw.moveTo(p[0], p[1]);
+        draw.lineTo(q[0], q[1]);
+      });
+    });
+    draw.setLineDash([]);
+  };
+
+  /** Draws all of it. `shown`: {paths, compared, closures, selected, marks: [{at, text, colour}]}; colours by CSS. */
   nav.drawPlan = (canvas, matrix, shown, colours) => {
     const scale = globalThis.devicePixelRatio || 1,
       width = canvas.clientWidth,
@@ -143,6 +192,7 @@
       }
       draw.stroke();
     });
+    if (shown.compared) drawCompared(draw, at, shown, stride);
     for (const verdict of ["rejected", "accepted"]) {
       draw.strokeStyle = draw.fillStyle = verdict === "accepted" ? colours.good : colours.bad;
       draw.lineWidth = 1;

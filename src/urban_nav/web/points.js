@@ -2,7 +2,9 @@
 // Points of the map: their bytes, their colours, and WebGL that draws them. Without WebGL nothing is drawn.
 "use strict";
 ((nav) => {
-  const BYTES = 24; // of a point: x, y, z, seconds (float32), session (uint16), sensor, sigma, red, green, blue, reflectance
+  const BYTES = 24, // of a point: x, y, z, seconds (float32), session (uint16), sensor, sigma, red, green, blue, reflectance
+    LAYOUT = {stride: BYTES, sensor: 18, sigma: 19, red: 20, reflectance: 23};
+  const LINE = [0.86, 0.16, 0.16, 1]; // red, green, blue, opacity
   const KINDS = [
     [214, 96, 77],
     [67, 147, 195],
@@ -30,35 +32,48 @@
       owner[i] = view.getUint16(at + 16, true);
       if (sessions[owner[i]]) places[3 * i] += shifts.get(sessions[owner[i]].map) || 0;
     }
-    return {count, places, times, owner, values: new Uint8Array(bytes)};
+    return {count, places, times, owner, values: new Uint8Array(bytes), layout: LAYOUT};
   };
 
-  /** Colours of all points by one of these: pictures, reflectance, height, session, sensor, sigma. */
-  nav.colourPoints = (points, mode, sessionColours) => {
-    const {count, places, owner, values} = points,
-      colours = new Uint8Array(4 * count),
-      at = (i, k) => values[BYTES * i + k];
+  /** The ways of colouring points: functions by name, from the index of a point to red, green, blue. What the points hold
+   * decides which there are; `layout` has the offsets of the values of a point. */
+  nav.colourModes = (points, sessionColours) => {
+    const {count, places, owner, values, layout} = points,
+      at = (i, name) => values[layout.stride * i + layout[name]],
+      kind = (value) => KINDS[value % KINDS.length];
     const heights = Float32Array.from({length: count}, (_, i) => places[3 * i + 2]).sort(),
       floor = heights[count >> 6] || 0,
       roof = heights[count - 1 - (count >> 6)] || 1;
     const rgb = sessionColours.map((hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)));
-    const of = {
-      pictures: (i) => [at(i, 20), at(i, 21), at(i, 22)],
-      reflectance: (i) => [at(i, 23), at(i, 23), at(i, 23)],
+    const modes = {
+      pictures: (i) => [0, 1, 2].map((k) => values[layout.stride * i + layout.red + k]),
+      reflectance: (i) => Array(3).fill(at(i, "reflectance")),
       height: (i) => nav.ramp(Math.min(1, Math.max(0, (places[3 * i + 2] - floor) / Math.max(1, roof - floor)))),
-      session: (i) => rgb[owner[i] % rgb.length],
-      sensor: (i) => KINDS[at(i, 18) % KINDS.length],
-      sigma: (i) => nav.ramp(Math.sqrt(at(i, 19) / 255)),
-    }[mode];
+      sensor: (i) => kind(at(i, "sensor")),
+      sigma: (i) => nav.ramp(Math.sqrt(at(i, "sigma") / 255)),
+    };
+    if (owner) modes.session = (i) => rgb[owner[i] % rgb.length];
+    if ("pass" in layout) modes.pass = (i) => kind(at(i, "pass"));
+    if ("quality" in layout)
+      modes.quality = (i) =>
+        at(i, "quality") === 255 ? [205, 205, 205] : nav.ramp(Math.sqrt(at(i, "quality") / 254)); // 255: unknown
+    return modes;
+  };
+
+  /** Colours of so many points, four bytes each. */
+  nav.paintPoints = (count, colourOf) => {
+    const colours = new Uint8Array(4 * count);
     for (let i = 0; i < count; ++i) {
-      const c = of(i);
+      const c = colourOf(i);
       for (let k = 0; k < 3; ++k) colours[4 * i + k] = c[k];
     }
     return colours;
   };
+  nav.colourPoints = (points, mode, sessionColours) =>
+    nav.paintPoints(points.count, nav.colourModes(points, sessionColours)[mode]);
 
-  /** The nearest point within 6 px of a place in the picture: {session, seconds, place}, or null. */
-  nav.pickPoint = (points, m, width, height, x, y) => {
+  /** The index of the nearest point within 6 px of a place in the picture; -1 without one. */
+  nav.pickIndex = (points, m, width, height, x, y) => {
     let best = -1,
       least = Infinity;
     for (let i = 0; i < points.count; ++i) {
@@ -69,20 +84,22 @@
         best = i;
       }
     }
-    return best < 0
-      ? null
-      : {
-          session: points.owner[best],
-          seconds: points.times[best],
-          place: [...points.places.subarray(3 * best, 3 * best + 3)],
-        };
+    return best;
+  };
+  nav.pointAt = (points, i) => [...points.places.subarray(3 * i, 3 * i + 3)];
+
+  /** The same as {session, seconds, place}, or null. */
+  nav.pickPoint = (points, ...at) => {
+    const i = nav.pickIndex(points, ...at);
+    return i < 0 ? null : {session: points.owner[i], seconds: points.times[i], place: nav.pointAt(points, i)};
   };
 
   nav.PointView = class {
-    constructor(canvas) {
+    constructor(canvas, options = {}) {
       this.canvas = canvas;
       this.count = 0;
-      this.gl = canvas.getContext("webgl", {antialias: false});
+      this.lines = [];
+      this.gl = canvas.getContext("webgl", {antialias: false, ...options});
       if (!this.gl) return;
       const gl = this.gl,
         program = gl.createProgram();
@@ -115,6 +132,12 @@
     setColours(colours) {
       if (this.gl) this.fill(this.coloured, colours);
     }
+    /** Lines through x, y, z of points, drawn over the points. */
+    setLines(lines) {
+      if (!this.gl) return;
+      this.lines = lines.map((line) => ({count: line.length / 3, buffer: this.gl.createBuffer()}));
+      lines.forEach((line, i) => this.fill(this.lines[i].buffer, new Float32Array(line)));
+    }
     fill(buffer, content) {
       this.gl.bindBuffer(this.gl.ARRAY_BUFFER, buffer);
       this.gl.bufferData(this.gl.ARRAY_BUFFER, content, this.gl.STATIC_DRAW);
@@ -133,7 +156,7 @@
       gl.viewport(0, 0, width, height);
       gl.clearColor(0, 0, 0, 0);
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-      if (this.count === 0) return;
+      if (this.count === 0 && this.lines.length === 0) return;
       gl.enable(gl.DEPTH_TEST);
       gl.uniformMatrix4fv(this.uniform("m"), false, matrix);
       gl.uniform1f(this.uniform("px"), 0.05 * height);
@@ -146,6 +169,13 @@
         gl.vertexAttribPointer(this.at(name), size, type, normalised, 0, 0);
       }
       gl.drawArrays(gl.POINTS, 0, this.count);
+      gl.disableVertexAttribArray(this.at("c"));
+      gl.vertexAttrib4f(this.at("c"), ...LINE);
+      for (const line of this.lines) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, line.buffer);
+        gl.vertexAttribPointer(this.at("p"), 3, gl.FLOAT, false, 0, 0);
+        gl.drawArrays(gl.LINE_STRIP, 0, line.count);
+      }
     }
   };
 })((globalThis.urbanNav ??= {}));

@@ -48,7 +48,7 @@ void MotionMonitor::add(const urban_nav_core::RelativePose& step) {
   forward_drift_ += drift(0, 0);
 }
 
-bool MotionMonitor::add(const FrameMeasurements& frame) {
+bool MotionMonitor::add(const urban_nav_core::FrameMeasurements& frame) {
   if (!any_frame_) last_ = frame.stamp;
   any_frame_ = true;
   bool changed = false;
@@ -112,7 +112,7 @@ void MotionMonitor::addLengthEvidence() {
                        std::max(0.0, move_.forward_variance - forward_drift_) + known * known, forward);
 }
 
-bool MotionMonitor::addClock(const FrameMeasurements& frame) {
+bool MotionMonitor::addClock(const urban_nav_core::FrameMeasurements& frame) {
   if (!(frame.imu_delay_sigma > 0.0 && frame.imu_delay_sigma < kKnownDelay) || !std::isfinite(frame.imu_delay) ||
       frame.stamp < clock_due_)
     return false;

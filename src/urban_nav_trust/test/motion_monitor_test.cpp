@@ -21,7 +21,7 @@ class MeasuredDrive {
 
   void drive(MotionMonitor& monitor, double seconds) {
     for (int i = 0; i < std::lround(20.0 * seconds); ++i) {
-      FrameMeasurements frame;
+      urban_nav_core::FrameMeasurements frame;
       frame.stamp = ++k_ * kStep;
       frame.turn_sigma = 5e-4;
       frame.turn_error = 5e-4 * Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_));
@@ -100,7 +100,7 @@ TEST(MotionMonitor, NamesWhatHasChangedAndWhen) {
 
 TEST(MotionMonitor, WithoutSensorsOrWithNumbersThatAreNoneTestsAreAbsent) {
   MotionMonitor monitor({});
-  FrameMeasurements frame;
+  urban_nav_core::FrameMeasurements frame;
   for (int i = 0; i < 100; ++i) {
     frame.stamp += kStep;
     frame.turn_error.setConstant(std::numeric_limits<double>::quiet_NaN());

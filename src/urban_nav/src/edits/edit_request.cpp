@@ -310,14 +310,14 @@ EditRequest readMeasurement(const Arguments& arguments, const Words& words, Stor
       measurePair(store, measurements, loadParameters(arguments), edit.edge.a, edit.edge.b);
   edit.action = "measure";
   edit.arguments = words.print();
-  if (measured.verdict != ClosureVerdict::Accepted) {
-    request.unchanged = "the pair is not accepted: " + measured.reason_name + ": " + measured.sentence;
-    return request;
-  }
   edit.edge.kind = measured.method == urban_nav_core::ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
   edit.edge.source = makeSource(edit, "measure");
   edit.edge.measured = measured.measured;
   edit.evidence = measured.evidence;
+  if (measured.verdict == ClosureVerdict::Accepted) return request;
+  edit.edge.verdict = ClosureVerdict::Rejected;
+  edit.edge.reason = measured.reason_name + ": " + measured.sentence;
+  request.unchanged = "the pair is not accepted: " + edit.edge.reason;
   return request;
 }
 

@@ -12,10 +12,10 @@
 #include "urban_nav_core/fusion/fuse_odometry.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/frame_measurements.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/specific_force.hpp"
 #include "urban_nav_core/types/status.hpp"
-#include "urban_nav_trust/frame_measurements.hpp"
 
 namespace urban_nav {
 
@@ -25,8 +25,8 @@ struct OdometryFrame {
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;  ///< false: dropped because of its stamp
   urban_nav_core::Status status;
-  urban_nav_core::Pose T_odom_base;             ///< filtered, as live odometry publishes it
-  urban_nav_trust::FrameMeasurements compared;  ///< with other measurements, by visual odometry
+  urban_nav_core::Pose T_odom_base;            ///< filtered, as live odometry publishes it
+  urban_nav_core::FrameMeasurements compared;  ///< with other measurements, by visual odometry
 };
 
 /// Odometry of one frame as files and later stages use it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/page_routes.hpp"
 
+#include <cmath>
+
 #include "base/web_files.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -13,6 +15,7 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr std::size_t kLongestText = 1024;
+constexpr double kLongestSession = 1e9;  // s
 
 HttpAnswer asJson(const std::string& json, int status = 200) { return {status, "application/json", json}; }
 
@@ -35,6 +38,18 @@ std::string wordIn(const HttpRequest& request, const std::string& name) {
   if (values.size() != 1 || values.front().size() > kLongestText)
     throw UserError(name, "is missing or too long", name + "=TEXT in the address");
   return values.front();
+}
+
+double secondsIn(const HttpRequest& request) {
+  const auto seconds = urban_nav_core::parseNumber(wordIn(request, "seconds"));
+  if (!seconds || !std::isfinite(*seconds) || std::abs(*seconds) > kLongestSession)
+    throw UserError("seconds", "is no number of seconds in a session", "seconds=S in the address");
+  return *seconds;
+}
+
+/// Returns a JPEG; status 204 without one.
+HttpAnswer asPicture(const std::optional<std::string>& jpeg) {
+  return jpeg ? HttpAnswer{200, "image/jpeg", *jpeg} : HttpAnswer{204, "image/jpeg", ""};
 }
 
 void replaceFirst(std::string& text, const std::string& mark, const std::string& content) {
@@ -75,14 +90,16 @@ HttpAnswer PageRoutes::get(const HttpRequest& request) const {
   if (request.path == "/") return {200, "text/html; charset=utf-8", viewPage()};
   if (request.path == "/api/state") return asJson(source_.state());
   if (request.path == "/api/paths") return {200, "application/octet-stream", source_.paths()};
+  if (request.path == "/api/compared") return {200, "application/octet-stream", source_.comparedPlaces()};
   if (request.path == "/api/points") return {200, "application/octet-stream", source_.points()};
   if (request.path == "/api/moment") return asJson(source_.explainMoment(wordIn(request, "t")).print());
   if (request.path == "/api/why") return asJson(source_.explain(numberIn(request, "id")).print());
-  if (request.path == "/api/picture") {
-    const auto picture =
-        source_.picture(numberIn(request, "id"), static_cast<std::size_t>(numberIn(request, "number")));
-    return picture ? HttpAnswer{200, "image/jpeg", *picture} : HttpAnswer{204, "image/jpeg", ""};
-  }
+  if (request.path == "/api/view")
+    return asPicture(source_.view(static_cast<std::size_t>(numberIn(request, "session")), secondsIn(request)));
+  if (request.path == "/api/try")
+    return asJson(source_.tryMeasurement(wordIn(request, "t1"), wordIn(request, "t2")).print());
+  if (request.path == "/api/picture")
+    return asPicture(source_.picture(numberIn(request, "id"), static_cast<std::size_t>(numberIn(request, "number"))));
   if (request.path == "/api/now") return asJson(asData(events_.state()));
   if (request.path == "/api/events" && request.method == "GET") return follow();
   return notThere();

@@ -4,15 +4,18 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/command_parameters.hpp"
 #include "base/parameters.hpp"
 #include "edits/edge_list.hpp"
 #include "edits/edit_store.hpp"
+#include "edits/edited_map.hpp"
 #include "edits/jump.hpp"
 #include "topics/loops/explanation.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/parameters.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
 #include "urban_nav_store/bytes.hpp"
 #include "urban_nav_store/store_writer.hpp"
 #include "urban_nav_store/stored_ids.hpp"
@@ -29,6 +32,27 @@ namespace {
 
 constexpr double kPointsImageShare = 0.1;      // share of memory_mb for decoded images
 constexpr std::size_t kKeptExplanations = 20;  // with their pictures, about 0.1 MB each
+
+constexpr std::int64_t kTried = 0;  // closures of a store have IDs from 1
+
+constexpr double kLargestViewGap = 2.0;  // s
+
+/// Returns the view of the left camera nearest to a time as JPEG.
+std::optional<std::string> nearestView(Store& store, const urban_nav_store::SessionId& session,
+                                       urban_nav_core::StampNs stamp) {
+  using urban_nav_registration::kKeyframeCamera;
+  const std::vector<urban_nav_core::StampNs> stamps = store.keyframes().stamps(session, kKeyframeCamera);
+  const auto distance = [&](urban_nav_core::StampNs each) {
+    return std::abs(urban_nav_core::secondsBetween(stamp, each));
+  };
+  const auto nearest =
+      std::min_element(stamps.begin(), stamps.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+  if (nearest == stamps.end() || distance(*nearest) > kLargestViewGap) return std::nullopt;
+  const auto row = store.keyframes().get(session, kKeyframeCamera, *nearest);
+  const urban_nav_registration::Keyframe keyframe = urban_nav_registration::toKeyframe(*row, session);
+  if (keyframe.image.empty()) return std::nullopt;
+  return std::string(keyframe.image.begin(), keyframe.image.end());
+}
 
 /// Returns a text that changes when a file or its log is written.
 std::string fileState(const std::string& path) {
@@ -59,17 +83,27 @@ struct StoredSource::Content {
   std::map<std::int64_t, Page> explanations;
 };
 
-StoredSource::StoredSource(const std::string& path, bool read_only, Values options, ParameterTables tables,
-                           PageEvents& events)
-    : path_(path), read_only_(read_only), options_(std::move(options)), tables_(std::move(tables)), events_(events) {
+StoredSource::StoredSource(const std::string& path, const std::string& compared, bool read_only, Values options,
+                           ParameterTables tables, PageEvents& events)
+    : path_(path),
+      compared_path_(compared),
+      read_only_(read_only),
+      options_(std::move(options)),
+      tables_(std::move(tables)),
+      events_(events) {
   const std::lock_guard lock(mutex_);
   content();
 }
 
+std::string StoredSource::filesState() const {
+  return fileState(path_) + (compared_path_.empty() ? "" : "|" + fileState(compared_path_));
+}
+
 StoredSource::Content& StoredSource::content() {
   if (!content_) {
-    seen_ = fileState(path_);
+    seen_ = filesState();
     content_ = std::make_shared<Content>(path_);
+    if (!compared_path_.empty()) compared_.emplace(compared_path_);
   }
   return *content_;
 }
@@ -81,7 +115,7 @@ auto StoredSource::reading(const Read& read) {
   try {
     return read(content());
   } catch (const urban_nav_core::DataError&) {
-    if (fileState(path_) == seen_) throw;
+    if (filesState() == seen_) throw;
     content_.reset();
     return read(content());
   }
@@ -94,8 +128,14 @@ std::string StoredSource::state() {
     shown.revision = events_.state().revision;
     shown.read_only = read_only_;
     shown.written_by_another = urban_nav_store::isBeingWritten(path_);
-    return stateAsJson(shown).print();
+    Json json = stateAsJson(shown);
+    if (compared_) json["compared"] = compared_->summary(content.maps);
+    return json.print();
   });
+}
+
+std::string StoredSource::comparedPlaces() {
+  return reading([&](const Content& content) { return compared_ ? compared_->place(content.maps) : std::string(); });
 }
 
 std::string StoredSource::paths() {
@@ -131,14 +171,48 @@ const Page& StoredSource::explanation(std::int64_t closure) {
                                   [&](const StoredClosure& each) { return each.id == closure; });
   if (found == its.closures.end())
     throw UserError("closure", std::to_string(closure) + ": no closure has this ID", "an ID of the list");
-  const double half_length =
-      loadParameters(Arguments(options_, tables_)).get(urban_nav_registration::table()).cloud_half_length;
   if (its.explanations.size() >= kKeptExplanations) its.explanations.clear();
-  return its.explanations[closure] = explainOnPage(*found, its.store, half_length);
+  return its.explanations[closure] = explainOnPage(*found, its.store, cloudHalfLength());
+}
+
+double StoredSource::cloudHalfLength() const {
+  return loadParameters(Arguments(options_, tables_)).get(urban_nav_registration::table()).cloud_half_length;
 }
 
 Json StoredSource::explain(std::int64_t closure) {
   return reading([&](Content&) { return pageAsJson(explanation(closure)); });
+}
+
+std::optional<std::string> StoredSource::view(std::size_t session, double seconds) {
+  return reading([&](Content& content) -> std::optional<std::string> {
+    std::size_t place = session;
+    for (const std::vector<StoredTrajectory>& map : content.maps) {
+      if (place >= map.size()) {
+        place -= map.size();
+        continue;
+      }
+      const StoredTrajectory& shown = map[place];
+      if (shown.T_map_base.empty()) return std::nullopt;
+      return nearestView(content.store, shown.session.id, shown.T_map_base.front().stamp + std::llround(1e9 * seconds));
+    }
+    throw UserError("session", std::to_string(session) + ": no such session", "a place in the list of sessions");
+  });
+}
+
+Json StoredSource::tryMeasurement(const std::string& t1, const std::string& t2) {
+  const std::lock_guard lock(mutex_);
+  Content& its = content();
+  Store store = urban_nav_store::openForReading(path_, urban_nav_store::Access::Snapshot);
+  EditWords words;
+  words.action = "measure";
+  words.arguments = {t1, t2};
+  const EditRequest request = readEditRequest(edgeArguments(words), store, readMeasurements(store));
+  const StoredClosure measured = describeEdge(store, request.edit.edge, request.edit.evidence);
+  Page& page = its.explanations[kTried] = explainOnPage(measured, store, cloudHalfLength());
+  Json json = pageAsJson(page);
+  json["accepted"] = request.unchanged.empty();
+  json["reason"] = request.unchanged;
+  return json;
 }
 
 std::optional<std::string> StoredSource::picture(std::int64_t closure, std::size_t number) {
@@ -169,7 +243,7 @@ Json StoredSource::edit(const EditWords& words) {
     Json json = toJson(result.outcome);
     const std::string text = describe(result);
     json["text"] = text;
-    seen_ = fileState(path_);
+    seen_ = filesState();
     events_.finish(text, result.outcome.changed);
     return json;
   } catch (const std::exception& error) {
@@ -181,7 +255,7 @@ Json StoredSource::edit(const EditWords& words) {
 void StoredSource::poll() {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
-  std::string now = fileState(path_);
+  std::string now = filesState();
   if (now == seen_) return;
   seen_ = std::move(now);
   content_.reset();

@@ -11,6 +11,7 @@
 #include "base/page.hpp"
 #include "topics/loops/stored_closure.hpp"
 #include "urban_nav_store/store.hpp"
+#include "view/compared_map.hpp"
 #include "view/map_points.hpp"
 #include "view/map_source.hpp"
 #include "view/page_events.hpp"
@@ -23,15 +24,19 @@ class StoredSource final : public MapSource {
  public:
   using Values = std::map<std::string, std::vector<std::string>>;
 
-  /// `options`: --config, --set and --threads, for edits that measure. `events` must outlive this object. Throws the
-  /// errors of the store.
-  StoredSource(const std::string& path, bool read_only, Values options, ParameterTables tables, PageEvents& events);
+  /// `compared`: another store, which is read only, or nothing. `options`: --config, --set and --threads, for edits
+  /// that measure. `events` must outlive this object. Throws the errors of the stores.
+  StoredSource(const std::string& path, const std::string& compared, bool read_only, Values options,
+               ParameterTables tables, PageEvents& events);
 
   std::string state() override;
   std::string paths() override;
+  std::string comparedPlaces() override;
   std::string points() override;
   Json explain(std::int64_t closure) override;
   Json explainMoment(const std::string& moment) override;
+  std::optional<std::string> view(std::size_t session, double seconds) override;
+  Json tryMeasurement(const std::string& t1, const std::string& t2) override;
   std::optional<std::string> picture(std::int64_t closure, std::size_t number) override;
   Json edit(const EditWords& words) override;
 
@@ -42,18 +47,21 @@ class StoredSource final : public MapSource {
   struct Content;
   Content& content();
   const Page& explanation(std::int64_t closure);
+  double cloudHalfLength() const;
+  std::string filesState() const;
   Arguments edgeArguments(const EditWords& words) const;
   template <typename Read>
   auto reading(const Read& read);
 
-  const std::string path_;
+  const std::string path_, compared_path_;
   const bool read_only_;
   const Values options_;
   const ParameterTables tables_;
   PageEvents& events_;
   std::mutex mutex_;  ///< guards what follows, and the store: it is not read while it is edited
   std::shared_ptr<Content> content_;
-  std::string seen_;    ///< size and time of the file and its log
+  std::optional<ComparedMap> compared_;
+  std::string seen_;    ///< size and time of the files and their logs
   std::mutex loading_;  ///< guards what follows; taken before mutex_
   std::optional<MapPoints> points_;
 };

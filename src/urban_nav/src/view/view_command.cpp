@@ -72,7 +72,8 @@ int runView(const Arguments& arguments, const ParameterTables& tables, Console& 
   const int port = static_cast<int>(arguments.integer("port", 0, 0, 65535));
   const EndSignals signals;
   PageEvents events;
-  StoredSource source(arguments.get("STORE"), arguments.has("read-only"), commonOptions(arguments), tables, events);
+  StoredSource source(arguments.get("STORE"), arguments.get("STORE2", ""), arguments.has("read-only"),
+                      commonOptions(arguments), tables, events);
   const PageRoutes routes(source, events);
   HttpServer server(address, port);
   const Gate gate(address, server.port());
@@ -95,6 +96,12 @@ Command viewCommand(ParameterTables tables) {
   command.name = "view";
   command.summary = "Shows a map and its closures in the browser, where each correction is an edit as of `edge`.";
   command.options = {{"STORE", "", "session.db of a map", true, false, {}},
+                     {"STORE2",
+                      "",
+                      "another one, for comparison: where it has the sessions of STORE, and how far that is away",
+                      false,
+                      false,
+                      {}},
                      {"--port", "N", "port to listen on (default 0: a free one)", false, false, {}},
                      {"--address",
                       "A",
@@ -107,7 +114,8 @@ Command viewCommand(ParameterTables tables) {
                      configOption(),
                      setOption(),
                      threadsOption()};
-  command.examples = {"urban_nav view out/session.db", "urban_nav view out/session.db --read-only --port 8080"};
+  command.examples = {"urban_nav view out/session.db", "urban_nav view out/session.db before/session.db",
+                      "urban_nav view out/session.db --read-only --port 8080"};
   command.more_help = commonHelp;
   command.run = [tables = std::move(tables)](const Arguments& arguments, Console& console) {
     return runView(arguments, tables, console);

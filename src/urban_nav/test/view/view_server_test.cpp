@@ -3,21 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <random>
 #include <thread>
 
-#include "commands/stages.hpp"
 #include "edits/circle_store.hpp"
 #include "edits/edge_list.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_store/edit_journal.hpp"
-#include "view/gate.hpp"
-#include "view/http_client.hpp"
 #include "view/http_server.hpp"
-#include "view/page_routes.hpp"
-#include "view/stored_source.hpp"
+#include "view/served_store.hpp"
 
 namespace urban_nav {
 namespace {
@@ -25,6 +23,7 @@ namespace {
 using testing::RawAnswer;
 using testing::RawConnection;
 using testing::sendRequest;
+using testing::ServedStore;
 using urban_nav_input::testing::readFile;
 using urban_nav_input::testing::TemporaryFolder;
 using urban_nav_store::Access;
@@ -32,34 +31,6 @@ using urban_nav_store::Store;
 
 constexpr const char* kJsonType = "Content-Type: application/json\r\n";
 constexpr const char* kHostileName = "<img src=x onerror=alert(1)>'\"&";
-
-/// A server as `view` starts it.
-class ServedStore {
- public:
-  explicit ServedStore(const std::string& path, bool read_only = false)
-      : source_(path, read_only, {}, addStageTables, events_) {
-    server_.start([this](const HttpRequest& request) { return gate_.admit(request); },
-                  [this](const HttpRequest& request) { return routes_.answer(request); });
-  }
-  ~ServedStore() { server_.stop(); }
-
-  int port() const { return server_.port(); }
-  std::string token() const { return gate_.token(); }
-  StoredSource& source() { return source_; }
-  RawAnswer get(const std::string& path) const {
-    return sendRequest(port(), "GET", path, "X-Urban-Nav-Token: " + token() + "\r\n");
-  }
-  RawAnswer edit(const std::string& body) const {
-    return sendRequest(port(), "POST", "/api/edit", kJsonType + ("X-Urban-Nav-Token: " + token() + "\r\n"), body);
-  }
-
- private:
-  PageEvents events_;
-  StoredSource source_;
-  PageRoutes routes_{source_, events_};
-  HttpServer server_{"127.0.0.1", 0};
-  Gate gate_{"127.0.0.1", server_.port()};
-};
 
 class ViewServer : public ::testing::Test {
  protected:
@@ -188,6 +159,57 @@ TEST_F(ViewServer, RefusesBadEditsAndLeavesTheStore) {
   EXPECT_EQ(busy.status, 409);
   EXPECT_NE(busy.body.find("another program"), std::string::npos) << busy.body;
   EXPECT_NE(served.get("/api/state").body.find("\"written_by_another\": true"), std::string::npos);
+}
+
+TEST_F(ViewServer, ComparesWithAnotherStore) {
+  const std::string before = folder_.file("before.db");
+  std::filesystem::copy_file(store_, before);
+  ServedStore served(store_, false, before);
+  const auto stated = [&] {
+    const std::string state = served.get("/api/state").body;
+    double largest = -1.0;
+    for (std::size_t at = 0; (at = state.find("\"largest_m\": ", at)) != std::string::npos; ++at)
+      largest = std::max(largest, std::stod(state.substr(at + 13)));
+    return largest;
+  };
+  EXPECT_EQ(stated(), 0.0) << "the same store";
+  ASSERT_EQ(served.edit(R"({"action": "reject", "arguments": ["3"]})").status, 200);
+  const std::string there = served.get("/api/compared").body, here = served.get("/api/paths").body;
+  ASSERT_EQ(there.size() / 12, here.size() / 16) << "three numbers for each pose";
+  double largest = 0.0;
+  for (std::size_t i = 0; i < there.size() / 12; ++i) {
+    float a[3], b[3];
+    std::memcpy(a, there.data() + 12 * i, sizeof a);
+    std::memcpy(b, here.data() + 16 * i + 4, sizeof b);
+    largest = std::max<double>(largest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+  }
+  EXPECT_GT(largest, 1e-5) << "the edit moved the map";
+  EXPECT_NEAR(stated(), largest, 2e-5);
+  {
+    Store other(before, Access::Write);
+    urban_nav_store::Session monday = *other.sessions().find(testing::kMondayId);
+    monday.name = "renamed";
+    other.sessions().put(monday);
+    other.commit();
+  }
+  served.source().poll();
+  EXPECT_NE(served.get("/api/state").body.find("\"revision\": 3"), std::string::npos) << "the other store has changed";
+}
+
+TEST_F(ViewServer, AMeasurementIsTriedWithoutAnEdit) {
+  const ServedStore served(store_, true);
+  const std::string bytes = readFile(store_);
+  const RawAnswer tried = served.get("/api/try?t1=tuesday%2B3&t2=tuesday%2B5");
+  EXPECT_EQ(tried.status, 200) << tried.body;
+  EXPECT_NE(tried.body.find("\"accepted\": false"), std::string::npos) << "this store has no views: " << tried.body;
+  EXPECT_NE(tried.body.find("the pair is not accepted"), std::string::npos) << tried.body;
+  EXPECT_EQ(served.get("/api/picture?id=0&number=0").status, 204);
+  EXPECT_EQ(served.get("/api/view?session=1&seconds=3.5").status, 204);
+  for (const char* moment : {"session=9&seconds=1", "session=0&seconds=nan", "session=0&seconds=1e300", "session=0"})
+    EXPECT_EQ(served.get(std::string("/api/view?") + moment).status, 400) << moment;
+  for (const char* moments : {"t1=tuesday%2B3", "t1=tuesday%2B3&t2=tuesday%2B3", "t1=never&t2=tuesday%2B3"})
+    EXPECT_EQ(served.get(std::string("/api/try?") + moments).status, 400) << moments;
+  EXPECT_TRUE(bytes == readFile(store_));
 }
 
 TEST_F(ViewServer, ReadOnlyRefusesEdits) {

@@ -3,7 +3,7 @@
 "use strict";
 const assert = require("node:assert"),
   test = require("node:test");
-for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "page"])
+for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "report_map", "page"])
   require(`../../web/${name}.js`);
 const nav = globalThis.urbanNav;
 
@@ -114,6 +114,32 @@ test("filters let pass what fits all of them", () => {
   assert.deepStrictEqual(ids({verdict: "accepted", kind: "stereo"}), [9]);
   assert.deepStrictEqual(ids({session: "0"}), [1, 4]);
   assert.deepStrictEqual(ids({session: "1", verdict: "rejected"}), []);
+});
+
+test("another map is placed as this one is, with gaps where it has no pose", () => {
+  const shifts = new Map([
+    [0, 0],
+    [1, 100],
+  ]);
+  const values = [1, 2, 3, NaN, NaN, NaN, 4, 5, 6, 7, 8, 9, 10, 11, 12],
+    bytes = new ArrayBuffer(4 * values.length),
+    view = new DataView(bytes);
+  values.forEach((v, i) => view.setFloat32(4 * i, v, true));
+  const placed = nav.placeCompared(SESSIONS, bytes, shifts);
+  assert.deepStrictEqual([...placed[0]], [1, 2, 3, NaN, NaN, NaN, 4, 5, 6]);
+  assert.deepStrictEqual([...placed[1]], [107, 8, 9, 110, 11, 12]);
+});
+
+test("a comparison is told in words", () => {
+  const compared = {
+    store: "b.db",
+    absent_here: ["<b>"],
+    sessions: [{session: 0, poses: 3, largest_m: 0.5, rms_m: 0.25, seconds: 4}],
+  };
+  assert.strictEqual(nav.comparedText(undefined, 0), "");
+  assert.match(nav.comparedText(compared, 0), /0\.500 m at most .* \+4\.0 s, rms 0\.250 m/);
+  assert.match(nav.comparedText(compared, 1), /not in the other store/);
+  assert.strictEqual(nav.comparedNotice(compared), "compared with b.db, which also has <b>");
 });
 
 test("steps through a list stop at its ends", () => {
@@ -300,6 +326,30 @@ test("points come with the map of their session and keep what is known of them",
       nav.colourPoints(nav.readPoints(new ArrayBuffer(0), [], new Map()), mode, nav.sessionColours).length,
       0,
     );
+});
+
+test("points of a report are read from the ranges of their numbers", () => {
+  const bytes = new Uint8Array(2 * (8 + 8)),
+    view = new DataView(bytes.buffer);
+  [
+    [0, 0, 65535, 0],
+    [65535, 32768, 0, 65535],
+  ].forEach((point, i) => point.forEach((v, k) => view.setUint16(8 * i + 2 * k, v, true)));
+  bytes.set([10, 20, 30, 40, 2, 3, 8, 255, 50, 60, 70, 80, 1, 4, 12, 10], 16);
+  const points = nav.readPackedPoints(bytes, 2, [-1, 0, 5], [9, 2, 6], 20);
+  close([...points.places], [-1, 0, 6, 9, 1, 5], 1e-4);
+  close([...points.times], [0, 20]);
+  const modes = nav.colourModes(points, []);
+  assert.deepStrictEqual(modes.pictures(1), [50, 60, 70]);
+  assert.deepStrictEqual(modes.reflectance(0), [40, 40, 40]);
+  assert.deepStrictEqual(modes.quality(0), [205, 205, 205]);
+  assert.notDeepStrictEqual(modes.pass(0), modes.pass(1));
+  assert.strictEqual(modes.session, undefined);
+  for (const name of ["pictures", "reflectance", "height", "sensor", "sigma", "pass", "quality"])
+    assert.ok(modes[name](0).every((v) => v >= 0 && v <= 255), name);
+  assert.strictEqual(nav.describePoint(points, 0, 100), "stamp 100.00 s, pass 3, sensor 2, sigma 4.0 mm");
+  assert.match(nav.describePoint(points, 1, 100), /^stamp 120\.00 s, .*, passes 5\.0 mm apart$/);
+  assert.deepStrictEqual([...nav.paintPoints(2, modes.pictures)], [10, 20, 30, 0, 50, 60, 70, 0]);
 });
 
 test("the colours of a ramp go from blue over green to red", () => {

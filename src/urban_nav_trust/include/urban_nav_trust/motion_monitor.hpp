@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/types/frame_measurements.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_trust/change_detector.hpp"
 #include "urban_nav_trust/consistency_test.hpp"
 #include "urban_nav_trust/covariance_scale.hpp"
-#include "urban_nav_trust/frame_measurements.hpp"
 #include "urban_nav_trust/parameters.hpp"
 
 namespace urban_nav_trust {
@@ -27,7 +27,7 @@ class MotionMonitor {
   explicit MotionMonitor(const Parameters& parameters);
 
   /// Adds a frame, in order of time. Returns whether it shows a change.
-  bool add(const FrameMeasurements& frame);
+  bool add(const urban_nav_core::FrameMeasurements& frame);
   /// Adds a final step of odometry, in order of time: the drift that it states, for the evidence.
   void add(const urban_nav_core::RelativePose& step);
   std::vector<ConsistencyTest> tests() const;
@@ -57,7 +57,7 @@ class MotionMonitor {
   bool closeTurnWindow();
   bool closeMoveWindow();
   void addLengthEvidence();
-  bool addClock(const FrameMeasurements& frame);
+  bool addClock(const urban_nav_core::FrameMeasurements& frame);
   static std::optional<ConsistencyTest> makeTest(const Wording& wording, const Constant& constant);
   std::optional<ConsistencyTest> turnTest() const;
 

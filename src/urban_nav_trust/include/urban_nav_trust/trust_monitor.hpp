@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "urban_nav_core/types/frame_measurements.hpp"
 #include "urban_nav_core/types/stamp.hpp"
-#include "urban_nav_trust/frame_measurements.hpp"
 #include "urban_nav_trust/motion_monitor.hpp"
 #include "urban_nav_trust/offset_monitor.hpp"
 #include "urban_nav_trust/parameters.hpp"
@@ -16,7 +16,7 @@ class TrustMonitor {
   explicit TrustMonitor(const Parameters& parameters) : offset_(parameters), motion_(parameters) {}
 
   /// Adds a stereo frame, in order of time. Returns whether it shows a change of the rig.
-  bool add(const FrameMeasurements& frame);
+  bool add(const urban_nav_core::FrameMeasurements& frame);
   /// Adds a final step of odometry, in order of time, before the frame that came with it.
   void add(const urban_nav_core::RelativePose& step) { motion_.add(step); }
   TestResults results() const;

@@ -20,7 +20,7 @@ struct LiveFrame {
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;
   urban_nav_core::Health health = urban_nav_core::Health::Ok;
-  FrameMeasurements compared;
+  urban_nav_core::FrameMeasurements compared;
 };
 
 /// A pose of odometry with its covariance.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/page.hpp"
+#include "base/web_files.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 
 namespace urban_nav {
@@ -95,12 +96,14 @@ std::string MapViewer::render() const {
                      urban_nav_core::printNumber(urban_nav_core::secondsBetween(box.first, box.last)) +
                      "\" data-paths=\"[" + paths + "]\">";
   html +=
-      R"html(<p>Colour <select><option value="rgb">pictures</option><option value="reflectance">reflectance</option>)html"
-      R"html(<option value="height">height</option><option value="pass">pass</option><option value="laser">laser</option>)html"
+      R"html(<p>Colour <select><option value="pictures">pictures</option><option value="reflectance">reflectance</option>)html"
+      R"html(<option value="height">height</option><option value="pass">pass</option><option value="sensor">sensor</option>)html"
       R"html(<option value="sigma">sigma</option><option value="quality">agreement of passes</option></select> <output>drag: turn; shift and drag: move; wheel: zoom</output></p>)html"
-      R"html(<canvas style="width:100%;height:min(70vh,40rem);touch-action:none"></canvas>)html";
+      R"html(<canvas tabindex="0" aria-label="Map" style="width:100%;height:min(70vh,40rem);touch-action:none;background:#fafafa"></canvas>)html";
   html += "<script type=\"application/octet-stream\">" + base64(packPoints(shown, box)) + "</script></div>\n";
-  return html + "<script>" + mapViewerScript() + "</script>";
+  // Each view brings the scripts, and starts the last view that the page has so far.
+  return html + "<script>" + webFiles({"camera.js", "points.js", "report_map.js"}) +
+         "urbanNav.showReportMap([...document.querySelectorAll(\".map-view\")].pop());</script>";
 }
 
 }  // namespace urban_nav

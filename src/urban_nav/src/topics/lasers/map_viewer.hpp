@@ -13,9 +13,10 @@
 namespace urban_nav {
 
 /// The map as a view in three dimensions inside the report: points of a map, evenly thinned to at most 500 000, and the
-/// path, drawn by WebGL. Colours by picture, reflectance, height, pass, laser, sigma or agreement of passes; a click
-/// names a point, the next one its distance from the first. Other stages add ways of colouring (renderMapLayer()).
-/// Without WebGL nothing is shown. The result depends on the order of the points. Not thread-safe.
+/// path, drawn by WebGL with the scripts of `view`. Colours by picture, reflectance, height, pass, sensor, sigma or
+/// agreement of passes; a click names a point, the next one its distance from the first. Other stages add ways of
+/// colouring (renderMapLayer()). Without WebGL nothing is shown. The result depends on the order of the points. Not
+/// thread-safe.
 class MapViewer {
  public:
   /// `number`: makes the element's id unique on the page.
@@ -33,8 +34,5 @@ class MapViewer {
   urban_nav_core::EvenThinning<laser_mapper::MapPoint> points_{kMostShownPoints};
   std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
 };
-
-/// Returns the script that draws the views of a page.
-const char* mapViewerScript();
 
 }  // namespace urban_nav

@@ -30,8 +30,9 @@ std::string timeText(const std::string& name, double since, urban_nav_core::Stam
 
 std::string makeHeadline(const StoredClosure& closure) {
   const urban_nav_store::Edge& edge = closure.edge;
-  return "closure " + std::to_string(closure.id) + ": " + timeText(closure.name_a, closure.since_a, edge.a.stamp) +
-         " and " + timeText(closure.name_b, closure.since_b, edge.b.stamp);
+  return (closure.id == 0 ? "measurement" : "closure " + std::to_string(closure.id)) + ": " +
+         timeText(closure.name_a, closure.since_a, edge.a.stamp) + " and " +
+         timeText(closure.name_b, closure.since_b, edge.b.stamp);
 }
 
 std::string formatVerdict(const StoredClosure& closure) {

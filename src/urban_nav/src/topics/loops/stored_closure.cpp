@@ -52,6 +52,22 @@ std::optional<double> probabilityIn(const std::string& evidence) {
   return std::nullopt;
 }
 
+StoredClosure describe(const Edge& edge, const std::map<std::string, Beginning>& beginnings,
+                       const std::optional<std::string>& evidence) {
+  StoredClosure closure;
+  closure.edge = edge;
+  const Beginning &a = beginnings.at(edge.a.session), &b = beginnings.at(edge.b.session);
+  closure.name_a = a.name;
+  closure.name_b = b.name;
+  closure.since_a = urban_nav_core::secondsBetween(a.first, edge.a.stamp);
+  closure.since_b = urban_nav_core::secondsBetween(b.first, edge.b.stamp);
+  if (!evidence) return closure;
+  closure.probability = probabilityIn(*evidence);
+  const std::string_view its = loop_metric::evidenceIn(*evidence);
+  if (!its.empty()) closure.evidence = loop_metric::parseEvidence(its);
+  return closure;
+}
+
 double computeDistance(const std::string& name, const std::string& id, StampNs stamp, double since,
                        const TimeQuery& moment) {
   if (!moment.session.empty() && name.rfind(moment.session, 0) != 0 && id.rfind(moment.session, 0) != 0)
@@ -74,22 +90,15 @@ std::vector<StoredClosure> listClosures(urban_nav_store::Store& store) {
             [&](const Edge& x, const Edge& y) { return numbers.at(edgeKey(x)) < numbers.at(edgeKey(y)); });
   std::vector<StoredClosure> closures;
   for (const Edge& edge : edges) {
-    StoredClosure closure;
+    StoredClosure closure = describe(edge, beginnings, store.graph().evidence(edge));
     closure.id = numbers.at(edgeKey(edge));
-    closure.edge = edge;
-    const Beginning &a = beginnings.at(edge.a.session), &b = beginnings.at(edge.b.session);
-    closure.name_a = a.name;
-    closure.name_b = b.name;
-    closure.since_a = urban_nav_core::secondsBetween(a.first, edge.a.stamp);
-    closure.since_b = urban_nav_core::secondsBetween(b.first, edge.b.stamp);
-    if (const std::optional<std::string> evidence = store.graph().evidence(edge)) {
-      closure.probability = probabilityIn(*evidence);
-      const std::string_view its = loop_metric::evidenceIn(*evidence);
-      if (!its.empty()) closure.evidence = loop_metric::parseEvidence(its);
-    }
     closures.push_back(std::move(closure));
   }
   return closures;
+}
+
+StoredClosure describeEdge(urban_nav_store::Store& store, const Edge& edge, const std::string& evidence) {
+  return describe(edge, readBeginnings(store), evidence);
 }
 
 double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other) {

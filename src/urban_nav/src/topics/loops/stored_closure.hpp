@@ -25,6 +25,10 @@ struct StoredClosure {
 /// damaged.
 std::vector<StoredClosure> listClosures(urban_nav_store::Store& store);
 
+/// The same of an edge that is not in the store, with evidence as the store would hold it; its id is 0.
+StoredClosure describeEdge(urban_nav_store::Store& store, const urban_nav_store::Edge& edge,
+                           const std::string& evidence);
+
 /// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite
 /// where a session is another one.
 double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other);

@@ -43,8 +43,8 @@ VoRun& describeInput(VoRun& run, const urban_nav_input::SourceInfo& info) {
   return run;
 }
 
-urban_nav_trust::FrameMeasurements toMeasurements(const Frame& frame, urban_nav_core::StampNs stamp) {
-  urban_nav_trust::FrameMeasurements measured;
+urban_nav_core::FrameMeasurements toMeasurements(const Frame& frame, urban_nav_core::StampNs stamp) {
+  urban_nav_core::FrameMeasurements measured;
   measured.stamp = stamp;
   if (!frame.accepted) return measured;
   measured.disparity_step_px = frame.statistics.disparity_step.px;

@@ -37,7 +37,7 @@ struct StoredRun {
   std::vector<swf_vo::Settled> settled;
   std::vector<VoLandmark> landmarks;
   std::vector<urban_nav_core::ConsideredConstants> constants;  // of each step of `settled`
-  std::vector<urban_nav_trust::FrameMeasurements> compared;    // one for each row
+  std::vector<urban_nav_core::FrameMeasurements> compared;     // one for each row
 };
 
 StoredRun toStored(const VoRun& run) {

@@ -192,7 +192,7 @@ TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   // those of version 5: number of steps, number of constants, length of a name and its five letters, nine numbers.
   // Those of version 4, five numbers, precede them.
   urban_nav_core::Archive compared, motion;
-  std::vector<urban_nav_trust::FrameMeasurements> each;
+  std::vector<urban_nav_core::FrameMeasurements> each;
   for (const OdometryFrame& frame : run.frames) each.push_back(frame.compared);
   compared(each);
   motion(run.motion);

@@ -6,13 +6,13 @@
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
-namespace urban_nav_trust {
+namespace urban_nav_core {
 
 /// Comparisons of a stereo frame with other measurements, as odometry makes them. A sigma of 0: not compared. Errors
 /// are what is left after the corrections that odometry has estimated (bias, scale, delay); sigmas are their standard
 /// deviations.
 struct FrameMeasurements {
-  urban_nav_core::StampNs stamp = 0;
+  StampNs stamp = 0;
   /// Excess of disparities over those predicted from earlier frames, px.
   double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
   /// Rotation by images less that by the gyroscope over one step, rad, about the axes of base_link; sigma of each axis.
@@ -26,6 +26,6 @@ struct FrameMeasurements {
 };
 
 /// Reads or writes the members.
-void archive(urban_nav_core::Archive& archive, FrameMeasurements& frame);
+void archive(Archive& archive, FrameMeasurements& frame);
 
-}  // namespace urban_nav_trust
+}  // namespace urban_nav_core

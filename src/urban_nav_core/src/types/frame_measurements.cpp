@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_trust/frame_measurements.hpp"
+#include "urban_nav_core/types/frame_measurements.hpp"
 
-namespace urban_nav_trust {
+namespace urban_nav_core {
 
-void archive(urban_nav_core::Archive& archive, FrameMeasurements& frame) {
+void archive(Archive& archive, FrameMeasurements& frame) {
   archive(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px, frame.turn_error, frame.turn_sigma);
   archive(frame.forward, frame.sideways, frame.forward_error, frame.forward_sigma);
   archive(frame.imu_delay, frame.imu_delay_sigma);
 }
 
-}  // namespace urban_nav_trust
+}  // namespace urban_nav_core
