@@ -126,7 +126,7 @@ Fit fit(char separator, const std::vector<std::string_view>& rows) {
   RowSplitter splitter(separator, false);
   std::vector<std::string_view> cells;
   std::map<std::size_t, std::pair<std::size_t, std::size_t>> widths;  // rows, and those of them that end in a separator
-  std::size_t all = 0, numbers = 0, commas = 0, points = 0;
+  std::size_t all = 0, numbers = 0, commas = 0, points = 0, thousands = 0;
   for (const std::string_view row : rows) {
     if (!splitter.split(row, cells).empty()) continue;
     auto& [count, ended] = widths[cells.size()];
@@ -134,7 +134,8 @@ Fit fit(char separator, const std::vector<std::string_view>& rows) {
     ended += !cells.empty() && cells.back().empty() ? 1 : 0;
     for (const std::string_view cell : cells) {
       const bool is_number = parseCell(cell).has_value();
-      const bool has_comma = !is_number && separator != ',' && isDecimalComma(cell);
+      const bool has_comma = !is_number && isDecimalComma(cell);
+      thousands += has_comma && cell.size() - cell.find(',') == 4 ? 1 : 0;
       points += is_number && cell.find('.') != std::string_view::npos ? 1 : 0;
       commas += has_comma ? 1 : 0;
       numbers += is_number || has_comma ? 1 : 0;
@@ -147,7 +148,8 @@ Fit fit(char separator, const std::vector<std::string_view>& rows) {
       result.width = count.first == count.second ? width - 1 : width;
       result.rows = count.first;
     }
-  if (commas > 0 && points > 0) numbers -= commas;  // then they are no decimal commas
+  if (separator == ',' && thousands == commas) points += commas;  // quoted "1,234": perhaps of thousands
+  if (commas > 0 && points > 0) numbers -= commas;                // then they are no decimal commas
   result.has_decimal_commas = commas > 0 && points == 0;
   result.numbers = all > 0 ? static_cast<double>(numbers) / static_cast<double>(all) : 0.0;
   return result;

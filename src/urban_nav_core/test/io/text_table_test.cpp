@@ -50,6 +50,12 @@ TEST(TextTable, TextWithOtherSeparatorsStaysInItsCell) {
   EXPECT_EQ(parse("a\tb\tc\n1\t\t3\n"), (Rows{{"1", "", "3"}}));
 }
 
+TEST(TextTable, QuotedCellsBetweenCommasMayHaveDecimalCommas) {
+  EXPECT_EQ(parse("\"1\",\"2,5\"\n\"4\",\"-5,125\"\n"), (Rows{{"1", "2.5"}, {"4", "-5.125"}}));
+  EXPECT_EQ(parse("1.5,\"2,25\"\n2.5,\"3,75\"\n"), (Rows{{"1.5", "2,25"}, {"2.5", "3,75"}})) << "there are points";
+  EXPECT_EQ(parse("1,\"2,500\"\n4,\"5,125\"\n"), (Rows{{"1", "2,500"}, {"4", "5,125"}})) << "perhaps thousands";
+}
+
 TEST(TextTable, NamesTheLineOfABrokenQuote) {
   EXPECT_EQ(catchError([] { parse("1,2\n3,\"4\n"); }), "t:2: a quote that does not end");
 }

@@ -19,8 +19,8 @@ struct TableRow {
 /// A table of text as common programs write it: the one reader of trajectories, clouds, closures, image lists, stamps
 /// and tables of devices. Cells are separated by commas, semicolons, tabs or blanks, whichever fits the first rows, and
 /// may be in double quotes ("" is a quote, no line breaks); `sep=;` in the first line is followed. Numbers may have
-/// decimal commas where commas are not the separator. Lines that begin with #, % or // are comments, as is what follows
-/// a # in a row separated by blanks; the header is the last comment, or the first row, before all numbers,
+/// decimal commas in quotes or where commas are no separator. Lines that begin with #, % or // are comments, as is what
+/// follows a # in a row separated by blanks; the header is the last comment, or the first row, before all numbers,
 /// holds none itself, and has as many cells as the rows have. One empty cell at the end of a row (a trailing separator)
 /// is not one.
 class TextTable {
