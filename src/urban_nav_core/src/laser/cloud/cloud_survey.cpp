@@ -16,11 +16,6 @@ constexpr std::size_t kFewestPoints = 50;  // of a cloud that counts
 constexpr double kFullIntensity = 255.0;   // intensity of a beam at most
 constexpr double kUnitRange = 1.0, kTwelveBits = 4095.0, kSixteenBits = 65535.0;
 
-bool isNamed(const FieldStatistics& field, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return field.name.find(part) != std::string::npos; });
-}
-
 /// Returns the range of the values of an intensity, by the largest of them.
 double findScale(const FieldStatistics& field, double largest) {
   if (largest <= kUnitRange) return field.is_whole ? 1.0 : kFullIntensity;
@@ -35,20 +30,19 @@ void findIntensity(const std::vector<CloudStatistics>& clouds, CloudConvention& 
     const FieldStatistics* field = nullptr;
     double largest = 0.0;
   };
-  const auto choose = [&](std::initializer_list<const char*> parts) {
+  const auto choose = [&](bool (*is_meant)(const std::string& name)) {
     Choice choice;
     for (const FieldStatistics& field : clouds.front().fields)
-      if (choice.field == nullptr && (isNamed(field, parts) || (field.name == "i" && parts.size() == 1)))
-        choice.field = &field;
+      if (choice.field == nullptr && is_meant(field.name)) choice.field = &field;
     for (const CloudStatistics& cloud : clouds)
       if (choice.field != nullptr)
         if (const FieldStatistics* field = cloud.find(choice.field->name))
           choice.largest = std::max(choice.largest, field->last);
     return choice;
   };
-  Choice choice = choose({"intensity"});
+  Choice choice = choose(isIntensity);
   if (choice.field == nullptr || choice.largest > kFullIntensity)
-    if (const Choice other = choose({"reflect", "remission"}); other.field != nullptr) choice = other;
+    if (const Choice other = choose(isReflectance); other.field != nullptr) choice = other;
   if (choice.field == nullptr) return;
   convention.intensity_field = choice.field->name;
   convention.intensity_scale = findScale(*choice.field, choice.largest);

@@ -114,6 +114,16 @@ FieldMeaning findMeaning(const std::string& name) {
   return FieldMeaning::Unknown;
 }
 
+bool isIntensity(const std::string& name) {
+  const std::string lower = toLower(name);
+  return lower == "i" || lower.find("intensit") != std::string::npos;
+}
+
+bool isReflectance(const std::string& name) {
+  const std::string lower = toLower(name);
+  return lower.find("reflect") != std::string::npos || lower.find("remission") != std::string::npos;
+}
+
 std::optional<PointTimes::Unit> unitOfSpan(double span) {
   for (const PointTimes::Unit unit : {PointTimes::Unit::Seconds, PointTimes::Unit::Milliseconds,
                                       PointTimes::Unit::Microseconds, PointTimes::Unit::Nanoseconds}) {

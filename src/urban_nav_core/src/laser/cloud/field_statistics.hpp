@@ -51,6 +51,9 @@ double findTrend(const std::vector<double>& values);
 /// Meaning of a field by its name.
 enum class FieldMeaning { Time, Other, Unknown };
 FieldMeaning findMeaning(const std::string& name);
+/// Returns whether a field is an intensity, and whether it is a reflectance, by its name.
+bool isIntensity(const std::string& name);
+bool isReflectance(const std::string& name);
 
 /// Returns the unit in which a span is that of a sweep, 10 ms to 1 s. At most one of the four is; nullopt for none.
 std::optional<PointTimes::Unit> unitOfSpan(double span);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "laser/cloud/field_statistics.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 
 namespace urban_nav_core {
@@ -30,19 +31,16 @@ struct PlanarPoints {
   bool is_flat = true;
 };
 
-bool isTimeName(const std::string& name) {
-  return name == "t" || name == "ts" || name.find("time") != std::string::npos;
-}
-
 std::string findTimeField(const CloudView& cloud) {
   for (const CloudField& field : cloud.fields)
-    if (isTimeName(field.name)) return field.name;
+    if (findMeaning(field.name) == FieldMeaning::Time) return field.name;
   return {};
 }
 
 CloudPoints::Field planarIntensity(const CloudPoints& points) {
-  for (const CloudField& field : points.cloud().fields)
-    if (field.name == "i" || field.name.find("intensit") != std::string::npos) return points.field(field.name);
+  for (const auto& is_meant : {isIntensity, isReflectance})
+    for (const CloudField& field : points.cloud().fields)
+      if (is_meant(field.name)) return points.field(field.name);
   return {};
 }
 
