@@ -1,41 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <boost/shared_ptr.hpp>
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "recording/message/transcoder.hpp"
 #include "session/lidar_stream.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/session/cloud_messages.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 
 namespace urban_nav_input {
-
-/// Reads the clouds of a recording, whatever the type of their messages. Not thread-safe.
-class CloudMessages {
- public:
-  struct Cloud {
-    std::string frame;
-    urban_nav_core::CloudView view;  ///< valid until the next call
-  };
-  /// Returns the cloud in a message; nullopt if it has none that can be read. A header without stamp gets the receipt.
-  /// Throws DataError if the bytes of a PointCloud2 are damaged.
-  std::optional<Cloud> read(const RecordedMessage& message);
-
- private:
-  std::optional<Cloud> readLivox(const RecordedMessage& message);
-
-  boost::shared_ptr<void> owner_;  // of the bytes of the last cloud
-  std::vector<std::uint8_t> bytes_;
-  std::map<std::string, std::unique_ptr<Transcoder>> transcoders_;  // by definition; null: it is ours
-};
 
 /// The 3D LiDARs of a recording and their sweeps, in the order of their references. Not thread-safe.
 class BagSweeps {

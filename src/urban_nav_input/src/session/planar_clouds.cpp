@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/planar_clouds.hpp"
+#include "urban_nav_input/session/planar_clouds.hpp"
 
 #include <algorithm>
 #include <boost/make_shared.hpp>

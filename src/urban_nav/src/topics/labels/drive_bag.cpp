@@ -16,6 +16,7 @@
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/session/bag_panorama.hpp"
 #include "urban_nav_input/session/grey_survey.hpp"
+#include "urban_nav_input/session/planar_clouds.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/recorded_image.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -38,7 +39,8 @@ struct SideTopics {
 };
 
 std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const std::string& name,
-                                   const urban_nav_input::BagTopics& topics, Console& console) {
+                                   const urban_nav_input::BagTopics& topics, urban_nav_input::PlanarClouds& clouds,
+                                   Console& console) {
   const urban_nav_ros::StaticTransforms transforms = recording.transforms();
   const urban_nav_input::BagPanorama head(recording, topics, transforms);
   std::array<SideTopics, 2> rigs;
@@ -46,7 +48,7 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
     SideTopics& rig = rigs[static_cast<std::size_t>(side)];
     const auto topic =
         topics.find(side == DriveSide::Left ? urban_nav_input::Role::LaserLeft : urban_nav_input::Role::LaserRight);
-    const auto scan = topic ? recording.first<sensor_msgs::LaserScan>(topic->name) : nullptr;
+    const auto scan = topic ? clouds.first(recording, topic->name) : nullptr;
     if (!scan) continue;
     const auto T_base_laser = transforms.lookup(urban_nav_core::frames::kBaseLink, scan->header.frame_id);
     if (!T_base_laser) {
@@ -75,9 +77,11 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
 class SideReader {
  public:
   SideReader(const SideTopics& topics, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,
-             double spacing, const ClassImages& classes, DriveWindow& window, const urban_nav_ros::GreyScale& scale)
+             double spacing, const ClassImages& classes, DriveWindow& window, const urban_nav_ros::GreyScale& scale,
+             urban_nav_input::PlanarClouds& clouds)
       : topics_(topics),
         classes_(classes),
+        clouds_(clouds),
         window_(window),
         scale_(scale),
         drive_(topics.rig, T_world_base, path, spacing, window) {}
@@ -87,7 +91,7 @@ class SideReader {
   }
 
   void add(const urban_nav_input::RecordedMessage& message) {
-    if (const auto scan = message.as<sensor_msgs::LaserScan>()) {
+    if (const auto scan = clouds_.read(message)) {
       if (const auto planar = urban_nav_ros::toPlanarScan(*scan)) drive_.add(*planar);
     } else if (const auto raw = message.as<sensor_msgs::Image>()) {
       add(urban_nav_ros::RecordedImage(sensor_msgs::ImageConstPtr(raw)));
@@ -107,6 +111,7 @@ class SideReader {
 
   const SideTopics& topics_;
   const ClassImages& classes_;
+  urban_nav_input::PlanarClouds& clouds_;
   DriveWindow& window_;
   const urban_nav_ros::GreyScale scale_;
   scene_labeler::SideDrive drive_;
@@ -144,8 +149,9 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
   const scene_labeler::TravelledPath path(T_world_base);
   const scene_labeler::Parameters& parameters = options.parameters->get(scene_labeler::table());
   urban_nav_input::Recording recording(bag);
-  const urban_nav_input::BagTopics topics = urban_nav_input::chooseTopics(recording.topicTypes(), options.topics);
-  const std::array<SideTopics, 2> rigs = readRigs(recording, bag, topics, console);
+  urban_nav_input::BagTopics topics = urban_nav_input::chooseTopics(recording.topicTypes(), options.topics);
+  urban_nav_input::PlanarClouds clouds(recording, {}, options.topics, topics);
+  const std::array<SideTopics, 2> rigs = readRigs(recording, bag, topics, clouds, console);
   const ClassImages classes({bag}, parameters.class_topic, parameters.class_file);
   if (!parameters.class_topic.empty() && classes.size() == 0)
     throw UserError("scene_labeler.class_topic", "no sensor_msgs/Image on " + parameters.class_topic,
@@ -157,7 +163,7 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
   std::vector<SideReader> sides;
   for (const DriveSide side : kBothSides)
     sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, parameters.spacing, classes,
-                       *windows[static_cast<std::size_t>(side)], scale);
+                       *windows[static_cast<std::size_t>(side)], scale, clouds);
   Progress progress(console, std::filesystem::path(bag).stem().string(), "messages", 0);
   readSides(recording, rigs, sides, progress);
 }

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <cmath>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -144,6 +150,39 @@ std::string cutLasers(const std::string& bag, double begin) {
   return bag;
 }
 
+/// Returns the points of the valid beams of a scan, with their intensities and times.
+sensor_msgs::PointCloud2 toCloud(const sensor_msgs::LaserScan& scan) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = scan.header;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  modifier.setPointCloud2Fields(5, "x", 1, sensor_msgs::PointField::FLOAT32, "y", 1, sensor_msgs::PointField::FLOAT32,
+                                "z", 1, sensor_msgs::PointField::FLOAT32, "intensity", 1,
+                                sensor_msgs::PointField::FLOAT32, "time", 1, sensor_msgs::PointField::FLOAT32);
+  std::vector<std::size_t> valid;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+    if (scan.ranges[i] > scan.range_min && scan.ranges[i] < scan.range_max) valid.push_back(i);
+  modifier.resize(valid.size());
+  sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), intensity(cloud, "intensity"), time(cloud, "time");
+  for (const std::size_t i : valid) {
+    const float angle = scan.angle_min + static_cast<float>(i) * scan.angle_increment;
+    x[0] = scan.ranges[i] * std::cos(angle), x[1] = scan.ranges[i] * std::sin(angle), x[2] = 0.0F;
+    *intensity = i < scan.intensities.size() ? scan.intensities[i] : 0.0F;
+    *time = static_cast<float>(i) * scan.time_increment;
+    ++x, ++intensity, ++time;
+  }
+  return cloud;
+}
+
+/// Writes a bag whose lasers publish points in place of ranges.
+void writeWithClouds(const std::string& from, const std::string& to) {
+  rosbag::Bag in(from, rosbag::bagmode::Read), out(to, rosbag::bagmode::Write);
+  for (const rosbag::MessageInstance& message : rosbag::View(in)) {
+    const auto scan = message.instantiate<sensor_msgs::LaserScan>();
+    if (!scan) out.write(message.getTopic(), message.getTime(), message);
+    else out.write(message.getTopic() + "_cloud", message.getTime(), toCloud(*scan));
+  }
+}
+
 TEST_F(Labels, OfABagAreThoseOfItsReturnsWhateverItsTruth) {
   const std::string one = cutLasers(path("one.bag"), 0.0), two = cutLasers(path("two.bag"), 16.0);
   const std::string pose_one = path("one.truth/trajectory.tum"), pose_two = path("two.truth/trajectory.tum");
@@ -166,6 +205,13 @@ TEST_F(Labels, OfABagAreThoseOfItsReturnsWhateverItsTruth) {
   EXPECT_EQ(table.header()[1], "beam");
   EXPECT_EQ(table.header().back(), "unsure");
   EXPECT_GT(table.rows(), 20000u);
+  writeWithClouds(two, path("clouds.bag"));
+  ASSERT_EQ(labels({"apply", path("m"), path("clouds.bag"), "--trajectory", path("two.tum"), "-o", path("clouds")}), 0);
+  const auto of_clouds = urban_nav_core::CsvTable::read(path("clouds/laser_left_labels.csv"));
+  ASSERT_EQ(of_clouds.rows(), table.rows());
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < table.rows(); ++i) equal += table.text(i, 2) == of_clouds.text(i, 2) ? 1 : 0;
+  EXPECT_GT(equal, table.rows() - table.rows() / 100) << "points in single precision";
   EXPECT_EQ(labels({"apply", path("m"), two, "-o", path("none")}), 2) << "neither stereo images nor tf";
   EXPECT_EQ(labels({"evaluate", path("m"), two, "--trajectory", path("two.tum")}), 2) << "no truth";
   ASSERT_EQ(labels({"evaluate", path("m"), one, "--trajectory", pose_one, "--json", path("j")}), 0);

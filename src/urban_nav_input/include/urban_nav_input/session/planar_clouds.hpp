@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "session/bag_sweeps.hpp"
 #include "urban_nav_core/laser/cloud/planar_cloud.hpp"
 #include "urban_nav_input/examination/finding.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
+#include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/session/cloud_messages.hpp"
 
 namespace urban_nav_input {
 
