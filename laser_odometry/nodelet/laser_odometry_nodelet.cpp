@@ -102,9 +102,10 @@ void LaserOdometryStage::add(const sensor_msgs::PointCloud2ConstPtr& cloud) {
     odometry_->setFault("no transform from " + nodelet_.base_frame + " to " + frame_ + " on /tf_static");
     return;
   }
-  odometry_->setFault("");
   odometry_->place(*T_base_lidar);
-  for (const urban_nav_core::ReadSweep& read : feed_->add(cloud)) {
+  const std::vector<urban_nav_core::ReadSweep> sweeps = feed_->add(cloud);
+  odometry_->setFault(feed_->fault());
+  for (const urban_nav_core::ReadSweep& read : sweeps) {
     if (!read.fault.empty()) {
       node_.gate().countInvalid();
       node_.logWarning("cloud", read.fault);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kPoints = 800;
 
 /// A turn of 0.1 s from the stamp on, with times in us.
-sensor_msgs::PointCloud2ConstPtr cloudAt(int i) {
+sensor_msgs::PointCloud2ConstPtr cloudAt(int i, float height = 0.2F) {
   auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
   cloud->header.stamp = ros::Time(1'600'000'000, static_cast<std::uint32_t>(100'000'000 * i));
   cloud->width = kPoints;
@@ -37,7 +37,7 @@ sensor_msgs::PointCloud2ConstPtr cloudAt(int i) {
   cloud->data.resize(cloud->row_step);
   for (std::uint32_t k = 0; k < kPoints; ++k) {
     const float azimuth = 3.14159F - 6.28318F * static_cast<float>(k) / kPoints;
-    const float place[] = {5.0F * std::cos(azimuth), 5.0F * std::sin(azimuth), 0.2F * static_cast<float>(k % 4)};
+    const float place[] = {5.0F * std::cos(azimuth), 5.0F * std::sin(azimuth), height * static_cast<float>(k % 4)};
     const std::uint32_t time = 125 * k;
     std::memcpy(&cloud->data[16 * k], place, sizeof(place));
     std::memcpy(&cloud->data[16 * k + 12], &time, sizeof(time));
@@ -69,6 +69,14 @@ TEST(SweepFeed, CloudsWaitUntilItIsDecidedHowTheyAreRead) {
     EXPECT_EQ(sweeps[i].sweep.beams.size(), kPoints);
     EXPECT_EQ(sweeps[i].sweep.beams.front().stamp,
               1'600'000'000'000'000'000 + 100'000'000 * static_cast<std::int64_t>(i));
+  }
+}
+
+TEST(SweepFeed, APlanarLaserIsNamedAndGivesNoSweeps) {
+  SweepFeed feed;
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_TRUE(feed.add(cloudAt(i, 0.0F)).empty());
+    EXPECT_EQ(feed.fault().find("planar laser") != std::string::npos, i >= 7) << feed.fault();
   }
 }
 

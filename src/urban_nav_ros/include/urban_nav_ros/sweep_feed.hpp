@@ -4,15 +4,17 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "urban_nav_core/laser/cloud/cloud_survey.hpp"
+#include "urban_nav_core/laser/cloud/planar_cloud.hpp"
 #include "urban_nav_core/laser/cloud/sweep_reader.hpp"
 
 namespace urban_nav_ros {
 
 /// Turns the clouds of one 3D LiDAR into sweeps, as the reader of recordings does. How they are read is decided from
-/// the first CloudSurvey::kEnough of them; until then they wait. Not thread-safe.
+/// the first CloudSurvey::kEnough of them; until then they wait. Clouds of a planar laser give none. Not thread-safe.
 class SweepFeed {
  public:
   explicit SweepFeed(urban_nav_core::CloudOptions options = {});
@@ -21,12 +23,16 @@ class SweepFeed {
   std::vector<urban_nav_core::ReadSweep> add(const sensor_msgs::PointCloud2ConstPtr& message);
   /// Returns how clouds are read; nullopt until that is decided.
   std::optional<urban_nav_core::CloudConvention> convention() const;
+  /// Returns why the clouds are not used; empty: they are, or nothing is decided.
+  const std::string& fault() const { return fault_; }
 
  private:
   static constexpr std::size_t kMostWaiting = 50;  // clouds, with points or without
 
   urban_nav_core::CloudOptions options_;
   urban_nav_core::CloudSurvey survey_;
+  urban_nav_core::PlanarCloudSurvey planar_survey_;
+  std::string fault_;
   std::vector<sensor_msgs::PointCloud2ConstPtr> waiting_;
   std::optional<urban_nav_core::SweepReader> reader_;
 };
