@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pluginlib/class_list_macros.hpp>
 
+#include <cmath>
+
+#include "urban_nav_ros/sensor_inputs.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
 #include "urban_nav_ros/stereo_rectifier.hpp"
 #include "urban_nav_ros/stereo_rectify_parameters.hpp"
@@ -56,6 +59,8 @@ StereoRectifyStage::StereoRectifyStage(Node& node) {
   StereoRectifier::Options options;
   options.rectified = areRectified(parameters.image_type, node.nh().resolveName(topics::kLeftImage));
   options.judges_images = parameters.image_type == "auto";
+  options.right_delay = static_cast<urban_nav_core::StampNs>(
+      std::llround(1e6 * readParameters(ros::NodeHandle(node.nh(), "input"), liveCorrectionTable()).right_delay));
   options.queue = parameters.queue_size;
   options.where = node.nh().resolveName("stereo");
   rectifier_ = std::make_unique<StereoRectifier>(options, listener);

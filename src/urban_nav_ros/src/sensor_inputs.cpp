@@ -27,8 +27,19 @@ bool isIdentity(const urban_nav_core::LaserConvention& convention) {
 LiveCorrectionParameters::LiveCorrectionParameters() { liveCorrectionTable().setDefaults(*this); }
 
 const urban_nav_core::Table<LiveCorrectionParameters>& liveCorrectionTable() {
-  static const urban_nav_core::Table<LiveCorrectionParameters> table("input",
-                                                                     sensorCorrectionRows<LiveCorrectionParameters>());
+  using P = LiveCorrectionParameters;
+  static const urban_nav_core::Table<P> table(
+      "input", withSensorCorrections<P>(
+                   {{"right_delay",
+                     &P::right_delay,
+                     "ms",
+                     0.0,
+                     -1000.0,
+                     1000.0,
+                     {},
+                     "How much later the right images are stamped than the left ones, though they are exposed "
+                     "together; stereo_rectify takes it from their stamps.",
+                     "docs/files.md"}}));
   return table;
 }
 

@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/baseline_check.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_ros {
 
@@ -17,8 +19,11 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-const std_msgs::Header& findHeader(const ImageInput& image) {
-  return std::visit([](const auto& message) -> const std_msgs::Header& { return message->header; }, image.message);
+/// Returns the header of the message with the stamp of the input.
+std_msgs::Header makeHeader(const ImageInput& image) {
+  std_msgs::Header header = std::visit([](const auto& message) { return message->header; }, image.message);
+  header.stamp = toRosTime(image.stamp);
+  return header;
 }
 
 /// Makes a message of pixels that are in `rectified` or elsewhere.
@@ -74,7 +79,8 @@ void StereoRectifier::calibrate() {
   for (const ImageInput& image : std::exchange(waiting_, {})) process(image);
 }
 
-void StereoRectifier::handle(const ImageInput& image) {
+void StereoRectifier::handle(ImageInput image) {
+  if (image.side == Side::Right) image.stamp -= options_.right_delay;
   if (images_.add(image.stamp)) forgetStream();
   if (calibration_) return process(image);
   waiting_.push_back(image);
@@ -99,7 +105,7 @@ void StereoRectifier::process(const ImageInput& image) {
   if (!fault.empty()) {
     ++counts_.damaged;
     listener_.fault((image.side == Side::Left ? "left image: " : "right image: ") + fault);
-    message = toMono8(findHeader(image), {}, {});
+    message = toMono8(makeHeader(image), {}, {});
   }
   listener_.image(image.side, message);
 }
@@ -125,9 +131,9 @@ sensor_msgs::ImageConstPtr StereoRectifier::convert(const ImageInput& image, std
     return nullptr;
   }
   ++(calibration_->rectifies() ? counts_.rectified : counts_.passed);
-  const bool is_unchanged =
-      raw != nullptr && !calibration_->rectifies() && (*raw)->encoding == sensor_msgs::image_encodings::MONO8;
-  return is_unchanged ? *raw : toMono8(findHeader(image), view, std::move(rectified));
+  const bool is_unchanged = raw != nullptr && image.stamp == toStampNs((*raw)->header.stamp) &&
+                            !calibration_->rectifies() && (*raw)->encoding == sensor_msgs::image_encodings::MONO8;
+  return is_unchanged ? *raw : toMono8(makeHeader(image), view, std::move(rectified));
 }
 
 urban_nav_live::StageReport StereoRectifier::report() const {
@@ -135,6 +141,8 @@ urban_nav_live::StageReport StereoRectifier::report() const {
   if (!calibration_) {
     report.is_warning = true;
     report.summary = fault_.empty() ? "no calibration yet" : fault_;
+  } else {
+    report.warn(describeBaseline(calibration_->camera().baseline));
   }
   report.add("images rectified", counts_.rectified);
   report.add("images passed through", counts_.passed);

@@ -42,7 +42,9 @@ void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
                                  "the camera, its connection or the recording leaves them out; check its driver, the "
                                  "load of this computer and the network"});
   report.fault_counts.push_back({"pairs lacked an image", left_missing + right_missing, pairs,
-                                 "one camera loses images, or they come later than max_lateness"});
+                                 "one camera loses images, they come later than max_lateness, or the two are stamped "
+                                 "at different times: set input/right_delay, which stereo_rectify reads, or a wider "
+                                 "sync_tolerance (`urban_nav doctor` on a recording states which)"});
   report.fault_counts.push_back({"images came too late", late, 2 * pairs, "raise max_lateness, or lower the load"});
   report.fault_counts.push_back(
       {"images were damaged", damaged, 2 * pairs, "check the encoding, the size in camera_info and the connection"});

@@ -71,9 +71,10 @@ ImageInput packedImage(Side side, StampNs stamp) {
 
 /// A rectifier that keeps what it publishes.
 struct Rectified {
-  explicit Rectified(bool rectified = false, int queue = 10) {
+  explicit Rectified(bool rectified = false, int queue = 10, StampNs right_delay = 0) {
     StereoRectifier::Options options;
     options.rectified = rectified;
+    options.right_delay = right_delay;
     options.queue = queue;
     rectifier = std::make_unique<StereoRectifier>(
         options, StereoRectifier::Listener{[this](Side side, const sensor_msgs::ImageConstPtr& image) {
@@ -81,9 +82,12 @@ struct Rectified {
                                            },
                                            [this](const std::string& fault) { faults.push_back(fault); }});
   }
-  void calibrate(double distortion) {
-    for (const Side side : {Side::Left, Side::Right})
-      rectifier->handle(InfoInput{side, boost::make_shared<sensor_msgs::CameraInfo>(rawInfo(side, distortion))});
+  void calibrate(double distortion, double baseline_scale = 1.0) {
+    for (const Side side : {Side::Left, Side::Right}) {
+      auto info = boost::make_shared<sensor_msgs::CameraInfo>(rawInfo(side, distortion));
+      info->P[3] *= baseline_scale;
+      rectifier->handle(InfoInput{side, info});
+    }
   }
   std::unique_ptr<StereoRectifier> rectifier;
   std::vector<sensor_msgs::ImageConstPtr> left, right;
@@ -133,6 +137,27 @@ TEST(StereoRectifier, RectifiedImagesPassWithoutACopy) {
   ASSERT_EQ(rectified.left.size(), 1U);
   EXPECT_EQ(rectified.left[0], std::get<sensor_msgs::ImageConstPtr>(image.message));
   EXPECT_EQ(rectified.rectifier->counts().rectified, 0);
+}
+
+TEST(StereoRectifier, ADelayIsTakenFromTheStampsOfTheRightImages) {
+  for (const bool are_rectified : {false, true}) {
+    Rectified rectified(are_rectified, 10, 8'000'000);
+    rectified.calibrate(-0.3);
+    rectified.rectifier->handle(rawImage(Side::Left, 1'000'000'000));
+    rectified.rectifier->handle(rawImage(Side::Right, 1'008'000'000));
+    ASSERT_EQ(rectified.right.size(), 1U);
+    EXPECT_EQ(rectified.right[0]->header.stamp, rectified.left[0]->header.stamp);
+    EXPECT_EQ(rectified.right[0]->header.frame_id, "camera");
+    EXPECT_EQ(rectified.right[0]->width, static_cast<std::uint32_t>(kRawWidth));
+  }
+}
+
+TEST(StereoRectifier, ABaselineThatNoVehicleHasIsAWarning) {
+  Rectified rectified;
+  rectified.calibrate(0.0, 1000.0);
+  const std::vector<std::string> warnings = rectified.rectifier->report().warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("120 m"), std::string::npos) << warnings[0];
 }
 
 TEST(StereoRectifier, ImagesWaitForTheCalibration) {

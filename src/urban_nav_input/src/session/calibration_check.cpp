@@ -6,14 +6,17 @@
 
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_ros/baseline_check.hpp"
 
 namespace urban_nav_input {
 
 namespace {
 
-constexpr double kShortestBaseline = 0.01, kLongestBaseline = 3.0;  // m, of cameras on one vehicle
-constexpr double kUsualBaseline = 0.2;                              // m
-constexpr double kClear = 0.15;  // logarithm: two causes closer than that are about as likely
+using urban_nav_ros::kLongestBaseline;
+using urban_nav_ros::kShortestBaseline;
+
+constexpr double kUsualBaseline = 0.2;  // m
+constexpr double kClear = 0.15;         // logarithm: two causes closer than that are about as likely
 constexpr double kNarrowestView = 10.0, kWidestView = 150.0;  // deg, of a rectified image
 
 std::string printedValue(double value) { return urban_nav_core::formatNumber(value, 4); }
@@ -45,7 +48,7 @@ std::vector<BaselineCause> likelyCauses(double baseline, double fx) {
 
 void checkBaseline(const urban_nav_core::StereoCamera& camera, double present_scale, std::vector<Finding>& findings) {
   const double baseline = camera.baseline;
-  if (baseline >= kShortestBaseline && baseline <= kLongestBaseline) return;
+  if (urban_nav_ros::describeBaseline(baseline).empty()) return;
   const std::vector<BaselineCause> causes = likelyCauses(baseline, camera.left.fx);
   Finding finding{FindingKind::Calibration, "the baseline is " + printedValue(baseline) + " m",
                   "P[3] of the right camera_info is -fx times the baseline in metres; maps have the scale of this "

@@ -16,6 +16,7 @@ namespace urban_nav_ros {
 
 /// Parameters of sensors in the namespace `input` next to the nodelets, the same for all of them.
 struct LiveCorrectionParameters : SensorCorrectionParameters {
+  double right_delay;  // ms; of the nodelet that rectifies
   LiveCorrectionParameters();
 };
 const urban_nav_core::Table<LiveCorrectionParameters>& liveCorrectionTable();

@@ -20,15 +20,17 @@
 namespace urban_nav_ros {
 
 /// Decodes and rectifies the images of a stereo camera, to the same pixels as StereoFeed. Images that are rectified
-/// already pass through, without a copy if they are mono8. Used by one thread.
+/// already pass through, without a copy if they are mono8 and keep their stamp. Used by one thread.
 ///
 /// Images that arrive before the calibration wait for it. An image that cannot be decoded, or has a wrong size, becomes
 /// a message without pixels, so that it is missing at once and not only after a timeout.
 class StereoRectifier {
  public:
   struct Options {
-    bool rectified = false;        ///< the images are rectified already
-    bool judges_images = false;    ///< `rectified` is a guess: the first pairs decide, where they can
+    bool rectified = false;      ///< the images are rectified already
+    bool judges_images = false;  ///< `rectified` is a guess: the first pairs decide, where they can
+    /// Time from the stamp of a left image to that of the right one that was exposed with it.
+    urban_nav_core::StampNs right_delay = 0;
     int queue = 200;               ///< images that wait for the calibration
     std::string where = "stereo";  ///< what an error of the calibration begins with
   };
@@ -46,12 +48,13 @@ class StereoRectifier {
         judge_(options_.rectified, options_.judges_images) {}
 
   void handle(const InfoInput& info);
-  void handle(const ImageInput& image);
+  void handle(ImageInput image);
   /// Forgets the images that wait.
   void reset();
 
   const Counts& counts() const { return counts_; }
-  /// Returns the state for the operator: a warning until the calibration is known.
+  /// Returns the state for the operator: a warning until the calibration is known, and for one that no vehicle
+  /// has.
   urban_nav_live::StageReport report() const;
 
  private:
