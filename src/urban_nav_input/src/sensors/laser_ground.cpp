@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 
 namespace urban_nav_input {
@@ -23,6 +24,16 @@ constexpr std::size_t kFewHeights = 5;
 constexpr double kScatteredHeights = 0.12;            // m, median deviation of the heights by stereo
 constexpr double kTolerance = 0.25, kRelative = 0.2;  // m; of the height of the laser: kerbs, slopes, crowns of roads
 constexpr double kLeastDrop = 0.3;                    // m from the laser to the ground
+constexpr double kFoot = 0.3048, kFootTolerance = 0.15;  // m; relative: the height by stereo is not exact
+
+/// Returns the height of the ground by stereo; nullopt if the heights are few or scattered.
+std::optional<double> heightByStereo(const std::vector<double>& heights) {
+  if (heights.size() < kFewHeights) return std::nullopt;
+  const double median = urban_nav_core::quantile(heights, 0.5);
+  std::vector<double> deviations;
+  for (const double each : heights) deviations.push_back(std::abs(each - median));
+  return urban_nav_core::quantile(deviations, 0.5) > kScatteredHeights ? std::nullopt : std::optional(median);
+}
 
 }  // namespace
 
@@ -57,27 +68,42 @@ std::optional<double> LaserGround::height() const {
   return sum / static_cast<double>(around(best));
 }
 
-std::optional<Finding> LaserGround::finding(const std::string& role, const std::string& topic,
-                                            const std::vector<double>& stereo) const {
+bool LaserGround::agreesWith(double by_stereo) const {
   const std::optional<double> by_laser = height();
-  if (!by_laser || stereo.size() < kFewHeights) return std::nullopt;
-  const double by_stereo = urban_nav_core::quantile(stereo, 0.5);
-  std::vector<double> deviations;
-  for (const double each : stereo) deviations.push_back(std::abs(each - by_stereo));
-  const double drop = laser_height_ - by_stereo, apart = *by_laser - by_stereo;
-  if (urban_nav_core::quantile(deviations, 0.5) > kScatteredHeights || drop < kLeastDrop) return std::nullopt;
-  if (std::abs(apart) < std::max(kTolerance, kRelative * drop)) return std::nullopt;
+  return by_laser && std::abs(*by_laser - by_stereo) < std::max(kTolerance, kRelative * (laser_height_ - by_stereo));
+}
+
+std::optional<Finding> LaserGround::finding(const std::string& role, const std::string& topic,
+                                            const std::vector<double>& stereo, double range_scale) const {
+  const std::optional<double> by_laser = height(), by_stereo = heightByStereo(stereo);
+  if (!by_laser || !by_stereo || agreesWith(*by_stereo)) return std::nullopt;
+  const double drop = laser_height_ - *by_stereo, apart = *by_laser - *by_stereo;
+  if (drop < kLeastDrop) return std::nullopt;
   const double scale = drop / (laser_height_ - *by_laser);
-  const std::string parameter = "--set input." + role + "_range_scale=" + formatNumber(scale, 3);
-  return Finding{FindingKind::Lasers,
-                 topic + ": the ground it sees is at a height of " + formatNumber(*by_laser, 3) +
-                     " m in base_link, and that which stereo sees at " + formatNumber(by_stereo, 3) +
-                     " m: its ranges are " + formatNumber(1.0 / scale, 3) +
-                     " times the true ones, or its place in tf is " + formatNumber(std::abs(apart), 3) + " m too " +
-                     (apart < 0.0 ? "low" : "high"),
-                 parameter +
-                     " where the ranges are wrong (other scales are multiplied with it), --transform "
-                     "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW where the place is"};
+  const std::string parameter = "input." + role + "_range_scale=";
+  Finding finding{FindingKind::Lasers,
+                  topic + ": the ground it sees is at a height of " + formatNumber(*by_laser, 3) +
+                      " m in base_link, and that which stereo sees at " + formatNumber(*by_stereo, 3) +
+                      " m: its ranges are " + formatNumber(1.0 / scale, 3) +
+                      " times the true ones, or its place in tf is " + formatNumber(std::abs(apart), 3) + " m too " +
+                      (apart < 0.0 ? "low" : "high"),
+                  "--set " + parameter + formatNumber(scale, 3) +
+                      " where the ranges are wrong (other scales are multiplied with it), --transform "
+                      "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW where the place is"};
+  if (std::abs(scale / kFoot - 1.0) > kFootTolerance) return finding;
+  finding.text += "; likely its ranges are in feet";
+  finding.options = {"--set", parameter + urban_nav_core::printNumber(kFoot * range_scale)};
+  finding.remedy = finding.options[0] + " " + finding.options[1] +
+                   " where they are in feet, --transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW where the place is wrong; for "
+                   "later recordings let the driver publish metres";
+  return finding;
+}
+
+bool areExchanged(const std::array<LaserGround, 2>& own, const std::array<LaserGround, 2>& other,
+                  const std::vector<double>& stereo) {
+  const std::optional<double> by_stereo = heightByStereo(stereo);
+  const auto agrees = [&](const LaserGround& ground) { return ground.agreesWith(*by_stereo); };
+  return by_stereo && std::none_of(own.begin(), own.end(), agrees) && std::all_of(other.begin(), other.end(), agrees);
 }
 
 }  // namespace urban_nav_input

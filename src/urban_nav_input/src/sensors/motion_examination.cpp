@@ -16,6 +16,8 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr double kLeastDistance = 0.03, kLeastTurn = 0.02;  // m, rad: of an interval that counts
+constexpr double kSmallTurn = 0.005;  // rad: 12 times the error of a turn from 25 features with 1 px of noise at 500 px
+constexpr double kGross = 3.0;        // a ratio beyond it, or its inverse, shows in small turns too
 constexpr std::size_t kLeastIntervals = 5;
 constexpr double kMostSpread = 0.35;                // relative, ratios: the quartiles of a scale that is one number
 constexpr double kScaleTolerance = 0.2;             // relative: wheels slip, and tyres wear
@@ -54,6 +56,14 @@ std::optional<Ratio> findRatio(const std::vector<std::pair<double, double>>& mea
   const double spread = urban_nav_core::quantile(ratios, 0.75) - urban_nav_core::quantile(ratios, 0.25);
   if (spread > kMostSpread * std::abs(median)) return std::nullopt;
   return Ratio{median, ratios.size()};
+}
+
+/// Returns the ratio of turns, of small ones too where the ratio is far from one, as rates in deg/s are.
+std::optional<Ratio> findTurnRatio(const std::vector<std::pair<double, double>>& measured_reference, double least) {
+  if (const auto ratio = findRatio(measured_reference, least)) return ratio;
+  const auto ratio = findRatio(measured_reference, kSmallTurn / kLeastTurn * least);
+  const double size = ratio ? std::abs(ratio->value) : 1.0;
+  return size > kGross || size < 1.0 / kGross ? ratio : std::nullopt;
 }
 
 bool isOne(double ratio) { return std::abs(ratio - 1.0) <= kScaleTolerance; }
@@ -172,9 +182,9 @@ std::optional<Finding> MotionExamination::distanceFinding(const Ratios& ratios, 
 std::optional<Finding> MotionExamination::turnFinding(const Ratios& ratios, bool are_wheels_sound,
                                                       const std::string& imu,
                                                       const urban_nav_ros::SensorCorrections& present) {
-  auto turn = findRatio(ratios.gyroscope_turns, kLeastTurn);
+  auto turn = findTurnRatio(ratios.gyroscope_turns, kLeastTurn);
   const bool by_stereo = turn.has_value();
-  if (!turn && are_wheels_sound) turn = findRatio(ratios.gyroscope_wheels, 5.0 * kLeastTurn);
+  if (!turn && are_wheels_sound) turn = findTurnRatio(ratios.gyroscope_wheels, 5.0 * kLeastTurn);
   if (!turn || turn->value == 0.0 || isOne(turn->value)) return std::nullopt;
   const double named = nameable(turn->value);
   const std::string text = imu + ": its turns are " + formatNumber(turn->value, 3) + " times those that " +

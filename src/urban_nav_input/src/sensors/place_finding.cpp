@@ -25,6 +25,10 @@ std::string printTransform(const std::string& frame, const urban_nav_core::Pose&
 
 }  // namespace
 
+std::vector<std::string> placeOptions(const std::string& frame, const urban_nav_core::Pose& T_base_sensor) {
+  return {"--transform", printTransform(frame, T_base_sensor, 1.0)};
+}
+
 std::vector<Finding> placeFindings(const std::string& frame, const urban_nav_core::Pose& T_base_sensor) {
   const double away = T_base_sensor.t().norm();
   if (away <= kLongestRobot) return {};

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/bag_sensors.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "urban_nav_input/sensors/accelerometer_finding.hpp"
 #include "urban_nav_input/sensors/ground_finding.hpp"
+#include "urban_nav_input/sensors/place_finding.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
@@ -15,12 +17,12 @@ using urban_nav_core::SpecificForce;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector3d;
 
-void BagSensors::addLaser(const std::string& topic, const urban_nav_core::Pose& T_base_laser) {
+void BagSensors::addLaser(const std::string& topic, const std::string& frame,
+                          const urban_nav_core::Pose& T_base_laser) {
   const std::optional<ChosenTopic> right = topics_.find(Role::LaserRight);
   const bool is_right = right && right->name == topic;
   laser_topics_.push_back(topic);
-  laser_places_.push_back(T_base_laser);
-  laser_grounds_.emplace_back();
+  laser_places_.emplace_back(frame, T_base_laser);
   lasers_.emplace_back(toString(is_right ? Role::LaserRight : Role::LaserLeft), topic,
                        options_.sensors.lasers[is_right ? 1 : 0]);
 }
@@ -72,7 +74,9 @@ std::optional<urban_nav_core::PlanarScan> BagSensors::read(std::size_t laser, co
   std::optional<urban_nav_core::PlanarScan> scan = examination.read(message);
   if (!scan) return scan;
   clocks_.add(examination.role(), laser_topics_[laser], scan->stamp, receipt);
-  laser_grounds_[laser].add(*scan, laser_places_[laser]);
+  if (laser < laser_grounds_.size()) laser_grounds_[laser].add(*scan, laser_places_[laser].second);
+  if (laser_places_.size() == exchanged_grounds_.size())
+    exchanged_grounds_[laser].add(*scan, laser_places_[1 - laser].second);
   return scan;
 }
 
@@ -125,13 +129,33 @@ std::vector<Finding> BagSensors::sightFindings(const Sight& sight, double stereo
   std::vector<double> heights;
   for (const SeenGround& ground : sight.grounds)
     heights.push_back((ground.up.dot(sight.camera) - stereo_scale * ground.drop) / ground.up.z());
-  for (std::size_t i = 0; i < lasers_.size(); ++i)
-    if (auto finding = laser_grounds_[i].finding(lasers_[i].role(), laser_topics_[i], heights))
-      findings.push_back(std::move(*finding));
+  for (Finding& finding : laserGroundFindings(heights)) findings.push_back(std::move(finding));
   if (!accelerometer_ || !accelerometer_->verdict().sound()) return findings;
   Vector3d force = Vector3d::Zero();
   for (const SpecificForce& sample : forces_) force += sample.force;
   for (Finding& finding : groundFindings(name(Role::Imu), sight.grounds, force)) findings.push_back(std::move(finding));
+  return findings;
+}
+
+std::vector<Finding> BagSensors::laserGroundFindings(const std::vector<double>& stereo) const {
+  if (areExchanged(laser_grounds_, exchanged_grounds_, stereo)) {
+    Finding finding{FindingKind::Lasers,
+                    laser_topics_[0] + " and " + laser_topics_[1] +
+                        " are exchanged: each laser sees the ground where stereo does from the place of the other one",
+                    "--transform with their places exchanged; for later recordings exchange the cables, the ports or "
+                    "the names of the two lasers"};
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+      for (std::string& option : placeOptions(laser_places_[i].first, laser_places_[1 - i].second))
+        finding.options.push_back(std::move(option));
+    return {finding};
+  }
+  std::vector<Finding> findings;
+  for (std::size_t i = 0; i < std::min(lasers_.size(), laser_grounds_.size()); ++i) {
+    const bool is_right = lasers_[i].role() == toString(Role::LaserRight);
+    if (auto finding = laser_grounds_[i].finding(lasers_[i].role(), laser_topics_[i], stereo,
+                                                 options_.sensors.lasers[is_right ? 1 : 0].range_scale))
+      findings.push_back(std::move(*finding));
+  }
   return findings;
 }
 
@@ -142,6 +166,7 @@ void BagSensors::archive(urban_nav_core::Archive& archive) {
   if (accelerometer_) archive(*accelerometer_);
   for (LaserExamination& laser : lasers_) archive(laser);
   for (LaserGround& ground : laser_grounds_) archive(ground);
+  for (LaserGround& ground : exchanged_grounds_) archive(ground);
   if (!archive.isReading()) return;
   forces_.clear();
   for (const auto& [stamp, force] : forces) forces_.push_back({stamp, force});

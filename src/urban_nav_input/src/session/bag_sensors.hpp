@@ -4,8 +4,10 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "urban_nav_input/recording/bag_topics.hpp"
@@ -31,7 +33,7 @@ class BagSensors {
     findings_.insert(findings_.end(), findings.begin(), findings.end());
   }
   /// Adds the laser of a role at its place.
-  void addLaser(const std::string& topic, const urban_nav_core::Pose& T_base_laser);
+  void addLaser(const std::string& topic, const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   void placeImu(const urban_nav_core::Matrix3d& R_base_imu) {
     R_base_imu_ = R_base_imu;
     accelerometer_.emplace(R_base_imu, options_.sensors.accelerometer);
@@ -61,6 +63,7 @@ class BagSensors {
   void archive(urban_nav_core::Archive& archive);
 
  private:
+  std::vector<Finding> laserGroundFindings(const std::vector<double>& stereo) const;
   std::optional<double> findDelay(const std::string& role) const;
 
   const SourceOptions& options_;
@@ -69,9 +72,9 @@ class BagSensors {
   std::optional<urban_nav_ros::Accelerometer> accelerometer_;
   std::vector<urban_nav_core::SpecificForce> forces_;
   std::vector<std::string> laser_topics_;
-  std::vector<urban_nav_core::Pose> laser_places_;
-  std::vector<LaserGround> laser_grounds_;
-  std::vector<LaserExamination> lasers_;  // as laser_topics_
+  std::vector<std::pair<std::string, urban_nav_core::Pose>> laser_places_;  // frame, T_base_laser
+  std::array<LaserGround, 2> laser_grounds_, exchanged_grounds_;  // from the place of each, and from the other one
+  std::vector<LaserExamination> lasers_;                          // as laser_topics_
   ReadingExamination imu_, wheels_;
   GpsExamination gps_;
   ClockExamination clocks_;

@@ -203,7 +203,7 @@ class BagSource : public Source {
       if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
         laser_topics_.push_back(topic->name);
-        sensors_.addLaser(topic->name, *T_base_laser);
+        sensors_.addLaser(topic->name, scan->header.frame_id, *T_base_laser);
         sensors_.add(placeFindings(scan->header.frame_id, *T_base_laser));
       } else {
         info_.notes.push_back("no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
@@ -327,7 +327,7 @@ class BagSource : public Source {
       for (const auto& [topic, place] : lasers) {
         laser_topics_.push_back(topic);
         info_.lasers.push_back({place.first, place.second});
-        sensors_.addLaser(topic, place.second);
+        sensors_.addLaser(topic, place.first, place.second);
       }
     }
     archive(panorama_, sweeps_in_bag_);

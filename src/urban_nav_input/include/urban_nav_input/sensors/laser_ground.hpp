@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,12 @@ class LaserGround {
   void add(const urban_nav_core::PlanarScan& scan, const urban_nav_core::Pose& T_base_laser);
   /// Returns the height of the ground in base_link, m; nullopt if the low returns do not lie at one height.
   std::optional<double> height() const;
+  /// Returns whether it is at the height of the ground that stereo sees (m, in base_link).
+  bool agreesWith(double by_stereo) const;
   /// Returns what contradicts the ground that stereo sees. `stereo`: heights of the ground below base_link, m; few or
-  /// scattered ones give nothing.
-  std::optional<Finding> finding(const std::string& role, const std::string& topic,
-                                 const std::vector<double>& stereo) const;
+  /// scattered ones give nothing. `range_scale`: of the convention by which the scans were read.
+  std::optional<Finding> finding(const std::string& role, const std::string& topic, const std::vector<double>& stereo,
+                                 double range_scale = 1.0) const;
   void archive(urban_nav_core::Archive& archive) { archive(scans_, returns_, laser_height_, heights_); }
 
  private:
@@ -31,5 +34,10 @@ class LaserGround {
   double laser_height_ = 0.0;             // m, in base_link
   std::vector<std::int64_t> heights_;     // numbers of returns by height in base_link
 };
+
+/// Returns whether two lasers are exchanged: neither sees the ground where stereo does from its own place (`own`), and
+/// each does from the place of the other one (`other`).
+bool areExchanged(const std::array<LaserGround, 2>& own, const std::array<LaserGround, 2>& other,
+                  const std::vector<double>& stereo);
 
 }  // namespace urban_nav_input

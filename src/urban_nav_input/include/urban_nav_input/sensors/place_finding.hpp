@@ -13,4 +13,7 @@ namespace urban_nav_input {
 /// units than metres. The option states the place in metres, unless two units are about as likely.
 std::vector<Finding> placeFindings(const std::string& frame, const urban_nav_core::Pose& T_base_sensor);
 
+/// Returns the option that states the place of a sensor.
+std::vector<std::string> placeOptions(const std::string& frame, const urban_nav_core::Pose& T_base_sensor);
+
 }  // namespace urban_nav_input
