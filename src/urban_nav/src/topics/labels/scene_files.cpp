@@ -7,10 +7,10 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "base/matrix_file.hpp"
 #include "urban_nav_core/io/cloud/cloud_columns.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text.hpp"
-#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/folder/image_file.hpp"
 #include "urban_nav_input/recording/recording.hpp"
@@ -68,20 +68,10 @@ std::vector<SceneFiles> scenesOfSource(const std::string& source) {
 }
 
 Eigen::Matrix<double, 3, 4> readProjection(const std::string& path) {
-  Eigen::Matrix<double, 3, 4> projection;
-  Eigen::Index count = 0;
-  urban_nav_core::forEachLine(urban_nav_core::readTextFile(path), [&](std::string_view line, int number) {
-    for (const std::string_view word : urban_nav_core::splitBlanks(line)) {
-      const auto value = urban_nav_core::parseNumber(word);
-      if (!value || count == 12)
-        throw UserError(urban_nav_core::atLine(path, number), "`" + std::string(word.substr(0, 40)) + "`",
-                        "12 numbers: a 3x4 matrix, row by row");
-      projection(count / 4, count % 4) = *value;
-      ++count;
-    }
-  });
-  if (count != 12) throw UserError(path, std::to_string(count) + " numbers", "12: a 3x4 matrix, row by row");
-  return projection;
+  const std::vector<double> numbers = readMatrixFile(path);
+  if (numbers.size() != 12)
+    throw UserError(path, std::to_string(numbers.size()) + " numbers", "12: a 3x4 matrix, row by row");
+  return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
 }
 
 cv::Mat readColourImage(const std::string& path) {

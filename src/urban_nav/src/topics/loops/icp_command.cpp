@@ -4,6 +4,7 @@
 
 #include "base/console.hpp"
 #include "base/json.hpp"
+#include "base/matrix_file.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
 #include "topics/loops/cloud_units.hpp"
@@ -13,7 +14,6 @@
 #include "urban_nav_core/io/cloud/cloud_file.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/icp/align.hpp"
@@ -32,21 +32,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A 3x4 or 4x4 matrix, row by row, between blanks, commas or lines.
+/// Returns the pose of a 3x4 or 4x4 matrix.
 Pose readInitial(const std::string& path) {
-  std::vector<double> numbers;
-  urban_nav_core::forEachLine(urban_nav_core::readTextFile(path), [&](std::string_view line, int number) {
-    std::string text(line.substr(0, line.find('#')));
-    for (char& c : text)
-      if (c == ',' || c == ';') c = ' ';
-    for (const std::string_view word : urban_nav_core::splitBlanks(text)) {
-      const auto value = urban_nav_core::parseNumber(word);
-      if (!value)
-        throw UserError(urban_nav_core::atLine(path, number), "`" + std::string(word.substr(0, 40)) + "`",
-                        "a finite number");
-      numbers.push_back(*value);
-    }
-  });
+  const std::vector<double> numbers = readMatrixFile(path);
   const char* const allowed = "12 or 16: the rows of T_target_source";
   if (numbers.size() != 12 && numbers.size() != 16)
     throw UserError(path, std::to_string(numbers.size()) + " numbers", allowed);
