@@ -34,6 +34,7 @@ try:
 except ImportError:
     rosbag = None
 
+PROGRAM = TOP / "urban_nav"
 SECONDS = 15
 SENSORS = "stereo,lasers,imu,wheels,gps"
 NEAR = 0.01  # m: as of the sound session
@@ -42,7 +43,7 @@ SAMPLE = 20000  # points of a map
 
 def command(*words):
     """Exit status and text of the command, which may refuse the session."""
-    result = subprocess.run([TOP / "urban_nav", *map(str, words)], capture_output=True, text=True)
+    result = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True)
     return result.returncode, result.stdout + result.stderr
 
 
