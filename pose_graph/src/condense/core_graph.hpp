@@ -27,7 +27,11 @@ class CoreGraph {
   int edge(int core_edge) const;
   /// All poses of the graph, chains laid to fit these of the core.
   std::vector<Rigid<D>> expanded(const std::vector<Rigid<D>>& core_poses);
-  /// The chains' edges as they are where expanded() laid them last.
+  /// Chains lie as these poses of the whole graph have them.
+  void placeChains(const std::vector<Rigid<D>>& poses) { condensed_.layBy(poses); }
+  /// Distance, in weighted squares, of the ends of chains from the poses they end at.
+  double mismatch(const std::vector<Rigid<D>>& core_poses) const { return condensed_.mismatch(core_poses); }
+  /// The chains' edges as they are where expanded() or placeChains() put them last.
   void relinearise();
 
  private:

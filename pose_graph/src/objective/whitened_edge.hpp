@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "manifold/rotation.hpp"
@@ -8,6 +9,8 @@
 
 namespace pose_graph {
 
+/// Logarithm of a turn, and of the square of the normal distribution's constant.
+const double kLogTwoPi = std::log(2.0 * M_PI);
 /// Of the largest eigenvalue of an information: less is round-off.
 constexpr double kZeroEigenvalue = 1e-12;
 

@@ -52,6 +52,15 @@ void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<doubl
 }
 
 template <int D>
+void AcceptedGraph<D>::renew() {
+  if (!equations_) return;
+  std::size_t at = 0;
+  for (std::size_t e = 0; e < pattern_.size(); ++e)
+    if (pattern_[e]) part_.edges[at++] = problem_->edges[e];
+  equations_->renew(part_, 0);
+}
+
+template <int D>
 bool AcceptedGraph<D>::canKeepPattern(const std::vector<char>& in) const {
   if (!equations_) return false;
   if (in == pattern_) return true;

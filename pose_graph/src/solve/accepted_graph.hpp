@@ -30,6 +30,9 @@ class AcceptedGraph {
   /// Takes these edges (those not 0), with weights by edge of the whole problem, or ones if empty.
   void take(const std::vector<char>& in, const std::vector<double>& weights = {});
 
+  /// Takes the measurements of the problem anew; what they connect must be the same.
+  void renew();
+
   /// What it would take to factor these edges, in multiplications of blocks. `soon`: in the order that is found
   /// soonest, where it may be more.
   double work(const std::vector<char>& in, bool soon = false) const;

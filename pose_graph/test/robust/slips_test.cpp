@@ -72,12 +72,27 @@ TEST(Slips, AStepMayHaveSlippedWhereClosuresAreOutsideOrItIsFarOff) {
   const SlippedChain slipped(2.0), right(0.0);
   const auto may = [](const SlippedChain& chain, const std::vector<char>& in, const std::vector<char>& considered,
                       const std::vector<Rigid<2>>& poses) {
-    return maySlip(chain.problem, chain.roles, in, considered, poses);
+    std::vector<int> row;  // a closure for itself
+    for (std::size_t e = 0; e < chain.roles.size(); ++e) row.push_back(static_cast<int>(e));
+    return maySlip(chain.problem, chain.roles, in, considered, row, poses);
   };
   EXPECT_TRUE(may(slipped, slipped.none, slipped.all, slipped.odometry));    // all that span it are outside
   EXPECT_FALSE(may(slipped, slipped.none, slipped.none, slipped.odometry));  // and not considered
   EXPECT_TRUE(may(slipped, slipped.all, slipped.all, slipped.truth));
   EXPECT_FALSE(may(right, right.all, right.all, right.truth));
+}
+
+TEST(Slips, ClosuresThatDisagreeOnAStepShowNoSlip) {
+  SlippedChain chain(0.0);
+  std::vector<char> in = chain.all;
+  std::vector<int> row(in.size(), -1);
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (chain.roles[e] != EdgeRole::Candidate) continue;
+    row[e] = static_cast<int>(e);
+    in[e] = chain.problem.edges[e].from > 20 || chain.problem.edges[e].to <= 20;
+    if (!in[e]) chain.problem.edges[e].Z.t[1] += 5.0 * (chain.problem.edges[e].from - 10);
+  }
+  EXPECT_FALSE(maySlip(chain.problem, chain.roles, in, chain.all, row, chain.truth));
 }
 
 // The closures that span the step are all of them, one row of the same, two rows, or none.

@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "linear/index.hpp"
 #include "manifold/rotation.hpp"
@@ -62,21 +63,6 @@ double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole
   return kFarFactor * std::max(1.0, *middle);
 }
 
-// Logarithm of the determinant of what an information has, and its rank.
-template <int D>
-std::pair<double, int> logDeterminant(const TangentMatrix<D>& information) {
-  const auto eigen = urban_nav_core::smallEigen<kTangentSize<D>>(information);
-  const double largest = eigen.values[kTangentSize<D> - 1];
-  double sum = 0.0;
-  int rank = 0;
-  for (int a = 0; a < kTangentSize<D>; ++a) {
-    if (!(eigen.values[a] > kZeroEigenvalue * largest)) continue;
-    sum += std::log(eigen.values[a]);
-    ++rank;
-  }
-  return {sum, rank};
-}
-
 // Adds to information with directions that say less than that a pose is somewhere in the map, what that says: evidence
 // of what may be anywhere is no number.
 template <int D>
@@ -124,23 +110,19 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
     : problem_(problem), roles_(roles), reckoning_(problem, roles) {
   problem_.fixed = withoutCopiedPoses(problem, roles);
   for (std::size_t e = 0; e < roles.size(); ++e) {
-    is_candidate_.push_back(roles[e] == EdgeRole::Candidate);
-    if (is_candidate_.back()) candidates_.push_back(static_cast<int>(e));
+    if (roles[e] == EdgeRole::Candidate) candidates_.push_back(static_cast<int>(e));
   }
   TangentMatrix<D> given = TangentMatrix<D>::Zero(), bounded = given;  // many edges state the same
-  std::pair<double, int> determinant;
   for (std::size_t e = 0; e < roles.size(); ++e) {
     TangentMatrix<D>& information = problem_.edges[e].information;
     if (e == 0 || information != given || roles[e] != roles[e - 1]) {
       bounded = given = information;
       // A prior or a fix without information has no effect; a step of odometry without it ends somewhere in the map.
       if (roles[e] != EdgeRole::Asserted || !information.isZero(0.0)) boundInformation<D>(reckoning_.extent, bounded);
-      determinant = logDeterminant<D>(bounded);
     }
     information = bounded;
-    log_information_.push_back(determinant.first);
-    rank_.push_back(determinant.second);
   }
+  set_ = std::make_unique<RelaxedSet<D>>(problem_, roles_);
   largest_odometry_ = boundOdometryFactor(problem, roles);
   assertions_ = stateTheSame(problem, candidates_);
   constexpr int kN = kTangentSize<D>, kR = kRotationSize<D>;
@@ -231,14 +213,13 @@ double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis
 
 // Sums of squares over redundancy (Förstner 1979), translation and rotation together.
 template <int D>
-VarianceFactors HypothesisEvaluator<D>::estimateFactors(AcceptedGraph<D>& graph,
-                                                        const Hypothesis<D>& hypothesis) const {
-  const double cost = graph.cost(hypothesis.poses);
-  const typename AcceptedGraph<D>::Share closures = graph.share(hypothesis.poses, is_candidate_);
+VarianceFactors HypothesisEvaluator<D>::estimateFactors(const Hypothesis<D>& hypothesis) const {
+  const double cost = set_->cost();
+  const typename AcceptedGraph<D>::Share closures = set_->candidates();
   double ranks[2] = {0.0, 0.0};
   for (std::size_t e = 0; e < roles_.size(); ++e)
-    if (hypothesis.in[e]) ranks[roles_[e] == EdgeRole::Candidate] += rank_[e];
-  const double unknowns = graph.unknowns() * kTangentSize<D>;
+    if (hypothesis.in[e]) ranks[roles_[e] == EdgeRole::Candidate] += set_->rank(e);
+  const double unknowns = set_->unknowns() * kTangentSize<D>;
   const auto factor = [](double squares, double redundancy) {
     return likeliestFactor({squares, std::max(0.0, redundancy)});
   };
@@ -265,27 +246,16 @@ double HypothesisEvaluator<D>::gainByFactors(const Hypothesis<D>& hypothesis) co
 
 template <int D>
 void HypothesisEvaluator<D>::assess(Hypothesis<D>& hypothesis, int rounds) const {
-  constexpr int kN = kTangentSize<D>;
-  std::vector<int> edges;
-  for (std::size_t e = 0; e < roles_.size(); ++e)
-    if (hypothesis.in[e]) edges.push_back(static_cast<int>(e));
-  std::vector<double> weights(roles_.size(), 0.0);
-  AcceptedGraph<D> graph(problem_);
-  const auto factorOf = [&](int e) {
-    return roles_[sz(e)] == EdgeRole::Candidate ? hypothesis.factors.closures : hypothesis.factors.odometry;
-  };
   double steps_before[2] = {0.0, 0.0};
   for (int round = 0; round <= rounds; ++round) {
-    for (const int e : edges) weights[sz(e)] = 1.0 / factorOf(e);
-    graph.take(hypothesis.in, weights);
-    graph.relax(hypothesis.poses, kMostSteps, kEndShare, false);
-    if (round == rounds) break;
-    if (!graph.factor(hypothesis.poses)) break;
+    set_->relax(hypothesis.in, hypothesis.factors.closures, hypothesis.factors.odometry, hypothesis.poses);
+    if (round == rounds || !set_->factor()) break;
     const VarianceFactors last = hypothesis.factors;
-    hypothesis.factors = estimateFactors(graph, hypothesis);
+    hypothesis.factors = estimateFactors(hypothesis);
     const double steps[2] = {std::log(hypothesis.factors.odometry / last.odometry),
                              std::log(hypothesis.factors.closures / last.closures)};
-    if (std::abs(steps[0]) < kComponentsSettled && std::abs(steps[1]) < kComponentsSettled) {
+    // Poses and redundancies follow from the ratio of the two factors alone.
+    if (std::abs(steps[0] - steps[1]) < kComponentsSettled) {
       round = rounds - 1;  // only the poses have to follow
     } else if (round % 2 == 1) {
       hypothesis.factors.odometry =
@@ -295,14 +265,9 @@ void HypothesisEvaluator<D>::assess(Hypothesis<D>& hypothesis, int rounds) const
     std::copy(steps, steps + 2, steps_before);
   }
   hypothesis.log_evidence = -std::numeric_limits<double>::infinity();
-  if (!graph.factor(hypothesis.poses)) return;
-  const double unknowns = graph.unknowns();
-  double sum = -0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ + 0.5 * unknowns * kN * kLogTwoPi -
-               0.5 * graph.logDeterminant();
-  for (const int e : edges) {
-    sum += 0.5 * log_information_[sz(e)] - 0.5 * rank_[sz(e)] * (kLogTwoPi + std::log(factorOf(e)));
-  }
-  sum += logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
+  if (!set_->factor()) return;
+  const double sum = set_->logDensity() + set_->unknowns() * log_place_ +
+                     logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
   if (!std::isfinite(sum)) return;
   hypothesis.log_inside = sum;
   hypothesis.log_evidence = sum + chance(hypothesis);
@@ -360,18 +325,85 @@ std::vector<std::vector<int>> HypothesisEvaluator<D>::unconfirmedRows(const Hypo
 }
 
 template <int D>
+double HypothesisEvaluator<D>::followersInside(const Hypothesis<D>& hypothesis) const {
+  double sum = 0.0;
+  for (const int e : candidates_)
+    if (hypothesis.in[sz(e)] && isFollower(e) && hypothesis.in[sz(neighbour_[sz(e)])]) sum += log_alike_[sz(e)];
+  return sum;
+}
+
+template <int D>
 Hypothesis<D> HypothesisEvaluator<D>::assessRows(const Hypothesis<D>& hypothesis, int rounds) const {
   Hypothesis<D> rows = hypothesis;
-  double followers = 0.0;  // their densities given those before them in their row
-  for (const int e : candidates_) {
-    const int near = neighbour_[sz(e)];
-    if (!hypothesis.in[sz(e)] || !isFollower(e) || !hypothesis.in[sz(near)]) continue;
-    rows.in[sz(e)] = 0;
-    followers += log_alike_[sz(e)];
-  }
+  for (const int e : candidates_)
+    if (hypothesis.in[sz(e)] && isFollower(e) && hypothesis.in[sz(neighbour_[sz(e)])]) rows.in[sz(e)] = 0;
   assess(rows, rounds);
-  rows.log_evidence += followers + chance(hypothesis) - chance(rows);
+  rows.log_evidence += followersInside(hypothesis) + chance(hypothesis) - chance(rows);
   return rows;
+}
+
+template <int D>
+std::vector<double> HypothesisEvaluator<D>::estimateLosses(const Hypothesis<D>& rows, const Hypothesis<D>& hypothesis,
+                                                           const std::vector<std::vector<int>>& without) const {
+  std::vector<double> losses(without.size(), -std::numeric_limits<double>::infinity());
+  std::vector<Rigid<D>> poses = rows.poses;
+  set_->relax(rows.in, rows.factors.closures, rows.factors.odometry, poses);
+  if (!set_->factor()) return losses;
+  const double with = followersInside(hypothesis) + chance(hypothesis);
+  for (std::size_t r = 0; r < without.size(); ++r) {
+    std::vector<int> first;
+    Hypothesis<D> rest = hypothesis;
+    for (const int e : without[r]) {
+      rest.in[sz(e)] = 0;
+      if (rows.in[sz(e)]) first.push_back(e);
+    }
+    if (first.size() == 1)
+      losses[r] = set_->logDensityGivenOthers(first.front()) + with - followersInside(rest) - chance(rest);
+  }
+  return losses;
+}
+
+template <int D>
+std::vector<char> HypothesisEvaluator<D>::outsideAcceptedRows(const std::vector<char>& in) const {
+  std::map<int, int> more_inside;
+  for (const int e : candidates_) more_inside[row_[sz(e)]] += in[sz(e)] ? 1 : -1;
+  std::vector<char> outside(in.size(), 0);
+  for (const int e : candidates_) outside[sz(e)] = !in[sz(e)] && more_inside[row_[sz(e)]] > 0;
+  return outside;
+}
+
+template <int D>
+double HypothesisEvaluator<D>::mostWorth(std::size_t e, double factor) const {
+  return 0.5 * set_->logInformation(e) - 0.5 * set_->rank(e) * (kLogTwoPi + std::log(factor)) - log_false_[e];
+}
+
+template <int D>
+bool HypothesisEvaluator<D>::mayFitLooser(const Hypothesis<D>& hypothesis,
+                                          const std::vector<EdgeAssessment>& edges) const {
+  const VarianceFactors& found = hypothesis.factors;
+  const double scale = std::min(1.0, std::max(found.odometry, found.closures));
+  std::map<int, std::pair<double, double>> rows;  // cost in squares, and worth, of each outside
+  double degrees = 0.0;
+  for (const int e : candidates_) {
+    const EdgeAssessment& edge = edges[sz(e)];
+    if (edge.weight > 0.0) degrees += edge.dof;
+    if (edge.weight > 0.0 || !(edge.chi2 > 0.0)) continue;
+    const double square = edge.chi2 / scale, worth = mostWorth(sz(e), found.closures);
+    auto& [least, most] = rows.emplace(row_[sz(e)], std::make_pair(square, worth)).first->second;
+    least = std::min(least, square);
+    most = std::max(most, worth);
+  }
+  std::vector<std::pair<double, double>> nearest;
+  for (const auto& [name, row] : rows) nearest.push_back(row);
+  std::sort(nearest.begin(), nearest.end());
+  double squares = degrees, all = degrees, worth = 0.0;
+  for (const auto& [square, most] : nearest) {
+    squares += square;
+    all += kTangentSize<D>;
+    worth += most;
+    if (squares > kSameFactor * all && worth - 0.5 * (all - degrees) > 0.5 * all * std::log(squares / all)) return true;
+  }
+  return false;
 }
 
 template <int D>

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "robust/evidence/closure_loops.hpp"
 #include "robust/evidence/variances.hpp"
-#include "solve/accepted_graph.hpp"
+#include "solve/relaxed_set.hpp"
 
 namespace pose_graph {
 
 /// Logarithm of the Bayes factor that a set of closures needs over odometry alone, and over another set to be decided:
 /// a factor of 1000, "decisive" by Jeffreys, Theory of Probability, 1961.
 constexpr double kDecisive = 7.0;
+
+/// Factor of variances; less changes hardly a verdict.
+constexpr double kSameFactor = 1.4;
 
 /// A set of edges that may be the true ones, with what it explains.
 template <int D>
@@ -80,6 +84,21 @@ class HypothesisEvaluator {
   Hypothesis<D> assessRows(const Hypothesis<D>& hypothesis, int rounds) const;
   static constexpr int kRounds = 10;
 
+  /// Logarithms of the factors by which a set that assessRows() assessed is less likely without each of these rows of
+  /// its closures, linearised where it is relaxed; minus infinity where that is no estimate: rows of more than thirty,
+  /// and those that alone hold parts together.
+  std::vector<double> estimateLosses(const Hypothesis<D>& rows, const Hypothesis<D>& hypothesis,
+                                     const std::vector<std::vector<int>>& without) const;
+
+  /// Closures outside a set, by edge, in whose row more are inside: that it is one place is not in question.
+  std::vector<char> outsideAcceptedRows(const std::vector<char>& in) const;
+
+  /// Whether larger variances may gain a set that is likelier than an evaluated one, `edges` what was made of each:
+  /// with the nearest rows outside, of any number, the factor of all variances is larger, which those inside pay for. A
+  /// row costs what its nearest closure does where the set is relaxed, and is worth no more than its density were it
+  /// predicted exactly.
+  bool mayFitLooser(const Hypothesis<D>& hypothesis, const std::vector<EdgeAssessment>& edges) const;
+
   /// Whether some pose is elsewhere by more than a hundredth of the map's extent.
   bool isDisplaced(const std::vector<Rigid<D>>& poses, const std::vector<Rigid<D>>& others) const;
 
@@ -95,16 +114,18 @@ class HypothesisEvaluator {
     const std::size_t i = static_cast<std::size_t>(e);
     return neighbour_[i] >= 0 && log_alike_[i] > log_false_[i];
   }
-  // Estimates both factors anew where the graph is relaxed and factored.
-  VarianceFactors estimateFactors(AcceptedGraph<D>& graph, const Hypothesis<D>& hypothesis) const;
+  // Estimates both factors anew where the set is relaxed and factored.
+  VarianceFactors estimateFactors(const Hypothesis<D>& hypothesis) const;
+  // Logarithm of how much likelier than by chance a closure may be, with this factor of its variances.
+  double mostWorth(std::size_t closure, double factor) const;
+  // Logarithm of the densities of closures that follow another one in their row, given the one before.
+  double followersInside(const Hypothesis<D>& hypothesis) const;
 
   Problem<D> problem_;  // what an edge does not measure lies within the map; poses fixed by odometry alone are free
   const std::vector<EdgeRole>& roles_;
   DeadReckoning<D> reckoning_;
   std::vector<int> candidates_;
-  std::vector<char> is_candidate_;
-  std::vector<int> rank_;                ///< by edge, of its information
-  std::vector<double> log_information_;  ///< by edge, of the determinant of its information
+  std::unique_ptr<RelaxedSet<D>> set_;
   double largest_odometry_ = 1.0;
   bool assertions_ = false;
   double log_odometry_ = 0.0;      ///< log_inside of odometry alone

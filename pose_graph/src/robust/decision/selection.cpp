@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "robust/evidence/closure_loops.hpp"
 #include "robust/generators/admission.hpp"
@@ -22,7 +21,6 @@ constexpr int kRow = 5;  // of closures in a row outside, one in so many stands 
 constexpr double kDense = 20.0, kSoonFactored = 1e7;
 // A row that no other confirms is left out if so many others are inside, as in an exchange of groups.
 constexpr double kOthers = 8.0;
-constexpr double kSameFactor = 1.4;  // of variances: less changes hardly a verdict
 // Beyond so many poses what nothing contests is not scored, and beyond so many one selection is all that there is time
 // for, weighed where the chains of a graph leave a core that is no larger.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
@@ -45,8 +43,8 @@ void Selection<D>::run() {
   odometry_ = evaluator_->evaluateOdometry();
   weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
   best_.hypothesis = hypothesisOver(best_.selected, {});
-  best_.members = best_.hypothesis.in;
   evaluator_->evaluate(best_.hypothesis);
+  readmit(best_);
   contract(best_.hypothesis);
   weighed_.emplace_back(best_.hypothesis.log_evidence, best_.members);
   if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
@@ -67,11 +65,13 @@ void Selection<D>::run() {
 template <int D>
 bool Selection<D>::isUndecided() const {
   if (contested_ || core_) return !(evidence() >= kDecisive);
+  const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
+  // Factors that follow from the rows make them likelier; what is no evidence of them is about as much as of all.
+  if (overOdometry(rowsAlone()) - best_.hypothesis.by_contraction >= loosened) return false;
   Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
   rows.by_contraction = 0.0;  // their volume is another one
   contract(rows);
   const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
-  const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
   return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
 }
 
@@ -80,7 +80,7 @@ std::vector<char> Selection<D>::inUncontestedParts() const {
   std::vector<char> uncontested(problem_.poses.size(), 0), contested_part = uncontested;
   if (core_ || !contested_ || isLoosened()) return uncontested;
   for (std::size_t e = 0; e < roles_.size(); ++e) {
-    if (!isBetween(e) && best_.selected.edges[e].verdict != urban_nav_core::ClosureVerdict::Rejected) continue;
+    if (!isBetween(e) && (best_.hypothesis.in[e] || roles_[e] != EdgeRole::Candidate)) continue;
     contested_part[sz(parts_[sz(problem_.edges[e].from)])] = contested_part[sz(parts_[sz(problem_.edges[e].to)])] = 1;
   }
   for (std::size_t i = 0; i < uncontested.size(); ++i) uncontested[i] = !contested_part[sz(parts_[i])];
@@ -154,16 +154,18 @@ template <int D>
 bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
   const std::vector<std::vector<int>> rows = evaluator_->unconfirmedRows(best_.hypothesis);
   if (rows.empty()) return false;
-  const Hypothesis<D> all = evaluator_->assessRows(best_.hypothesis, 0);
+  const Hypothesis<D>& all = rowsAlone();
+  const std::vector<double> losses = evaluator_->estimateLosses(all, best_.hypothesis, rows);
   std::vector<int> nearly_as_likely;  // closures of such rows
   double rivals = 0.0;
-  for (const std::vector<int>& row : rows) {
-    Hypothesis<D> without = best_.hypothesis;
-    for (const int e : row) without.in[sz(e)] = 0;
-    without = evaluator_->assessRows(without, 0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (losses[r] >= 2.0 * kDecisive) continue;  // as good as linearised
+    Hypothesis<D> rest = best_.hypothesis;
+    for (const int e : rows[r]) rest.in[sz(e)] = 0;
+    const Hypothesis<D> without = evaluator_->assessRows(rest, 0);
     if (!(all.log_evidence - without.log_evidence < kDecisive)) continue;
     if (best_.slips.empty() && !evaluator_->isDisplaced(without.poses, all.poses)) continue;
-    nearly_as_likely.insert(nearly_as_likely.end(), row.begin(), row.end());
+    nearly_as_likely.insert(nearly_as_likely.end(), rows[r].begin(), rows[r].end());
     ++rivals;
   }
   // Among few rows, a lack of confirmation is no sign of an error.
@@ -174,9 +176,9 @@ bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
 }
 
 template <int D>
-bool Selection<D>::isLoosened() const {
-  const VarianceFactors& factors = best_.hypothesis.factors;
-  return std::max({best_.selected.variance, factors.odometry, factors.closures}) > kContestedFactor;
+const Hypothesis<D>& Selection<D>::rowsAlone() const {
+  if (!rows_alone_) rows_alone_ = evaluator_->assessRows(best_.hypothesis, 0);
+  return *rows_alone_;
 }
 
 template <int D>
@@ -241,13 +243,19 @@ bool Selection<D>::holdsWithout(const SelectedEdges<D>& selected, const std::vec
 template <int D>
 void Selection<D>::readmit(Proposal& proposal) const {
   proposal.members = proposal.hypothesis.in;
-  const VarianceFactors& factors = proposal.found_with;
-  if (!(factors.closures < 1.0) || rejected(proposal.selected) == 0) return;
-  const std::vector<char> fitting = findFitting(withFactors(proposed_, proposed_roles_, factors), proposed_roles_,
-                                                proposedFrom(proposal.hypothesis.in, 1), proposal.hypothesis.poses,
-                                                proposedFrom(evaluator_->rows(), -1), 1.0 / factors.closures);
+  const double stated = 1.0 / std::min(1.0, proposal.found_with.closures);
+  if (stated > 1.0 && rejected(proposal.selected) > 0) readmit(proposal, stated, std::vector<char>(roles_.size(), 1));
+  const std::vector<char> in_rows = evaluator_->outsideAcceptedRows(proposal.members);
+  if (std::count(in_rows.begin(), in_rows.end(), 1) > 0) readmit(proposal, sampledMargin() * stated, in_rows);
+}
+
+template <int D>
+void Selection<D>::readmit(Proposal& proposal, double own, const std::vector<char>& some) const {
+  const std::vector<char> fitting = findFitting(withFactors(proposed_, proposed_roles_, proposal.found_with),
+                                                proposed_roles_, proposedFrom(proposal.hypothesis.in, 1),
+                                                proposal.hypothesis.poses, proposedFrom(evaluator_->rows(), -1), own);
   for (std::size_t e = 0; e < roles_.size(); ++e) {
-    if (!fitting[e] || (e < barred_.size() && barred_[e])) continue;
+    if (!fitting[e] || !some[e] || (e < barred_.size() && barred_[e])) continue;
     proposal.members[e] = 1;
     proposal.selected.edges[e].weight = 1.0;
     proposal.selected.edges[e].verdict = urban_nav_core::ClosureVerdict::Accepted;
@@ -379,8 +387,9 @@ typename Selection<D>::Considered Selection<D>::considerConfirmed(const Problem<
   for (std::size_t e = 0; e < proposed_roles_.size(); ++e)
     if (proposed_roles_[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
   const DeadReckoning<D> reckoning(scaled, proposed_roles_);
-  const std::vector<int> group = consistentGroups(scaled.edges.size(), ClosureLoops<D>(scaled, candidates, reckoning),
-                                                  1.0, Thresholds(candidates.size(), kTangentSize<D>));
+  const Thresholds thresholds(candidates.size(), kTangentSize<D>);
+  const std::vector<int> group =
+      consistentGroups(scaled.edges.size(), ClosureLoops<D>(scaled, candidates, reckoning), 1.0, thresholds);
   std::vector<int> members(scaled.edges.size(), 0);
   for (const int e : candidates) ++members[sz(group[sz(e)])];
   Considered made{best_.hypothesis.in, {}};
@@ -399,14 +408,18 @@ template <int D>
 void Selection<D>::proposeSlips(const VarianceFactors& factors) {
   const Problem<D> scaled = withFactors(proposed_, proposed_roles_, best_.hypothesis.factors);
   const std::vector<char> in = proposedFrom(best_.hypothesis.in, 1);
-  if (rejected(best_.selected) == 0 && !maySlip(scaled, proposed_roles_, in, in, best_.hypothesis.poses)) return;
+  const auto may_slip = [&](const std::vector<char>& some) {
+    return maySlip(scaled, proposed_roles_, in, some, proposedFrom(evaluator_->rows(), -1), best_.hypothesis.poses);
+  };
+  if (rejected(best_.selected) == 0 && !may_slip(in)) return;
   Considered some = considerConfirmed(scaled);
   std::vector<char> considered = std::move(some.confirmed), all(scaled.edges.size(), 1);
   const AcceptedGraph<D> graph(scaled);
-  if (graph.work(all, true) <= kWork * graph.work(considered, true)) considered = std::move(all);
-  else if (!maySlip(scaled, proposed_roles_, in, considered, best_.hypothesis.poses)) return;
+  const double all_work = graph.work(all, true), in_work = graph.work(in, true);
+  if (all_work <= kWork * graph.work(considered, true)) considered = std::move(all);
+  if (all_work > kWork * in_work && !may_slip(considered)) return;
   // Rows of false closures between far places would fill the factor.
-  if (graph.work(considered, true) > kWork * graph.work(in, true)) considered = std::move(some.thinned);
+  if (graph.work(considered, true) > kWork * in_work) considered = std::move(some.thinned);
   if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
   // From odometry as it is, a slip that closures nearby seem to bear out is not found. What is no more than chance
   // refutes nothing.
@@ -440,7 +453,7 @@ void Selection<D>::tryScales() {
   const auto try_with = [&](const VarianceFactors& factors) {
     if (!isUnquestioned() && factors.odometry <= evaluator_->largestOdometryFactor()) propose(factors, slips_);
   };
-  const bool looser = evidence() < kDecisive || mayFitLooser();
+  const bool looser = evidence() < kDecisive || evaluator_->mayFitLooser(best_.hypothesis, best_.selected.edges);
   if (looser) try_with({kFarFactor, kFarFactor});  // what is too sure of itself shuts true ones out
   if (!isCredible()) {
     if (looser) try_with({kFarFactor, 1.0});
@@ -454,8 +467,8 @@ void Selection<D>::tryScales() {
 }
 
 template <int D>
-bool Selection<D>::isUnquestioned() {
-  if (rejectsMany(best_.selected) || evidence() < kDecisive) return false;
+bool Selection<D>::agreesWithItself() {
+  if (evidence() < kDecisive) return false;
   if (!best_.is_contradicted) {
     const Hypothesis<D>& best = best_.hypothesis;
     best_.is_contradicted = contradictsItself(
@@ -466,26 +479,8 @@ bool Selection<D>::isUnquestioned() {
 }
 
 template <int D>
-bool Selection<D>::mayFitLooser() const {
-  const Thresholds thresholds(candidates_, kTangentSize<D>);
-  const VarianceFactors& found = best_.hypothesis.factors;
-  const double far = kFarFactor * std::min(1.0, std::max(found.odometry, found.closures));
-  std::size_t near = 0;
-  for (const EdgeAssessment& edge : best_.selected.edges)
-    near += edge.verdict == urban_nav_core::ClosureVerdict::Rejected &&
-            edge.chi2 <= far * thresholds.limit[sz(std::max(1, edge.dof))];
-  return static_cast<double>(near) > Thresholds::kContested * static_cast<double>(candidates_);
-}
-
-template <int D>
-bool Selection<D>::isSettled() const {
-  const VarianceFactors& now = best_.hypothesis.factors;
-  return now.areWithin(kSameFactor, best_.found_with) || now.areWithin(kSameFactor, repeated_with_);
-}
-
-template <int D>
 void Selection<D>::repeatWithFactors() {
-  for (int i = 0; i < kRepeats && !isSettled() && !(isTighter() && isUnquestioned()); ++i) {
+  for (int i = 0; i < kRepeats && !isSettled() && !(isTighter() && agreesWithItself()); ++i) {
     const VarianceFactors now = best_.hypothesis.factors;
     repeated_with_ = now;
     if (!propose(now, slips_)) return;

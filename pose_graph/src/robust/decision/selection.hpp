@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -68,6 +69,9 @@ class Selection {
   // Edges that the best set and all its rivals have; none where there is no rival.
   std::optional<std::vector<char>> findShared() const;
 
+  // The best set by one closure of each row (HypothesisEvaluator::assessRows()), with its own factors.
+  const Hypothesis<D>& rowsAlone() const;
+
   // Takes out of `shared` what sets nearly as likely have not. Returns whether there are any.
   bool shareWithSets(std::vector<char>& shared) const;
 
@@ -78,7 +82,10 @@ class Selection {
   double overOdometry(const Hypothesis<D>& hypothesis) const {
     return hypothesis.log_evidence - hypothesis.by_contraction - odometry_.log_evidence;
   }
-  bool isLoosened() const;
+  bool isLoosened() const {
+    const VarianceFactors& factors = best_.hypothesis.factors;
+    return std::max({best_.selected.variance, factors.odometry, factors.closures}) > kContestedFactor;
+  }
   std::ptrdiff_t rejected(const SelectedEdges<D>& selected) const;
   bool rejectsMany(const SelectedEdges<D>& selected) const {
     return static_cast<double>(rejected(selected)) > Thresholds::kContested * static_cast<double>(candidates_);
@@ -111,8 +118,11 @@ class Selection {
   SelectedEdges<D> selectProposed(const VarianceFactors& factors, double most_work) const;
 
   // Accepts closures that err no more than they state, where the proposed variances are smaller than that: by these
-  // they were rejected, which are not theirs.
+  // they were rejected, which are not theirs. Those of an accepted row also by the test of what has to leave, which is
+  // wider than that of what enters: their place is not in question.
   void readmit(Proposal& proposal) const;
+  // Accepts those of `some` (by edge) that fit where their own variances are `own` times larger.
+  void readmit(Proposal& proposal, double own, const std::vector<char>& some) const;
 
   // Whether accepted edges join the two ends of each slip, also without any one row of closures: where none do, the
   // step is not refuted, and one row is one place, which may resemble another one.
@@ -159,25 +169,25 @@ class Selection {
 
   void tryScales();
 
-  // Whether the best set is decisive and takes nearly all closures, none of which contradicts the rest where variances
-  // are those that follow from it (contradictsItself()), and its own no less than stated: no other variances find a
-  // likelier set. That it is likelier than odometry alone is not enough.
-  bool isUnquestioned();
+  // Whether the best set is decisive and no closure of it contradicts the rest where variances are those that follow
+  // from it (contradictsItself()), and its own no less than stated. That it is likelier than odometry alone is not
+  // enough.
+  bool agreesWithItself();
+  // Whether it takes nearly all closures, too: no other variances find a likelier set.
+  bool isUnquestioned() { return !rejectsMany(best_.selected) && agreesWithItself(); }
 
   // Whether the best set explains far more than chance, with variances near those stated.
   bool isCredible() const { return evidence() >= kDecisive && !best_.hypothesis.factors.areBeyond(kContestedFactor); }
 
-  // Whether more than a few of the rejected closures would fit the best set with variances kFarFactor times larger than
-  // those stated, or than those that follow from it if they are smaller. Where they would not, and the set explains
-  // more than chance, no others can be gained by that.
-  bool mayFitLooser() const;
-
   // Whether the best set was found with the variances that follow from it, or none better was.
-  bool isSettled() const;
+  bool isSettled() const {
+    const VarianceFactors& now = best_.hypothesis.factors;
+    return now.areWithin(kSameFactor, best_.found_with) || now.areWithin(kSameFactor, repeated_with_);
+  }
 
-  // Whether the variances that follow from the best set are no larger than those it was found with. Where it takes
-  // nearly all closures, another selection with these gains none, and loses those that err as much as they state where
-  // most err by far less.
+  // Whether the variances that follow from the best set are no larger than those it was found with. Where it agrees
+  // with itself, another selection with these gains none, and loses those that err as stated where most err by far
+  // less.
   bool isTighter() const {
     const VarianceFactors &now = best_.hypothesis.factors, &then = best_.found_with;
     return now.odometry <= then.odometry && now.closures <= then.closures;
@@ -198,6 +208,7 @@ class Selection {
   std::unique_ptr<HypothesisEvaluator<D>> evaluator_;
   Hypothesis<D> odometry_;
   Proposal best_;
+  mutable std::optional<Hypothesis<D>> rows_alone_;  // once it was asked for
   VarianceFactors repeated_with_;
   std::vector<std::pair<double, std::vector<char>>> weighed_;  // evidence of each set, and its members
   std::vector<Slip<D>> slips_;

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "objective/whitened_edge.hpp"
 #include "pose_graph/robust.hpp"
 
 namespace pose_graph {
 
-/// Logarithm of a turn, and of the square of the normal distribution's constant.
-const double kLogTwoPi = std::log(2.0 * M_PI);
 /// Metres: the extent of a graph that does not move at all.
 constexpr double kLeastExtent = 1e-3;
 /// Poses: about the length of a visit to a place. Closures whose ends are as near are of one row, and one and the same

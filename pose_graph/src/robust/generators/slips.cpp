@@ -156,18 +156,73 @@ std::vector<int> countRefuting(const Problem<D>& problem, const std::vector<Edge
   return against;
 }
 
+// Steps that two rows of closures more outside than inside span, and one closure of each row outside over any of them:
+// a slip of the step is what two of these have to agree on.
+template <int D>
+struct ContradictingRows {
+  std::vector<int> closures;
+  std::vector<char> contradicted;  // the step from each pose to the next
+
+  ContradictingRows(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
+                    const std::vector<char>& considered, const std::vector<int>& row) {
+    std::map<int, int> inside, outside;
+    for (std::size_t e = 0; e < in.size(); ++e)
+      if (roles[e] == EdgeRole::Candidate && considered[e]) (in[e] ? inside : outside).emplace(row[e], e);
+    std::vector<int> against(problem.poses.size() + 1, 0);
+    const auto span = [&](int e, int sign) {
+      const auto [first, last] = std::minmax(problem.edges[sz(e)].from, problem.edges[sz(e)].to);
+      against[sz(first)] += sign;
+      against[sz(last)] -= sign;
+    };
+    for (const auto& [name, e] : inside) span(e, -1);
+    for (const auto& [name, e] : outside)
+      if (!inside.count(name)) span(e, 1);
+    for (std::size_t i = 1; i < against.size(); ++i) against[i] += against[i - 1];
+    for (const int more : against) contradicted.push_back(more >= static_cast<int>(Thresholds::kLeastAgreeing));
+    std::vector<int> before(contradicted.size() + 1, 0);  // steps before a pose
+    for (std::size_t i = 0; i < contradicted.size(); ++i) before[i + 1] = before[i] + contradicted[i];
+    for (const auto& [name, e] : outside) {
+      const auto [first, last] = std::minmax(problem.edges[sz(e)].from, problem.edges[sz(e)].to);
+      if (!inside.count(name) && before[sz(last)] > before[sz(first)]) closures.push_back(e);
+    }
+  }
+
+  bool shareStep(const Edge<D>& a, const Edge<D>& b) const {
+    const int first = std::max(std::min(a.from, a.to), std::min(b.from, b.to));
+    const int last = std::min(std::max(a.from, a.to), std::max(b.from, b.to));
+    for (int i = first; i < last; ++i)
+      if (contradicted[sz(i)]) return true;
+    return false;
+  }
+};
+
+// The loop of two closures that span one step does not lead over it: where that step slipped, they agree all the same
+// on how the two sides lie, as far as the other edges know each side.
+template <int D>
+bool anyAgree(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const ContradictingRows<D>& rows,
+              const std::vector<Rigid<D>>& poses) {
+  DeadReckoning<D> known(problem, roles);
+  known.pose = poses;
+  known.Q.assign(poses.size(), TangentMatrix<D>::Zero());
+  const ClosureLoops<D> loops(problem, rows.closures, known);
+  for (std::size_t a = 0; a < loops.size(); ++a)
+    for (std::size_t b = a + 1; b < loops.size(); ++b)
+      if (rows.shareStep(problem.edges[sz(loops.edge(a))], problem.edges[sz(loops.edge(b))]) &&
+          loops.loop(a, b).chi2 <= kFarFactor)
+        return true;
+  return false;
+}
+
 }  // namespace
 
 template <int D>
 bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
-             const std::vector<char>& considered, const std::vector<Rigid<D>>& poses) {
+             const std::vector<char>& considered, const std::vector<int>& row, const std::vector<Rigid<D>>& poses) {
   const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
   const double limit = slipLimit(kLooseFactor, roles, edges, poses);
   for (std::size_t e = 0; e < in.size(); ++e)
     if (roles[e] == EdgeRole::Trusted && squareOver(edges[e], poses) > limit) return true;
-  const std::vector<int> against = countRefuting(problem, roles, in, considered);
-  return std::any_of(against.begin(), against.end(),
-                     [](int more) { return more >= static_cast<int>(Thresholds::kLeastAgreeing); });
+  return anyAgree(problem, roles, ContradictingRows<D>(problem, roles, in, considered, row), poses);
 }
 
 template <int D>
@@ -257,9 +312,9 @@ bool joinEndsWithoutAnyRow(const Problem<D>& problem, const std::vector<EdgeRole
 }
 
 template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                         const std::vector<char>&, const std::vector<Rigid<2>>&);
+                         const std::vector<char>&, const std::vector<int>&, const std::vector<Rigid<2>>&);
 template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                         const std::vector<char>&, const std::vector<Rigid<3>>&);
+                         const std::vector<char>&, const std::vector<int>&, const std::vector<Rigid<3>>&);
 template std::vector<char> mostRefuted<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                                           const std::vector<char>&);
 template std::vector<char> mostRefuted<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,

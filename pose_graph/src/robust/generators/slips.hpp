@@ -15,11 +15,12 @@ struct Slip {
 };
 
 /// Whether a step of odometry may have slipped, as a set of edges that is relaxed shows it: it is outside its
-/// covariance there, or more of the closures that span it are outside the set than inside. Only those of `considered`
-/// count.
+/// covariance there, or more rows of closures (`row`: by edge, one closure of each) that span it are outside the set
+/// than inside, by two at least, and two of them agree to ten deviations on what the step is instead. Only those of
+/// `considered` count.
 template <int D>
 bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
-             const std::vector<char>& considered, const std::vector<Rigid<D>>& poses);
+             const std::vector<char>& considered, const std::vector<int>& row, const std::vector<Rigid<D>>& poses);
 
 /// The steps that more of the closures which span them refute than bear out than any others, by edge; none (empty)
 /// where hardly any does. As maySlip() otherwise.
