@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLeastDistance = 0.03, kLeastTurn = 0.02;  // m, rad: of an interval that counts
 constexpr double kSmallTurn = 0.005;  // rad: 12 times the error of a turn from 25 features with 1 px of noise at 500 px
-constexpr double kGross = 3.0;        // a ratio beyond it, or its inverse, shows in small turns too
+constexpr double kGross = 3.0;        // a ratio beyond it shows in small turns too
 constexpr std::size_t kLeastIntervals = 5;
 constexpr double kMostSpread = 0.35;                // relative, ratios: the quartiles of a scale that is one number
 constexpr double kScaleTolerance = 0.2;             // relative: wheels slip, and tyres wear
@@ -58,12 +58,12 @@ std::optional<Ratio> findRatio(const std::vector<std::pair<double, double>>& mea
   return Ratio{median, ratios.size()};
 }
 
-/// Returns the ratio of turns, of small ones too where the ratio is far from one, as rates in deg/s are.
+/// Returns the ratio of turns, of small ones too where it is far above one, as that of rates in deg/s is. Far below one
+/// it may be that of a reading that never changes.
 std::optional<Ratio> findTurnRatio(const std::vector<std::pair<double, double>>& measured_reference, double least) {
   if (const auto ratio = findRatio(measured_reference, least)) return ratio;
   const auto ratio = findRatio(measured_reference, kSmallTurn / kLeastTurn * least);
-  const double size = ratio ? std::abs(ratio->value) : 1.0;
-  return size > kGross || size < 1.0 / kGross ? ratio : std::nullopt;
+  return ratio && std::abs(ratio->value) > kGross ? ratio : std::nullopt;
 }
 
 bool isOne(double ratio) { return std::abs(ratio - 1.0) <= kScaleTolerance; }

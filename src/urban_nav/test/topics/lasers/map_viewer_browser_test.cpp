@@ -18,7 +18,7 @@
 namespace urban_nav {
 namespace {
 
-constexpr const char* kModes[] = {"rgb", "reflectance", "height", "pass", "laser", "sigma", "quality"};
+constexpr const char* kModes[] = {"pictures", "reflectance", "height", "pass", "sensor", "sigma", "quality"};
 constexpr int kBelowControls = 80;  // px
 
 std::string findBrowser() {
