@@ -15,5 +15,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Below /usr, libraries are in the folder of the architecture, in the devel space too.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CATKIN_DEVEL_PREFIX}/lib ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION})
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-roslaunch, nodelet, ros-robot-state-publisher, rviz")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-roslaunch, libnodeletlib-tools, ros-robot-state-publisher, rviz")
 include(CPack)
