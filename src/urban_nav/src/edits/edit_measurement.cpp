@@ -64,9 +64,7 @@ MetricClosure measurePair(Store& store, const StoredMeasurements& measurements, 
   return std::move(measured.front());
 }
 
-SeenPoint findSeenPoint(Store& store, const StoredMeasurements& measurements, const NodeRef& at, double u, double v) {
-  const SessionOdometry& run = measurements.sessions.runs[sessionPlace(measurements.sessions, at.session)];
-  const std::optional<MountedCamera> camera = urban_nav_registration::parseCalibrationFingerprint(run.cameras);
+std::optional<urban_nav_core::StampNs> findNearestView(Store& store, const NodeRef& at, double within) {
   const std::vector<urban_nav_core::StampNs> stamps =
       store.keyframes().stamps(at.session, urban_nav_registration::kKeyframeCamera);
   const auto distance = [&](urban_nav_core::StampNs stamp) {
@@ -74,7 +72,15 @@ SeenPoint findSeenPoint(Store& store, const StoredMeasurements& measurements, co
   };
   const auto nearest = std::min_element(stamps.begin(), stamps.end(),
                                         [&](auto one, auto other) { return distance(one) < distance(other); });
-  if (!camera || nearest == stamps.end() || distance(*nearest) > kNearestView)
+  if (nearest == stamps.end() || distance(*nearest) > within) return std::nullopt;
+  return *nearest;
+}
+
+SeenPoint findSeenPoint(Store& store, const StoredMeasurements& measurements, const NodeRef& at, double u, double v) {
+  const SessionOdometry& run = measurements.sessions.runs[sessionPlace(measurements.sessions, at.session)];
+  const std::optional<MountedCamera> camera = urban_nav_registration::parseCalibrationFingerprint(run.cameras);
+  const std::optional<urban_nav_core::StampNs> nearest = findNearestView(store, at, kNearestView);
+  if (!camera || !nearest)
     throw UserError("--point", "the store holds no view of the left camera within 1 s of T",
                     "a T with one, or a pin of base_link without --point");
   const auto row = store.keyframes().get(at.session, urban_nav_registration::kKeyframeCamera, *nearest);

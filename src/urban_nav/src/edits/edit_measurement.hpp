@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "base/parameter_set.hpp"
@@ -14,6 +15,11 @@ namespace urban_nav {
 urban_nav_core::MetricClosure measurePair(urban_nav_store::Store& store, const StoredMeasurements& measurements,
                                           const ParameterSet& parameters, const urban_nav_store::NodeRef& a,
                                           const urban_nav_store::NodeRef& b);
+
+/// Returns the stamp of the stored view of the left camera nearest to a pose; nullopt if it is further away than
+/// `within`, s.
+std::optional<urban_nav_core::StampNs> findNearestView(urban_nav_store::Store& store,
+                                                       const urban_nav_store::NodeRef& at, double within);
 
 /// Returns the stored view of the left camera nearest to a pose, its stamp, and the point in base_link that it shows at
 /// a pixel. Throws UserError if there is no view within 1 s, or no point within some pixels.

@@ -9,6 +9,7 @@
 #include "base/command_parameters.hpp"
 #include "base/parameters.hpp"
 #include "edits/edge_list.hpp"
+#include "edits/edit_measurement.hpp"
 #include "edits/edit_store.hpp"
 #include "edits/edited_map.hpp"
 #include "edits/jump.hpp"
@@ -40,15 +41,9 @@ constexpr double kLargestViewGap = 2.0;  // s
 /// Returns the view of the left camera nearest to a time as JPEG.
 std::optional<std::string> nearestView(Store& store, const urban_nav_store::SessionId& session,
                                        urban_nav_core::StampNs stamp) {
-  using urban_nav_registration::kKeyframeCamera;
-  const std::vector<urban_nav_core::StampNs> stamps = store.keyframes().stamps(session, kKeyframeCamera);
-  const auto distance = [&](urban_nav_core::StampNs each) {
-    return std::abs(urban_nav_core::secondsBetween(stamp, each));
-  };
-  const auto nearest =
-      std::min_element(stamps.begin(), stamps.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
-  if (nearest == stamps.end() || distance(*nearest) > kLargestViewGap) return std::nullopt;
-  const auto row = store.keyframes().get(session, kKeyframeCamera, *nearest);
+  const std::optional<urban_nav_core::StampNs> nearest = findNearestView(store, {session, stamp}, kLargestViewGap);
+  if (!nearest) return std::nullopt;
+  const auto row = store.keyframes().get(session, urban_nav_registration::kKeyframeCamera, *nearest);
   const urban_nav_registration::Keyframe keyframe = urban_nav_registration::toKeyframe(*row, session);
   if (keyframe.image.empty()) return std::nullopt;
   return std::string(keyframe.image.begin(), keyframe.image.end());
