@@ -15,7 +15,7 @@ void archive(Archive& archive, Feature& feature) {
 void archive(Archive& archive, Landmark& landmark) { archive(landmark.id, landmark.p_odom, landmark.sigma); }
 
 void archive(Archive& archive, RigConstants& rig) {
-  archive(rig.roll_rad, rig.roll_sigma_rad, rig.delay_s, rig.delay_sigma_s, rig.scale_sigma);
+  archive(rig.roll_rad, rig.roll_sigma_rad, rig.delay_s, rig.delay_sigma_s, rig.scale_sigma, rig.right_turn_rad);
 }
 
 std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin) {

@@ -40,7 +40,7 @@ constexpr double kAstrayPeriods = 3.5;
 constexpr int kLandmarksPerFeature = 4;
 
 constexpr const char* kStateName = "swf_vo";
-constexpr std::uint32_t kStateVersion = 8;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t kStateVersion = 9;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;

@@ -104,7 +104,7 @@ bool MotionMonitor::closeMoveWindow() {
 
 // The ratio of the lengths is what the windows before have shown.
 void MotionMonitor::addLengthEvidence() {
-  const std::vector<ChangeDetector::Segment> segments = speed_.detector.segments();
+  const std::vector<urban_nav_core::ChangeDetector::Segment> segments = speed_.detector.segments();
   if (segments.empty()) return;
   const double forward = std::abs(move_.forward), known = segments.back().sigma * forward,
                error = move_.forward_error - segments.back().mean * move_.forward;
@@ -140,7 +140,7 @@ std::optional<ConsistencyTest> MotionMonitor::turnTest() const {
 std::optional<ConsistencyTest> MotionMonitor::makeTest(const Wording& wording, const Constant& constant) {
   const std::int64_t count = constant.detector.measurements();
   if (count < 2) return std::nullopt;
-  const std::vector<ChangeDetector::Segment> segments = constant.detector.segments();
+  const std::vector<urban_nav_core::ChangeDetector::Segment> segments = constant.detector.segments();
   const bool has_changed = segments.size() > 1;
   ConsistencyTest test;
   test.name = wording.name;
@@ -148,9 +148,9 @@ std::optional<ConsistencyTest> MotionMonitor::makeTest(const Wording& wording, c
                    segments.back().interval.to};
   test.statistic = constant.detector.statistic();
   test.degrees_of_freedom = static_cast<double>(count);
-  test.p_value = changeProbability(test.statistic, std::max(count, kWindowsPerHour));
+  test.p_value = urban_nav_core::changeProbability(test.statistic, std::max(count, kWindowsPerHour));
   test.remedy = wording.remedy;
-  const auto value = [&](const ChangeDetector::Segment& segment) {
+  const auto value = [&](const urban_nav_core::ChangeDetector::Segment& segment) {
     return formatNumber(wording.per_unit * segment.mean) + " " + wording.unit + " (+-" +
            formatNumber(wording.per_unit * segment.sigma, 2) + ")";
   };

@@ -36,10 +36,10 @@ bool OffsetMonitor::add(StampNs stamp, double step_px, double sigma_px) {
   const bool alarm = detector_.add({interval, step_px, std::sqrt(kSharedLandmarks) * std::hypot(sigma_px, kStepFloor)});
   largest_ = std::max(largest_, detector_.statistic());
   if (!alarm) return false;
-  const std::vector<ChangeDetector::Segment> segments = detector_.segments();
-  const ChangeDetector::Segment &before = segments[segments.size() - 2], &after = segments.back();
+  const std::vector<urban_nav_core::ChangeDetector::Segment> segments = detector_.segments();
+  const urban_nav_core::ChangeDetector::Segment &before = segments[segments.size() - 2], &after = segments.back();
   changes_.push_back({after.interval.from, after.mean - before.mean, std::hypot(before.sigma, after.sigma)});
-  detector_ = ChangeDetector(false_alarm_, kHorizon);
+  detector_ = urban_nav_core::ChangeDetector(false_alarm_, kHorizon);
   quiet_until_ = stamp + kRenewal;
   return true;
 }
@@ -51,7 +51,7 @@ std::optional<ConsistencyTest> OffsetMonitor::test() const {
   test.interval = {changes_.empty() ? first_ : changes_.front().stamp, last_};
   test.statistic = largest_;
   test.degrees_of_freedom = static_cast<double>(frames_);
-  test.p_value = changeProbability(largest_, std::max(frames_, kHorizon));
+  test.p_value = urban_nav_core::changeProbability(largest_, std::max(frames_, kHorizon));
   test.remedy =
       "A camera of the stereo pair, left or right, was turned or moved against the other: fix its mount and calibrate "
       "the pair; lengths measured since then are wrong.";

@@ -60,6 +60,9 @@ struct RigConstants {
   /// Of a relative error that all lengths of the path have in common: what the calibration (`rig_scale`) and the
   /// disparity offset leave open. It is in T_odom_base's covariance, not in those of steps.
   double scale_sigma = 0.0;
+  /// Turn of the right camera against its calibrated orientation, found after a knock and corrected in its images
+  /// (urban_nav_core::TurnedRightCamera); zero: none was found.
+  urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();
 };
 
 /// A motion sensor that contradicted the images and was left out.

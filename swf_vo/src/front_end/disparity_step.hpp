@@ -4,38 +4,39 @@
 #include <vector>
 
 #include "front_end/match.hpp"
+#include "front_end/robust_fit.hpp"
 #include "swf_vo/frame.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace swf_vo {
 
+/// Turn of the right camera about its x and z axes (rad; R_calibrated_turned = exp(turn)) that the rows of the images
+/// show, and its standard deviations; 0: not measured.
+struct RowStep {
+  Eigen::Vector2d turn = Eigen::Vector2d::Zero(), sigma = Eigen::Vector2d::Zero();
+};
+
 /// Measures by how much the disparities of the landmarks in both images exceed those that the map of earlier frames
 /// predicts:
 ///   d - d(T_camera_odom) = (1 + x^2) step + (d(T_camera_odom) / z) t + error,
-/// with x the tangent of the direction along the rows: a turn of the right camera about its y axis by step / fx. t is
-/// an error of the camera's place along its axis, estimated too. Where the rig has not changed since
-/// the landmarks were measured, the step is zero. `matches`: before any was rejected for its disparity;
-/// `T_camera_odom`: mostly by measurements in one image each.
-///
-/// Huber's weights; matches further apart than kStepOutlier from the median are taken as wrong. The standard deviation
-/// is that of a sandwich over cells of the image, whose matches share errors (Liang and Zeger 1986). A sigma of 0: too
-/// few.
+/// with x the tangent of the direction along the rows: a turn of the right camera about its y axis by step / fx. t, an
+/// error of the camera's position along its axis, is estimated too. Where the rig has not changed since the landmarks
+/// were measured, the step is zero. `matches`: before any was rejected for its disparity; `T_camera_odom`: mostly by
+/// measurements in one image each. Robust, with the standard deviation of fitRobustly(). A sigma of 0: too few.
 ///
 /// Allocates nothing once it has seen as many matches as come.
 class DisparityStepMeter {
  public:
   DisparityStep measure(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                         const std::vector<Match>& matches);
-
-  struct Difference {
-    double px = 0.0;                                  ///< measured less predicted disparity
-    Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< derivative by the step, and by the place along the axis (1/m)
-    std::size_t cell = 0;                             ///< of the image
-  };
+  /// Measures the rows of the right image against those of the left one, less `row_offset_px`, which is usual:
+  ///   v_right - v_left = fy ((1 + y^2) turn_x - x turn_z) + error.
+  RowStep measureRows(const urban_nav_core::StereoCamera& camera, const std::vector<Match>& matches,
+                      double row_offset_px);
 
  private:
-  std::vector<Difference> differences_;
+  std::vector<PixelDifference> differences_;
   std::vector<double> values_;
 };
 

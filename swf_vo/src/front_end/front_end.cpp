@@ -8,12 +8,13 @@
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
 #include "front_end/disparity_step.hpp"
-#include "front_end/match.hpp"
+#include "front_end/match_list.hpp"
 #include "front_end/noise_scale.hpp"
 #include "front_end/patch_residual_test.hpp"
 #include "front_end/pose_estimation.hpp"
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
+#include "front_end/right_turn.hpp"
 #include "front_end/rig_rows.hpp"
 #include "front_end/rotation.hpp"
 #include "front_end/row_offset.hpp"
@@ -53,6 +54,10 @@ constexpr double kConstantShare = 0.2;
 constexpr int kLongestAverage = 30;
 constexpr double kLeastTwoEyed = 0.3;                 // share of the inliers
 constexpr int kMostMissed = 3, kMostMissedYoung = 1;  // frames
+// A turn of the right camera and two corrections of it. It has to lower the robust cost by the quantile 1e-6 of a
+// chi-square of one degree of freedom, three times over: landmarks share errors (docs/derivations/rig_constants.md).
+constexpr int kTurnAttempts = 3;
+constexpr double kTurnEvidence = 3.0 * 24.0;
 constexpr int kLongestAside = 50;                     // frames: what was known as long ago has left the view
 constexpr int kDisagreementsRefute = 2, kDisagreementsRefuteYoung = 1, kYoung = 3;  // frames
 
@@ -84,6 +89,7 @@ class FrontEnd::Implementation {
         tracks_(capacity_),
         noise_(capacity_),
         rows_(4 * capacity_),
+        right_turn_(camera),
         rig_({parameters.right_roll * M_PI / 180.0, 1e-3 * parameters.shutter_delay}, camera_),
         replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor, subpixel) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
@@ -107,7 +113,7 @@ class FrontEnd::Implementation {
     edges_ = edges;
     camera_.disparity_offset = disparity_offset;
     if (!isPair(pair)) return result_;
-    corners_.extract(pair);
+    corners_.extract(right_turn_.correct(pair));
     result_.corners = corners_.count(Side::Left);
     gather(map);
     const bool next = frame == frame_ + 1;
@@ -120,6 +126,7 @@ class FrontEnd::Implementation {
     const Pose T_turned_odom = turn(next ? last : T_odom_localised_, predicted, quality.is_turn_known);
     result_.T_odom_turned = T_turned_odom.inverse();
     locate(T_turned_odom, predicted.inverse());
+    detectTurn(pair, T_turned_odom, predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
     if (next && result_.localised)
@@ -130,6 +137,7 @@ class FrontEnd::Implementation {
     }
     result_.row_offset_px = rows_.px();
     result_.rig = rig_.evaluate();
+    result_.rig.right_turn_rad = right_turn_.turn();
     result_.noise_scale = std::sqrt(noise_.typical());
     astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
@@ -141,7 +149,7 @@ class FrontEnd::Implementation {
   void archive(urban_nav_core::Archive& archive) {
     archive(corners_, rotation_);
     tracks_.archive(archive, parameters_.pyramid_levels);
-    archive(noise_, rows_, rig_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
+    archive(noise_, rows_, right_turn_, rig_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
     archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
     archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels),
                     "levels are missing");
@@ -187,14 +195,7 @@ class FrontEnd::Implementation {
   /// The prediction with the rotation that the images show, unless it is known better; odom into the camera.
   Pose turn(const Pose& last, const Pose& predicted, bool is_known) {
     const Pose T_now_last = predicted.inverse() * last;
-    parallax_.clear();
-    const Pose T_last_odom = last.inverse();
-    for (const Match& match : matches_) {
-      const auto pixel = projectInto(Side::Left, camera_, T_last_odom, match.p_odom);
-      if (!pixel) continue;
-      const double depth = (T_last_odom.q() * match.p_odom.head<3>() + T_last_odom.t() * match.p_odom.w()).z();
-      parallax_.push_back({*pixel, T_now_last.t() * (match.p_odom.w() / depth)});
-    }
+    listParallax(camera_, last.inverse(), T_now_last.t(), matches_, parallax_);
     const RotationEstimate seen =
         rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
     result_.turned = seen.found && !(is_known && astray_);
@@ -365,6 +366,35 @@ class FrontEnd::Implementation {
     result_.reprojection_px = fine.reprojection_px;
   }
 
+  /// Locates the frame again with the right camera turned by what the disparity step asks for, as after a knock. The
+  /// turn is taken where the matches then fit better by more than chance; else all stays as it was.
+  void detectTurn(const StereoPair& pair, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    std::optional<Eigen::Vector3d> turn = right_turn_.propose(measureSteps(), pair.stamp);
+    for (int i = 0; turn && i < kTurnAttempts; ++i) {
+      const Eigen::Vector3d turn_before = right_turn_.turn();
+      const double cost_before = robustCost(matches_);
+      const std::vector<Match> matches = matches_;
+      const FrontEndResult result = result_;
+      right_turn_.set(*turn);
+      corners_.extract(right_turn_.correct(pair));
+      locate(T_turned_odom, T_predicted_odom);
+      const double needed = i == 0 ? kTurnEvidence : 0.0;
+      if (!result_.localised || robustCost(matches_) > cost_before - needed) {
+        right_turn_.set(turn_before);
+        corners_.extract(right_turn_.correct(pair));
+        matches_ = matches;
+        result_ = result;
+        break;
+      }
+      turn = right_turn_.refine(measureSteps());
+    }
+    result_.disparity_step = right_turn_.add(result_.disparity_step, pair.stamp);
+  }
+
+  RigStep measureSteps() {
+    return {result_.disparity_step, disparity_step_meter_.measureRows(camera_, matches_, rows_.px())};
+  }
+
   void measure(Match& match) {
     if (!subpixel_) roundToPixels(match);
     combine(parameters_.pixel_noise_floor, match, rows_.px());
@@ -381,7 +411,7 @@ class FrontEnd::Implementation {
   /// carried along.
   bool isByChance(const PoseEstimate& found) const {
     const auto in_view = std::count_if(matches_.begin(), matches_.end(),
-                                       [&](const Match& match) { return isInView(match, found.T_camera_odom); });
+                                       [&](const Match& match) { return isInView(camera_, found.T_camera_odom, match); });
     return found.inliers < kLeastShareInView * static_cast<double>(in_view);
   }
 
@@ -389,8 +419,7 @@ class FrontEnd::Implementation {
   /// (swapped, or of different times), and a motion that explains one of them is wrong. A dark image is another matter:
   /// one eye is enough.
   bool isOneEyed(int inliers) const {
-    int both = 0;
-    for (const Match& match : matches_) both += match.inlier && match.left.found && match.right.found ? 1 : 0;
+    const int both = countInBoth(matches_);
     const int enough = static_cast<int>(matches_.size());
     return both < kLeastTwoEyed * inliers && corners_.count(Side::Left) > enough &&
            corners_.count(Side::Right) > enough;
@@ -401,7 +430,7 @@ class FrontEnd::Implementation {
     Track& track = *match.track;
     if (match.inlier) {
       if (match.left.found && match.right.found) rows_.see(match.right.pixel.y() - match.left.pixel.y());
-      fillIn(match);
+      fillIn(camera_, result_.T_odom_camera.inverse(), match);
       learnSurface(corners_, camera_, result_.T_odom_camera.inverse(), match);
       ++track.seen;
       const Eigen::Matrix2d& aligned = match.left.found ? match.left.covariance : match.right.covariance;
@@ -435,24 +464,9 @@ class FrontEnd::Implementation {
     // Lost for a moment, as in a flash of light: what was known well may still be found when the images are good again.
     if (!result_.localised && track.seen >= kYoung) return;
     const int most = track.seen < kYoung ? kMostMissedYoung : kMostMissed;
-    if (++track.missed < most && isInView(match, result_.T_odom_camera.inverse())) return;
+    if (++track.missed < most && isInView(camera_, result_.T_odom_camera.inverse(), match)) return;
     result_.ended.push_back(track.id);
     tracks_.end(track.id);
-  }
-
-  /// What was not measured gets its predicted value, so that a measurement can be drawn; its information stays zero.
-  void fillIn(Match& match) const {
-    const Pose T_camera_odom = result_.T_odom_camera.inverse();
-    const auto left = projectInto(Side::Left, camera_, T_camera_odom, match.p_odom),
-               right = projectInto(Side::Right, camera_, T_camera_odom, match.p_odom);
-    if (!match.left.found && left) match.z.x() = left->x();
-    if (!match.right.found && right) match.z.z() = right->x();
-  }
-
-  bool isInView(const Match& match, const Pose& T_camera_odom) const {
-    const auto pixel = projectInto(Side::Left, camera_, T_camera_odom, match.p_odom);
-    return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < camera_.left.width &&
-           pixel->y() < camera_.left.height;
   }
 
   Parameters parameters_;
@@ -467,6 +481,7 @@ class FrontEnd::Implementation {
   Tracks tracks_;
   NoiseScale noise_;
   RowOffset rows_;
+  RightTurn right_turn_;
   RigRows rig_;
   Replenisher replenisher_;
   std::vector<PatchResidualTest> residual_test_;  // of landmarks that are followed, by level

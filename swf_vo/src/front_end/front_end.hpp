@@ -32,7 +32,7 @@ struct FrontEndResult {
   double row_offset_px = 0.0;    ///< RowOffset, as known by now
   double noise_scale = 1.0;      ///< NoiseScale::typical(), in standard deviations
   DisparityStep disparity_step;  ///< sigma 0 where nothing was compared
-  RigConstants rig;              ///< RigRows, as known by now
+  RigConstants rig;              ///< RigRows and RightTurn, as known by now
 };
 
 /// What is known of a predicted pose.

@@ -12,7 +12,7 @@ namespace urban_nav {
 
 /// One item of the reading pass.
 struct PassItem {
-  const urban_nav_input::SourceItem& input;  ///< rectified pair, motion, scans, faults of its data
+  urban_nav_input::SourceItem& input;  ///< rectified pair, corrected by stage vo, motion, scans, faults of its data
   const OdometryFrame* odometry = nullptr;   ///< of this frame, set by stage vo, which comes first
 };
 

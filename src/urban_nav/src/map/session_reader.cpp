@@ -133,7 +133,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   Progress bar(context_.console, has_images ? "vo" : "lo", has_images ? "frames" : "sweeps", frames);
   auto read = static_cast<std::int64_t>(context_.sessions[session_].odometry->frames.size());  // or sweeps
   urban_nav_input::SampledPairs images(source_->info(), kJudgedPairs, kLeastJudgedStep);
-  while (const std::optional<urban_nav_input::SourceItem> input = source_->next()) {
+  while (std::optional<urban_nav_input::SourceItem> input = source_->next()) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
     processPanoramas(input->panoramas);

@@ -3,14 +3,11 @@
 
 #include <string>
 
-#include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_core/types/interval.hpp"
 
 namespace urban_nav_trust {
 
-/// Time between two stamps, both included.
-struct Interval {
-  urban_nav_core::StampNs from = 0, to = 0;
-};
+using urban_nav_core::Interval;
 
 /// Comparison of two independent measurements of one quantity.
 struct ConsistencyTest {

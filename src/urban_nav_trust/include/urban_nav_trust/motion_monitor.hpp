@@ -7,7 +7,7 @@
 
 #include "urban_nav_core/types/frame_measurements.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
-#include "urban_nav_trust/change_detector.hpp"
+#include "urban_nav_core/sequence/change_detector.hpp"
 #include "urban_nav_trust/consistency_test.hpp"
 #include "urban_nav_trust/covariance_scale.hpp"
 #include "urban_nav_trust/parameters.hpp"
@@ -47,8 +47,8 @@ class MotionMonitor {
   /// A constant that is measured in windows.
   struct Constant {
     explicit Constant(const Parameters& parameters);
-    ChangeDetector detector;
-    bool add(const ConstantMeasurement& measurement) { return detector.add(measurement); }
+    urban_nav_core::ChangeDetector detector;
+    bool add(const urban_nav_core::ConstantMeasurement& measurement) { return detector.add(measurement); }
   };
   struct Wording {
     const char *name, *quantity, *unit, *remedy;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "urban_nav_trust/change_detector.hpp"
+#include "urban_nav_core/sequence/change_detector.hpp"
 #include "urban_nav_trust/consistency_test.hpp"
 #include "urban_nav_trust/parameters.hpp"
 
@@ -38,7 +38,7 @@ class OffsetMonitor {
     double px = 0.0, sigma_px = 0.0;
   };
   double false_alarm_;
-  ChangeDetector detector_;
+  urban_nav_core::ChangeDetector detector_;
   std::int64_t frames_ = 0;
   double largest_ = 0.0;
   bool any_frame_ = false;

@@ -9,6 +9,7 @@
 
 #include "map/session_pass.hpp"
 #include "topics/vo/vo_run.hpp"
+#include "urban_nav_core/camera/turned_right_camera.hpp"
 
 namespace urban_nav {
 
@@ -25,6 +26,8 @@ class VoRecorder {
 
   /// Returns the frame that it has added to the run.
   const OdometryFrame& process(const urban_nav_input::SourceItem& input);
+  /// Corrects the right image of the pair that was processed last by the turn of the right camera, if one was found.
+  void correctRight(urban_nav_core::StereoPairWithMotion& frame);
   /// Empties the window, and turns `odom` so that z is opposite to gravity if `is_levelled` and the input's specific
   /// forces show it. Returns whether it was turned. No process() after it.
   bool finish(const PassEnd& end, bool is_levelled);
@@ -36,6 +39,7 @@ class VoRecorder {
 
   VoRun& run_;
   std::optional<swf_vo::SwfVo> filter_;  // never empty: optional so that a state can replace it
+  urban_nav_core::TurnedRightCamera right_;
   std::unique_ptr<PictureKeeper> pictures_;
 };
 

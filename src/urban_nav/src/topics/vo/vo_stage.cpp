@@ -51,6 +51,7 @@ class VoPass final : public SessionPass {
 
   void process(PassItem& item) override {
     item.odometry = &recorder_.process(item.input);
+    recorder_.correctRight(item.input.assembled);
     for (; faults_reported_ < std::min(run_.faults.size(), kFaultsOnConsole); ++faults_reported_)
       console_.warn(run_.faults[faults_reported_]);
   }

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
-#include "urban_nav_trust/consistency_test.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/interval.hpp"
 
-namespace urban_nav_trust {
+namespace urban_nav_core {
 
 /// An unbiased, normally distributed measurement of a constant, independent of all others.
 struct ConstantMeasurement {
@@ -23,16 +23,19 @@ struct ConstantMeasurement {
 ///
 /// An alarm ends a segment where the means before and after differ by most standard deviations, which is where the
 /// likelihood of one change is largest (Hinkley 1970). There a new segment begins, with a prior of its own. A
-/// change further back than kRecent measurements is dated there. Memory is bounded. Not thread-safe.
+/// change further back than `recent` measurements is dated there. Allocates at construction and for an alarm only. Not
+/// thread-safe.
 class ChangeDetector {
  public:
   static constexpr std::size_t kRecent = 2048;
   /// `false_alarm`: probability of an alarm in `horizon` measurements of a constant that does not change; in (0, 1).
-  ChangeDetector(double false_alarm, std::int64_t horizon);
+  ChangeDetector(double false_alarm, std::int64_t horizon, std::size_t recent = kRecent);
 
   /// Adds a measurement. Values that are not finite and sigmas that are not above 0 are ignored. Returns whether it
   /// raises an alarm.
   bool add(const ConstantMeasurement& measurement);
+  /// Returns what add() would, and changes nothing.
+  bool wouldAlarm(const ConstantMeasurement& measurement) const;
 
   /// A time in which the constant did not change.
   struct Segment {
@@ -43,9 +46,13 @@ class ChangeDetector {
   /// Returns the segments so far, in order of time; the last one is still open. Empty without a measurement.
   std::vector<Segment> segments() const;
   std::int64_t measurements() const { return count_; }
+  /// Returns the weighted mean of the open segment and its standard deviation; 0 and infinity without a measurement.
+  double mean() const { return open_.count > 0 ? open_.weighted / open_.weight : 0.0; }
+  double meanSigma() const;
   /// Returns the largest sum so far, in standard deviations.
   double statistic() const { return largest_; }
   double threshold() const { return threshold_; }
+  void archive(Archive& archive);
 
  private:
   /// Measurements as sums.
@@ -55,7 +62,12 @@ class ChangeDetector {
     double weight = 0.0, weighted = 0.0;  ///< of 1 / sigma^2 and of value / sigma^2
     void add(const ConstantMeasurement& measurement);
     Segment toSegment() const;
+    void archive(Archive& archive) { archive(interval.from, interval.to, count, weight, weighted); }
   };
+  /// Returns the i-th oldest of the recent measurements.
+  const ConstantMeasurement& recent(std::size_t i) const { return recent_[(oldest_ + i) % recent_.size()]; }
+  /// Returns the recursive residual w of the open segment; 0 for its first measurement.
+  double residual(const ConstantMeasurement& measurement) const;
   void addToSegment(const ConstantMeasurement& measurement);
   /// Ends the open segment where its most likely change is.
   void split();
@@ -63,14 +75,18 @@ class ChangeDetector {
   double threshold_, largest_ = 0.0;
   std::int64_t count_ = 0;
   std::vector<Segment> closed_;
-  Sums past_, open_;                        // the open segment: before its recent measurements, and all of it
-  std::deque<ConstantMeasurement> recent_;  // at most kRecent
+  Sums past_, open_;                         // the open segment: before its recent measurements, and all of it
+  std::size_t most_recent_, oldest_ = 0;     // capacity; index of the oldest recent measurement
+  std::vector<ConstantMeasurement> recent_;  // ring
   double rise_ = 0.0, fall_ = 0.0;
 };
+
+void archive(Archive& archive, ConstantMeasurement& measurement);
+void archive(Archive& archive, ChangeDetector::Segment& segment);
 
 /// Returns the probability that the largest of both sums exceeds `statistic` within `measurements` measurements of a
 /// constant that does not change: 1 - exp(-n r), with 1 / r the mean number of measurements to an alarm by Siegmund's
 /// approximation (Sequential Analysis, 1985, equation 2.56), halved for two sides.
 double changeProbability(double statistic, std::int64_t measurements);
 
-}  // namespace urban_nav_trust
+}  // namespace urban_nav_core

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_trust/change_detector.hpp"
+#include "urban_nav_core/sequence/change_detector.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "urban_nav_core/trajectory/chi_square.hpp"
 
-namespace urban_nav_trust {
+namespace urban_nav_core {
 namespace {
 
-constexpr urban_nav_core::StampNs kSecond = 1'000'000'000;
+constexpr StampNs kSecond = 1'000'000'000;
 
 /// Measurements of a constant, with standard deviations that differ.
 class Drive {
@@ -132,6 +133,26 @@ TEST(ChangeDetector, IgnoresWhatIsNoMeasurement) {
   EXPECT_EQ(detector.segments().front().mean, 1e6);
 }
 
+TEST(ChangeDetector, ContinuesFromItsState) {
+  ChangeDetector whole(1e-4, 100, 8);
+  Drive drive(11);
+  for (int k = 0; k < 30; ++k) whole.add(drive.measure(0.2));
+  Archive writing;
+  writing(whole);
+  const std::string bytes = writing.take();
+  ChangeDetector resumed(1e-4, 100, 8);
+  Archive reading(bytes, "state");
+  reading(resumed);
+  reading.finish();
+  for (int k = 0; k < 30; ++k) {
+    const ConstantMeasurement measurement = drive.measure(-1.2);
+    EXPECT_EQ(resumed.add(measurement), whole.add(measurement));
+  }
+  ASSERT_EQ(whole.segments().size(), 2U);
+  EXPECT_EQ(resumed.segments()[1].mean, whole.segments()[1].mean);
+  EXPECT_EQ(resumed.segments()[1].interval.from, whole.segments()[1].interval.from);
+}
+
 TEST(ChangeProbability, IsOneForNothingAndFallsByE) {
   EXPECT_NEAR(changeProbability(0.0, 1'000'000), 1.0, 1e-9);
   EXPECT_NEAR(changeProbability(21.0, 100) / changeProbability(20.0, 100), std::exp(-1.0), 1e-3);
@@ -139,4 +160,4 @@ TEST(ChangeProbability, IsOneForNothingAndFallsByE) {
 }
 
 }  // namespace
-}  // namespace urban_nav_trust
+}  // namespace urban_nav_core

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_trust/change_detector.hpp"
+#include "urban_nav_core/sequence/change_detector.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
-namespace urban_nav_trust {
+namespace urban_nav_core {
 
 namespace {
 
 constexpr double kReference = 0.5;    // half of the smallest change that is to be found, in sigmas
 constexpr double kOvershoot = 1.166;  // 2 x 0.583, mean excess of a normal walk over a boundary (Siegmund 1985)
+
+bool isMeasurement(const ConstantMeasurement& measurement) {
+  return std::isfinite(measurement.value) && measurement.sigma > 0.0 && std::isfinite(measurement.sigma);
+}
 
 }  // namespace
 
@@ -20,8 +25,9 @@ double changeProbability(double statistic, std::int64_t measurements) {
   return -std::expm1(-2.0 * static_cast<double>(measurements) / run_length);
 }
 
-ChangeDetector::ChangeDetector(double false_alarm, std::int64_t horizon) {
-  assert(false_alarm > 0.0 && false_alarm < 1.0 && horizon > 0);
+ChangeDetector::ChangeDetector(double false_alarm, std::int64_t horizon, std::size_t recent) : most_recent_(recent) {
+  assert(false_alarm > 0.0 && false_alarm < 1.0 && horizon > 0 && recent > 1);
+  recent_.reserve(recent);
   double low = 0.0, high = 1000.0;
   while (high - low > 1e-9) {
     const double middle = 0.5 * (low + high);
@@ -42,25 +48,34 @@ ChangeDetector::Segment ChangeDetector::Sums::toSegment() const {
   return {interval, count, weighted / weight, 1.0 / std::sqrt(weight)};
 }
 
+double ChangeDetector::residual(const ConstantMeasurement& measurement) const {
+  if (open_.count == 0) return 0.0;
+  const double variance = measurement.sigma * measurement.sigma + 1.0 / open_.weight;
+  return (measurement.value - open_.weighted / open_.weight) / std::sqrt(variance);
+}
+
 void ChangeDetector::addToSegment(const ConstantMeasurement& measurement) {
-  double residual = 0.0;
-  if (open_.count > 0) {
-    const double variance = measurement.sigma * measurement.sigma + 1.0 / open_.weight;
-    residual = (measurement.value - open_.weighted / open_.weight) / std::sqrt(variance);
-  }
+  const double w = residual(measurement);
   open_.add(measurement);
-  recent_.push_back(measurement);
-  if (recent_.size() > kRecent) {
-    past_.add(recent_.front());
-    recent_.pop_front();
+  if (recent_.size() < most_recent_) {
+    recent_.push_back(measurement);
+  } else {
+    past_.add(recent_[oldest_]);
+    recent_[oldest_] = measurement;
+    oldest_ = (oldest_ + 1) % recent_.size();
   }
-  rise_ = std::max(0.0, rise_ + residual - kReference);
-  fall_ = std::max(0.0, fall_ - residual - kReference);
+  rise_ = std::max(0.0, rise_ + w - kReference);
+  fall_ = std::max(0.0, fall_ - w - kReference);
+}
+
+bool ChangeDetector::wouldAlarm(const ConstantMeasurement& measurement) const {
+  if (!isMeasurement(measurement)) return false;
+  const double w = residual(measurement);
+  return std::max(rise_ + w, fall_ - w) - kReference > threshold_;
 }
 
 bool ChangeDetector::add(const ConstantMeasurement& measurement) {
-  if (!std::isfinite(measurement.value) || !(measurement.sigma > 0.0) || !std::isfinite(measurement.sigma))
-    return false;
+  if (!isMeasurement(measurement)) return false;
   ++count_;
   addToSegment(measurement);
   const double sum = std::max(rise_, fall_);
@@ -85,15 +100,37 @@ void ChangeDetector::split() {
         best_before = before;
       }
     }
-    before.add(recent_[i]);
+    before.add(recent(i));
   }
   if (best_before.count == 0) return;
   closed_.push_back(best_before.toSegment());
-  const std::deque<ConstantMeasurement> after(recent_.begin() + static_cast<std::ptrdiff_t>(change), recent_.end());
+  std::vector<ConstantMeasurement> after;
+  for (std::size_t i = change; i < recent_.size(); ++i) after.push_back(recent(i));
   past_ = open_ = Sums();
   recent_.clear();
+  oldest_ = 0;
   rise_ = fall_ = 0.0;
   for (const ConstantMeasurement& each : after) addToSegment(each);
+}
+
+double ChangeDetector::meanSigma() const {
+  return open_.count > 0 ? 1.0 / std::sqrt(open_.weight) : std::numeric_limits<double>::infinity();
+}
+
+void archive(Archive& archive, ConstantMeasurement& measurement) {
+  archive(measurement.interval.from, measurement.interval.to, measurement.value, measurement.sigma);
+  archive.require(measurement.sigma > 0.0, "a standard deviation is not positive");
+}
+
+void archive(Archive& archive, ChangeDetector::Segment& segment) {
+  archive(segment.interval.from, segment.interval.to, segment.measurements, segment.mean, segment.sigma);
+}
+
+void ChangeDetector::archive(Archive& archive) {
+  archive(largest_, count_, closed_, past_, open_, recent_, oldest_, rise_, fall_);
+  archive.require(recent_.size() <= most_recent_ && (oldest_ == 0 || oldest_ < recent_.size()),
+                  "recent measurements do not fit");
+  recent_.reserve(most_recent_);
 }
 
 std::vector<ChangeDetector::Segment> ChangeDetector::segments() const {
@@ -102,4 +139,4 @@ std::vector<ChangeDetector::Segment> ChangeDetector::segments() const {
   return all;
 }
 
-}  // namespace urban_nav_trust
+}  // namespace urban_nav_core

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/match_list.hpp"
+
+#include <algorithm>
+
+#include "front_end/temporal.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr double kOutlierChi2 = 11.3;  // quantile 0.99 of three degrees of freedom
+
+}  // namespace
+
+int countInBoth(const std::vector<Match>& matches) {
+  return static_cast<int>(std::count_if(matches.begin(), matches.end(), [](const Match& match) {
+    return match.inlier && match.left.found && match.right.found;
+  }));
+}
+
+double robustCost(const std::vector<Match>& matches) {
+  double cost = 0.0;
+  for (const Match& match : matches) {
+    const bool is_inlier = match.inlier && match.left.found && match.right.found;
+    cost += is_inlier ? std::min(match.chi2, kOutlierChi2) : kOutlierChi2;
+  }
+  return cost;
+}
+
+bool isInView(const StereoCamera& camera, const Pose& T_camera_odom, const Match& match) {
+  const auto pixel = projectInto(Side::Left, camera, T_camera_odom, match.p_odom);
+  return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < camera.left.width &&
+         pixel->y() < camera.left.height;
+}
+
+void fillIn(const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
+  const auto left = projectInto(Side::Left, camera, T_camera_odom, match.p_odom),
+             right = projectInto(Side::Right, camera, T_camera_odom, match.p_odom);
+  if (!match.left.found && left) match.z.x() = left->x();
+  if (!match.right.found && right) match.z.z() = right->x();
+}
+
+void listParallax(const StereoCamera& camera, const Pose& T_last_odom, const Eigen::Vector3d& t_now_last,
+                  const std::vector<Match>& matches, std::vector<Parallax>& parallax) {
+  parallax.clear();
+  for (const Match& match : matches) {
+    const auto pixel = projectInto(Side::Left, camera, T_last_odom, match.p_odom);
+    if (!pixel) continue;
+    const double depth = (T_last_odom.q() * match.p_odom.head<3>() + T_last_odom.t() * match.p_odom.w()).z();
+    parallax.push_back({*pixel, t_now_last * (match.p_odom.w() / depth)});
+  }
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "front_end/disparity_step.hpp"
+#include "swf_vo/frame.hpp"
+#include "urban_nav_core/camera/turned_right_camera.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/sequence/change_detector.hpp"
+#include "urban_nav_core/types/stereo_pair.hpp"
+
+namespace swf_vo {
+
+/// Steps of one frame, measured in corrected images.
+struct RigStep {
+  DisparityStep disparity;
+  RowStep rows;
+};
+
+/// Detects that the right camera was turned against the left one, as by a knock, and corrects its images from then on.
+/// Derivation: docs/derivations/rig_constants.md.
+class RightTurn {
+ public:
+  explicit RightTurn(const urban_nav_core::StereoCamera& camera);
+
+  /// Returns the pair with its right image corrected. Views of it are valid until the next call.
+  urban_nav_core::StereoPair correct(const urban_nav_core::StereoPair& pair);
+  /// Returns the turn of the right camera that explains the steps of a frame, rad: where one of them is too large for
+  /// noise, or where the disparity step ends a sum of steps (ChangeDetector) that is; else nullopt.
+  std::optional<Eigen::Vector3d> propose(const RigStep& step, urban_nav_core::StampNs stamp) const;
+  /// Returns the turn that explains the steps of a frame whose turn is known roughly, rad.
+  Eigen::Vector3d refine(const RigStep& step) const;
+  /// Corrects by another turn from this frame on.
+  void set(const Eigen::Vector3d& turn) { right_.set(turn); }
+  const Eigen::Vector3d& turn() const { return right_.turn(); }
+
+  /// Adds the final step of a frame and returns it relative to the mounting in which the landmarks were measured: after
+  /// a change it stays as large as the change until the landmarks are renewed.
+  DisparityStep add(const DisparityStep& step, urban_nav_core::StampNs stamp);
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  double fx_;
+  urban_nav_core::TurnedRightCamera right_;
+  std::vector<std::uint8_t> pixels_;
+  urban_nav_core::ChangeDetector detector_;     // of the present mounting
+  double usual_px_ = 0.0, usual_sigma_ = -1.0;  // mean of the steps without a change; negative: none was measured
+  Eigen::Vector3d final_turn_ = Eigen::Vector3d::Zero();  // of the frame before
+  double changed_px_ = 0.0;              // increase of the disparity by the changes since the last renewal
+  urban_nav_core::StampNs renewed_ = 0;  // from when on all landmarks are of the present mounting
+};
+
+}  // namespace swf_vo
