@@ -93,6 +93,7 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   message.landmarks_in_prior = static_cast<std::uint32_t>(figures.landmarks_in_prior);
   const MotionComparison& compared = frame.motion.newest;
   Eigen::Map<Eigen::Vector3d>(message.turn_error.data()) = compared.turn_error;
+  Eigen::Map<Eigen::Vector3d>(message.right_turn.data()) = figures.right_turn_rad;
   std::tie(message.turn_sigma, message.forward, message.sideways, message.forward_error, message.forward_sigma,
            message.imu_delay, message.imu_delay_sigma, message.track_length_mean, message.reprojection_px,
            message.disparity_offset_px, message.disparity_offset_sigma_px, message.disparity_step_px,

@@ -15,7 +15,7 @@ void archive(Archive& archive, Feature& feature) {
 void archive(Archive& archive, Landmark& landmark) { archive(landmark.id, landmark.p_odom, landmark.sigma); }
 
 void archive(Archive& archive, RigConstants& rig) {
-  archive(rig.roll_rad, rig.roll_sigma_rad, rig.delay_s, rig.delay_sigma_s, rig.scale_sigma, rig.right_turn_rad);
+  archive(rig.roll_rad, rig.roll_sigma_rad, rig.delay_s, rig.delay_sigma_s, rig.scale_sigma);
 }
 
 std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin) {
@@ -51,6 +51,7 @@ void archive(Archive& archive, Settled& settled) {
 
 void archive(Archive& archive, Frame& frame) {
   archive(frame.frame, frame.stamp, frame.accepted, frame.T_odom_base, frame.velocity.twist, frame.velocity.covariance);
+  archive(frame.rig.right_turn_rad);  // not in RigConstants, whose form stored runs have
   archive(frame.status, frame.statistics, frame.rig, frame.motion, frame.settled, frame.features, frame.landmarks);
 }
 

@@ -140,6 +140,7 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
     frame_.statistics.disparity_step = seen->disparity_step;
   }
   frame_.rig.scale_sigma = window.scaleSigma();
+  frame_.statistics.right_turn_rad = frame_.rig.right_turn_rad;
   Waiting waiting;
   waiting.frame = frame;
   waiting.stamp = stamp;

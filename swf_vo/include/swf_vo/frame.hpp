@@ -60,9 +60,7 @@ struct RigConstants {
   /// Of a relative error that all lengths of the path have in common: what the calibration (`rig_scale`) and the
   /// disparity offset leave open. It is in T_odom_base's covariance, not in those of steps.
   double scale_sigma = 0.0;
-  /// Turn of the right camera against its calibrated orientation, found after a knock and corrected in its images
-  /// (urban_nav_core::TurnedRightCamera); zero: none was found.
-  urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();
+  urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();  ///< as Statistics::right_turn_rad
 };
 
 /// A motion sensor that contradicted the images and was left out.
@@ -121,6 +119,9 @@ struct Statistics {
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
   double row_offset_px = 0.0;  ///< by how much the right image shows everything lower than the left, as known by now
   DisparityStep disparity_step;
+  /// Turn of the right camera against its calibrated orientation, found after a knock and corrected in its images
+  /// (urban_nav_core::TurnedRightCamera); zero: none was found.
+  urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();
   double noise_scale =
       1.0;  ///< errors of measurements in standard deviations of their alignments, as usual by now; 1 at least
 };

@@ -16,7 +16,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr const char* kVoRunName = "visual odometry of a session";
-constexpr std::uint32_t kVoRunVersion = 7;
+constexpr std::uint32_t kVoRunVersion = 8;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
@@ -38,6 +38,7 @@ struct StoredRun {
   std::vector<VoLandmark> landmarks;
   std::vector<urban_nav_core::ConsideredConstants> constants;  // of each step of `settled`
   std::vector<urban_nav_core::FrameMeasurements> compared;     // one for each row
+  std::vector<Vector3d> right_turns;                           // one for each row
 };
 
 StoredRun toStored(const VoRun& run) {
@@ -45,6 +46,7 @@ StoredRun toStored(const VoRun& run) {
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     stored.rows.push_back({run.frames[i], run.figures[i]});
     stored.compared.push_back(run.frames[i].compared);
+    stored.right_turns.push_back(run.figures[i].statistics.right_turn_rad);
   }
   for (const SmoothedFrame& frame : run.settled)
     stored.settled.push_back({frame.frame, frame.stamp, frame.T_odom_base, frame.from_previous, frame.status});
@@ -64,6 +66,8 @@ void fromStored(const StoredRun& stored, VoRun& run) {
   for (std::size_t i = 0; i < stored.constants.size(); ++i)
     run.settled[i].from_previous.constants = stored.constants[i];
   for (std::size_t i = 0; i < stored.compared.size(); ++i) run.frames[i].compared = stored.compared[i];
+  for (std::size_t i = 0; i < stored.right_turns.size(); ++i)
+    run.rig.right_turn_rad = run.figures[i].statistics.right_turn_rad = stored.right_turns[i];
 }
 
 /// Reads the content of version 2: poses with the translation first, matrices row by row.
@@ -122,10 +126,13 @@ void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& sto
   if (version > 4) archive(stored.constants);
   if (version > 5) archive(run.motion);
   if (version > 6) archive(stored.compared);
+  if (version > 7) archive(stored.right_turns);
   archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
                   "constants of the rig are not those of the steps");
   archive.require(stored.compared.empty() || stored.compared.size() == stored.rows.size(),
                   "comparisons are not those of the frames");
+  archive.require(stored.right_turns.empty() || stored.right_turns.size() == stored.rows.size(),
+                  "turns of the right camera are not those of the frames");
 }
 
 VoRun readVoRun(std::string_view bytes) {

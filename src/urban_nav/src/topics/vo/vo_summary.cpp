@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/plot.hpp"
 #include "map/run_totals.hpp"
@@ -71,6 +72,25 @@ void addRig(const VoRun& run, const swf_vo::Parameters& parameters, std::vector<
         " +- " + urban_nav_core::formatNumber(delay_sigma, 1) + " ms " + (delay > 0.0 ? "after" : "before") +
         " the left one, where swf_vo.shutter_delay = " + urban_nav_core::formatNumber(parameters.shutter_delay, 3) +
         " ms is allowed for: trigger both cameras by one signal");
+}
+
+/// Appends the turns of the right camera that were found and corrected, by the frame of each.
+void addTurns(const VoRun& run, std::vector<std::string>& warnings) {
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const Eigen::Vector3d& turn = run.figures[i].statistics.right_turn_rad;
+    if (!run.frames[i].accepted || turn == before) continue;
+    const Eigen::Vector3d change = (turn - before) * kRigDegrees;
+    before = turn;
+    warnings.push_back(
+        run.input + ": calibration_changed: at " +
+        urban_nav_core::formatNumber(urban_nav_core::secondsBetween(run.frames.front().stamp, run.frames[i].stamp), 4) +
+        " s one camera of the stereo pair was turned against the other, by " +
+        urban_nav_core::formatNumber(change.norm(), 2) + " deg (yaw " + urban_nav_core::formatNumber(change.y(), 2) +
+        ", pitch " + urban_nav_core::formatNumber(change.x(), 2) + ", roll " +
+        urban_nav_core::formatNumber(change.z(), 2) +
+        " deg of the right one); later images are corrected for it: check the mounts and calibrate the pair anew");
+  }
 }
 
 /// Appends the motion sensors that the images contradict.
@@ -156,6 +176,7 @@ VoSummary summarise(const std::vector<const VoRun*>& runs, const swf_vo::Paramet
     addWarnings(*run, dropped, summary.warnings);
     addLosses(*run, summary.warnings);
     addRig(*run, parameters, summary.warnings);
+    addTurns(*run, summary.warnings);
     addMotionSensors(*run, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
@@ -182,6 +203,10 @@ Json toJson(const VoSummary& summary) {
   json["scale_sigma"] = summary.rig.scale_sigma;
   json["right_roll_deg"] = summary.rig.roll_rad * kRigDegrees;
   json["right_roll_sigma_deg"] = summary.rig.roll_sigma_rad * kRigDegrees;
+  for (const auto& [name, radians] :
+       {std::pair("pitch", summary.rig.right_turn_rad.x()), std::pair("yaw", summary.rig.right_turn_rad.y()),
+        std::pair("roll", summary.rig.right_turn_rad.z())})
+    json[std::string("right_turn_") + name + "_deg"] = radians * kRigDegrees;
   json["shutter_delay_ms"] = 1e3 * summary.rig.delay_s;
   json["shutter_delay_sigma_ms"] = 1e3 * summary.rig.delay_sigma_s;
   addMotion(summary, json);
