@@ -54,7 +54,8 @@ std::optional<ConsistencyTest> OffsetMonitor::test() const {
   test.p_value = urban_nav_core::changeProbability(largest_, std::max(frames_, kHorizon));
   test.remedy =
       "A camera of the stereo pair, left or right, was turned or moved against the other: fix its mount and calibrate "
-      "the pair; lengths measured since then are wrong.";
+      "the pair. Odometry corrects later images for a turn (swf_vo.right_turn_yaw_deg of summary.json); where "
+      "it found none, lengths measured since then are wrong.";
   if (changes_.empty()) {
     test.sentence = "Disparities agree with those predicted from earlier frames in " + std::to_string(frames_) +
                     " frames: the stereo cameras keep their mounting.";
