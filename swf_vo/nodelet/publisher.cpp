@@ -43,6 +43,8 @@ void Publisher::startSession(const Frames& frames, double near_disparity_px) {
 
 void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessionPtr& session,
                         const urban_nav_core::StereoPair& pair, double process_ms) {
+  // first: stages that take images with the pose of their frame need its turn of the right camera
+  publishFrame(frame, process_ms);
   if (frame.accepted) {
     publishOdometry(frame);
     if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, kPathSpacing, kPathPoints, drawn_path_))
@@ -50,7 +52,6 @@ void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessio
     publishLandmarks(frame);
     publishTracks(frame, pair.left);
   }
-  publishFrame(frame, process_ms);
   node_.publishStatus(frame.status, toString(static_cast<Reason>(frame.status.reason)), frame.stamp);
   for (const Settled& settled : frame.settled) publish(settled, session);
 }

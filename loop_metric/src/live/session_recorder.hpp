@@ -44,6 +44,8 @@ class SessionRecorder {
   /// Stamps of the images have jumped back: pairs that follow belong to the next session.
   void restartImages();
   void addPair(urban_nav_core::StereoPairWithMotion pair);
+  /// Adds the turn of the right camera that odometry found for a frame.
+  void addTurn(const urban_nav_core::StampedTurn& turn) { builder_.addTurn(turn); }
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addScan(const std::string& frame, const urban_nav_core::Scan& scan);
   /// Sets the pose of a laser. Ignored for a laser without scans and for one whose pose is known.

@@ -57,6 +57,8 @@ class LiveLocaliser {
   /// Stamps of the images have jumped back.
   void restartImages();
   void addPair(urban_nav_core::StereoPairWithMotion pair);
+  /// Adds the turn of the right camera that odometry found for a frame.
+  void addTurn(const urban_nav_core::StampedTurn& turn) { builder_.addTurn(turn); }
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addScan(const std::string& frame, const urban_nav_core::Scan& scan);
   void setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser) {

@@ -18,16 +18,19 @@ void KeyframeBuilder::setCamera(const MountedCamera& camera) {
   pairs_.clear();
   camera_ = camera;
   extractor_.emplace(camera.camera, parameters_.points);
+  turns_.emplace(camera.camera);
 }
 
 void KeyframeBuilder::clearCamera() {
   pairs_.clear();
   camera_.reset();
   extractor_.reset();
+  turns_.reset();
 }
 
 void KeyframeBuilder::restart() {
   pairs_.clear();
+  if (camera_) turns_.emplace(camera_->camera);
   restartOdometry();
   selector_ = KeyframeSelector(parameters_);
 }
@@ -52,12 +55,17 @@ void KeyframeBuilder::addOdometry(const StampedPose& T_odom_base) {
   if (odometry_.size() > kMaxPoses) odometry_.pop_front();
 }
 
+void KeyframeBuilder::addTurn(const urban_nav_core::StampedTurn& turn) {
+  if (turns_) turns_->add(turn);
+}
+
 std::vector<Keyframe> KeyframeBuilder::take() {
   std::vector<Keyframe> taken;
   while (!pairs_.empty() && !odometry_.empty()) {
     const urban_nav_core::StereoPair& pair = pairs_.front().pair;
     const StampedPose& pose = odometry_.front();
     if (pair.stamp == pose.stamp && !pair.left.empty() && !pair.right.empty() && selector_.select(pose.pose)) {
+      turns_->correct(pairs_.front());
       taken.push_back(extractor_->extract({"", pair.stamp}, pair));
       ++counts_.extracted;
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "urban_nav_core/sequence/right_camera_turns.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/odometry_session.hpp"
 #include "urban_nav_live/beam_faults.hpp"
@@ -19,7 +20,7 @@ namespace urban_nav_ros {
 /// Takes what subscribeRobot() delivers to a core that builds keyframes and local clouds: stereo pairs with the mounted
 /// camera, scans with the places of their lasers, both poses of the odometry. Used by one thread.
 ///
-/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, restartImages, addScan, unplacedLasers, setLaser,
+/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, addTurn, restartImages, addScan, unplacedLasers, setLaser,
 /// addOdometry and addStep. It must outlive this object.
 template <typename Sink, typename MountedCamera>
 class RobotInputs {
@@ -48,6 +49,7 @@ class RobotInputs {
     sink_.addScan(message->header.frame_id, urban_nav_core::toScan(*planar));
     placeLasers();
   }
+  void handle(const urban_nav_core::StampedTurn& turn) { sink_.addTurn(turn); }
   void handle(const urban_nav_core::StampedPose& odometry) { sink_.addOdometry(odometry); }
   void handle(const urban_nav_core::SessionStep& step) { sink_.addStep(step); }
   /// Begins a session whose wait for /tf_static is over. To be called some ten times a second.

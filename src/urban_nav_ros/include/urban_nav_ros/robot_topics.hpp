@@ -3,9 +3,12 @@
 
 #include <sensor_msgs/LaserScan.h>
 
+#include <type_traits>
+
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stereo_topics.hpp"
+#include "urban_nav_ros/turn_message.hpp"
 
 namespace urban_nav_ros {
 
@@ -19,7 +22,19 @@ constexpr const char* kLasers = "lasers";
 /// s without a message until a topic is silent. A filter with a window gives its first smoothed pose so late.
 constexpr double kRobotTopicTimeout = 5.0;
 
-/// Subscribes to both poses of the odometry, to /tf_static, to the stereo camera if `stereo`, and to both lasers if
+/// Subscribes to the turns of the right camera that odometry finds. Requires that Input can be made from
+/// urban_nav_core::StampedTurn.
+template <typename Input>
+void subscribeTurns(StageNodeWith<Input>& node, int queue) {
+  TopicOptions options;
+  options.queue = queue;
+  options.is_monitored = options.is_paused = false;
+  node.template subscribeInput<urban_nav_msgs::VoStatistics>(
+      topics::kVoStatistics, options,
+      [](const urban_nav_msgs::VoStatisticsConstPtr& message) { return toStampedTurn(*message); });
+}
+
+/// Subscribes to both poses of the odometry, to /tf_static, to turns of the right camera (if Input takes them), to the stereo camera if `stereo`, and to both lasers if
 /// `lasers`. Requires that Input can be made from ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr,
 /// sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and urban_nav_core::SessionStep (smoothed).
 /// Odometry is received in a pause too, so that it has no gap.
@@ -31,6 +46,7 @@ void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool com
   options.group = topic_groups::kImages;
   if (stereo) {
     subscribeStereo(node, options, compressed, urban_nav_core::MotionChoice());
+    if constexpr (std::is_constructible_v<Input, urban_nav_core::StampedTurn>) subscribeTurns(node, queue);
   } else {
     TopicOptions unmonitored;
     unmonitored.is_monitored = unmonitored.is_paused = false;

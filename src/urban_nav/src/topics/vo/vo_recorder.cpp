@@ -120,7 +120,7 @@ class VoRecorder::PictureKeeper {
 VoRecorder::VoRecorder(const swf_vo::Parameters& parameters, const urban_nav_input::SourceInfo& info, VoRun& run)
     : run_(describeInput(run, info)),
       filter_(std::in_place, parameters, info.camera, info.T_base_camera),
-      right_(info.camera),
+      turns_(info.camera),
       pictures_(std::make_unique<PictureKeeper>()) {}
 
 VoRecorder::VoRecorder(const swf_vo::Parameters& parameters, const urban_nav_input::SourceInfo& info, VoRun& run,
@@ -176,11 +176,8 @@ const OdometryFrame& VoRecorder::process(const urban_nav_input::SourceItem& inpu
 }
 
 void VoRecorder::correctRight(urban_nav_core::StereoPairWithMotion& frame) {
-  right_.set(run_.rig.right_turn_rad);
-  if (right_.turn().isZero(0.0) || frame.pair.right.empty()) return;
-  const auto pixels = std::make_shared<std::vector<std::uint8_t>>();
-  frame.pair.right = right_.correct(frame.pair.right, *pixels);
-  if (frame.pair.right.data == pixels->data()) frame.right_owner = pixels;
+  turns_.add({frame.pair.stamp, run_.rig.right_turn_rad});
+  turns_.correct(frame);
 }
 
 std::string VoRecorder::state() const {

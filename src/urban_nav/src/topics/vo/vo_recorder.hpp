@@ -9,7 +9,7 @@
 
 #include "map/session_pass.hpp"
 #include "topics/vo/vo_run.hpp"
-#include "urban_nav_core/camera/turned_right_camera.hpp"
+#include "urban_nav_core/sequence/right_camera_turns.hpp"
 
 namespace urban_nav {
 
@@ -39,7 +39,7 @@ class VoRecorder {
 
   VoRun& run_;
   std::optional<swf_vo::SwfVo> filter_;  // never empty: optional so that a state can replace it
-  urban_nav_core::TurnedRightCamera right_;
+  urban_nav_core::RightCameraTurns turns_;
   std::unique_ptr<PictureKeeper> pictures_;
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "urban_nav_core/sequence/right_camera_turns.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
@@ -39,6 +40,8 @@ class KeyframeBuilder {
   void restartOdometry();
   /// Appends a pose of the odometry. Ignored unless it is later than those before.
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
+  /// Adds the turn of the right camera that odometry found for a frame: pairs are corrected for it.
+  void addTurn(const urban_nav_core::StampedTurn& turn);
   /// Returns the keyframes that are complete since the last call, in order of time.
   std::vector<Keyframe> take();
 
@@ -50,6 +53,7 @@ class KeyframeBuilder {
   const Parameters parameters_;
   std::optional<MountedCamera> camera_;
   std::optional<KeyframeExtractor> extractor_;
+  std::optional<urban_nav_core::RightCameraTurns> turns_;
   KeyframeSelector selector_;
   std::deque<urban_nav_core::StereoPairWithMotion> pairs_;  // for odometry
   std::deque<urban_nav_core::StampedPose> odometry_;        // for pairs
