@@ -15,12 +15,12 @@ namespace pose_graph {
 
 namespace {
 
-// Pairs that each density is read off, where few closures are asked for and where many are, and distances in all.
+// Number of pairs for many queries, and limit of distances evaluated in all queries.
 constexpr std::size_t kFewestPairs = 2048, kDistances = 20000000;
-constexpr std::size_t kNearestPairs = 16;  // good to a quarter
+constexpr std::size_t kNearestPairs = 16;  // accurate to a quarter
 constexpr double kEvenShare = 0.1;
-constexpr int kOwnShare = 20;                            // of all poses
-constexpr double kLeastTurn = 0.01, kLeastShare = 1e-3;  // radians; of the extent
+constexpr int kOwnShare = 20;                            // share of all poses
+constexpr double kLeastTurn = 0.01, kLeastShare = 1e-3;  // rad; share of the extent
 constexpr double kLeastSquare = 1e-12;
 
 int octaveBetween(int from, int to) {
@@ -29,7 +29,7 @@ int octaveBetween(int from, int to) {
   return octave;
 }
 
-// Square of the angle between two rotations where it is small; it grows more slowly beyond.
+// Returns the squared rotation angle for small angles; a lower value for large ones.
 template <int D>
 double chordSquare(const Rotation<D>& a, const Rotation<D>& b) {
   return 0.5 * (a - b).squaredNorm();
@@ -106,7 +106,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
     std::push_heap(nearest.begin(), nearest.end());
     if (nearest.size() == kNearestPairs) farthest = std::max(nearest.front(), least);
   };
-  // From the nearest along the widest axis to both sides, as far as any can still be among the nearest.
+  // Visits samples in ascending distance along the widest axis, on both sides, until none can be among the nearest.
   const double middle = at.t[axis_];
   std::size_t above = static_cast<std::size_t>(
       std::lower_bound(poses_.begin(), poses_.end(), middle,
