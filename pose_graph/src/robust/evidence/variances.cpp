@@ -93,8 +93,8 @@ DeviationScales estimateScales(const Problem<D>& problem, const std::vector<Edge
 namespace {
 
 // Loops of near closures (closure_loops.hpp) do not contain errors that appear only over long paths. Until closures
-// determine the factor, twice the deviation is assumed. 1 loses more true closures (manhattan: 25 instead of 12 of
-// 1954), 2 performs equally.
+// determine the factor, twice the deviation is assumed. A factor of 1 rejects more true closures (manhattan: 25
+// instead of 12 of 1954), 2 performs equally.
 constexpr double kCaution = 4.0;
 constexpr double kPriorTangents = 10.0;
 
