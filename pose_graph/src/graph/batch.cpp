@@ -14,10 +14,10 @@ namespace pose_graph {
 
 namespace {
 
-// Largest factor of odometry's variance: 3 of its deviations.
+// Upper bound of the variance factor of odometry: 3 of its deviations.
 constexpr double kLargestVariance = 9.0;
 
-/// The same two poses measured to the same, bit by bit.
+/// Whether two closures between the same poses are bit-identical measurements.
 bool isSame(const Closure& a, const Closure& b) {
   return a.measured.T_a_b.t() == b.measured.T_a_b.t() &&
          a.measured.T_a_b.q().coeffs() == b.measured.T_a_b.q().coeffs() &&
@@ -25,7 +25,7 @@ bool isSame(const Closure& a, const Closure& b) {
          a.by_hand == b.by_hand;
 }
 
-/// The graph with the edges that are believed.
+/// Returns the graph with the accepted edges.
 Problem<3> acceptedGraph(const Problem<3>& problem, const std::vector<double>& weights) {
   Problem<3> accepted = problem.withoutEdges();
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
@@ -33,8 +33,8 @@ Problem<3> acceptedGraph(const Problem<3>& problem, const std::vector<double>& w
   return accepted;
 }
 
-/// Relaxes with the fixes too. The steps of odometry take over by how much that moves their ends against each other, as
-/// they do what the accelerometer says: what is relaxed later without fixes stays where these have it.
+/// Relaxes with the position fixes too. The displacements are transferred to the odometry steps, as the tilt correction
+/// is, so that later relaxations without fixes keep the result.
 void takeFixes(Batch& batch, std::size_t chains, const std::vector<double>& weights, const SolveOptions& options) {
   std::size_t unplaced = 0;
   const std::vector<FixedPart> parts =
@@ -95,7 +95,7 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
     closure.judged = true;
     weights.push_back(closure.weight);
   }
-  // More than odometry is trusted to be wrong by makes false closures fit too: that is for the selection to weigh.
+  // A larger variance of odometry would also fit false closures; only the selection may choose one.
   const double begin = batch.selection.rescaled ? batch.selection.odometry_factor : 1.0;
   const double largest =
       batch.parameters.robust ? std::max(kLargestVariance, begin) : std::numeric_limits<double>::infinity();
@@ -146,7 +146,7 @@ void PoseGraph::takeVerdicts(const Batch& batch) {
     closure.judged = false;
     closure.weight = 0.0;
     closure.verdict = ClosureVerdict::Waiting;
-    closure.reason = "not judged yet";
+    closure.reason = "not evaluated yet";
   }
 }
 

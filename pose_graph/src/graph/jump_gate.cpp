@@ -12,12 +12,12 @@ namespace pose_graph {
 
 namespace {
 
-/// An accepted closure and where its ends are.
+/// An accepted closure and the nodes that it joins.
 struct Way {
   Closure* closure;
   NodeIndex a, b;
 };
-/// What is known of T_a_b without it.
+/// Returns T_a_b as estimated without the closure.
 using Known = std::function<Pose(const Way&)>;
 
 bool isLarge(const Closure& closure, const Pose& T_a_b, const Parameters& parameters) {
@@ -36,7 +36,7 @@ void admitAll(std::map<ClosureId, Closure>& closures) {
   for (auto& [id, closure] : closures) {
     closure.verdict = ClosureVerdict::Accepted;
     closure.weight = 1.0;
-    closure.reason = "taken as it is";
+    closure.reason = "accepted without selection";
   }
 }
 
@@ -59,7 +59,7 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   }
 }
 
-// A step that slipped takes over the motion that the closures give.
+// Replaces slipped steps by the motion that closures imply.
 std::vector<int> takeSlips(const RobustSolution<3>& selected, std::size_t chains, Problem<3>& problem) {
   std::vector<int> slipped;
   for (std::size_t e = 0; e < chains; ++e) {
@@ -80,24 +80,24 @@ void rescale(const SelectionReport& selection, const std::vector<EdgeRole>& role
   }
 }
 
-// Chi-square of six degrees of freedom at 99.9 %; of fewer where the information leaves directions free, which errs
-// towards keeping.
+// Chi-square of six degrees of freedom at 99.9 %. With free directions there are fewer degrees of freedom, and the test
+// is more tolerant.
 constexpr double kInnovationLimit = 22.458;
 
-// Beyond this many times the limit, ten in standard deviations, the linear prediction of an innovation is enough: what
-// relaxation finds is within a few times of it, even where a large loop is bent.
+// Factor of the limit (ten in standard deviations) above which the linear prediction of an innovation suffices: the
+// relaxed innovation is within a few times of it, even for a bent large loop.
 constexpr double kHopeless = 100.0;
 
-/// Whether a part of the way is the same.
+/// Whether two closures span a common part of the path.
 bool meet(const Way& a, const Way& b) {
   return std::min(a.a, a.b) < std::max(b.a, b.b) && std::min(b.a, b.b) < std::max(a.a, a.b);
 }
 
-// Of closures that wait, so many are tried beside a new one, the likeliest first: each costs what the new one costs.
-// Those beyond are for the batch.
+// Limit of waiting closures tried together with a new one, the most likely first; each takes as long as the new one.
+// Further ones are left to the batch.
 constexpr std::size_t kTried = 3;
 
-/// Those of the accepted closures that have to wait, and do.
+/// Sets unconfirmed closures with large corrections to waiting. Returns their ids.
 std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b, const Parameters& parameters) {
   std::vector<ClosureId> made;
   for (const Way& way : ways) {
@@ -109,7 +109,7 @@ std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b
     if (supported) continue;
     closure.verdict = ClosureVerdict::Waiting;
     closure.weight = 0.0;
-    closure.reason = "a large correction, and no second closure that agrees yet";
+    closure.reason = "large correction, not confirmed by a second closure yet";
     made.push_back(closure.id);
   }
   return made;
@@ -175,13 +175,13 @@ Assessment assess(Problem<3>& problem, const Parameters& parameters, const Solve
 
 namespace {
 
-/// A closure beside what is in the core: does it fit? It is on trial there.
+/// Tests a closure against the core graph, in which it remains on trial. Returns whether it fits.
 bool fits(IncrementalSolver& core, const GraphView& view, const Parameters& parameters, const ClosureEdge& closure_edge,
           Closure& closure, double& cost_before) {
   const bool doubted = !isVouchedFor(closure) && parameters.robust;
   const IncrementalSolver::Offer offer =
       core.offer(view, closure_edge, doubted ? kHopeless * kInnovationLimit : INFINITY);
-  // What one measurement more costs is the square of its innovation.
+  // The cost of one additional measurement is its squared innovation.
   closure.chi2 = std::max(offer.innovation, 0.0);
   cost_before = offer.before;
   return !doubted || closure.chi2 <= kInnovationLimit;
@@ -190,10 +190,10 @@ bool fits(IncrementalSolver& core, const GraphView& view, const Parameters& para
 void accept(Closure& closure) {
   closure.verdict = ClosureVerdict::Accepted;
   closure.weight = 1.0;
-  closure.reason = "agrees with what is accepted";
+  closure.reason = "consistent with the accepted edges";
 }
 
-/// Closures that wait and could be the second witness of one that is on trial, those first that it leaves least off.
+/// Returns waiting closures that may confirm one on trial, in ascending order of their residuals with it.
 std::vector<Way> findPartners(const Way& tried, const IncrementalSolver& core, const GraphView& view,
                               const std::map<ClosureId, ClosureEdge>& closure_edges,
                               std::map<ClosureId, Closure>& closures) {
@@ -226,10 +226,10 @@ Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Par
     if (closure.judged) continue;
     double cost_before = 0.0;
     if (!fits(core, view, parameters, closure_edges.at(id), closure, cost_before)) {
-      core.readmitByTruncatedSquares();
+      core.withdraw();
       closure.verdict = ClosureVerdict::Rejected;
       closure.weight = 0.0;
-      closure.reason = "disagrees with what is accepted";
+      closure.reason = "inconsistent with the accepted edges";
       made.disagreement = true;
       continue;
     }
@@ -240,7 +240,7 @@ Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Par
       Closure& partner = *partners[p].closure;
       double ignored = 0.0;
       if (fits(core, view, parameters, closure_edges.at(partner.id), partner, ignored)) accept(partner);
-      else core.readmitByTruncatedSquares();
+      else core.withdraw();
     }
     for (const ClosureId waiting : makeWait(view, closure_edges, parameters, closures))
       if (waiting != id) made.others_wait = true;
@@ -249,8 +249,8 @@ Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Par
       made.provisional = made.provisional || parameters.robust;
       core.keep();
     } else {
-      core.readmitByTruncatedSquares();
-      // Others that wait, and were not tried, may be its witnesses.
+      core.withdraw();
+      // Waiting closures that were not tried may confirm it.
       made.disagreement = made.disagreement || partners.size() > kTried;
     }
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * kDegree;  // docs/architecture.md
 
-/// Takes poses in ascending order, and keeps the runs of those that moved.
+/// Writes poses in ascending order and collects the ranges of those that moved.
 class Moves {
  public:
   void put(std::size_t track, std::size_t index, const Pose& now, Pose& pose) {
@@ -28,7 +28,7 @@ class Moves {
   std::vector<Relaxed::Run> runs;
 };
 
-/// The same poses in runs that do not meet.
+/// Merges overlapping and adjacent ranges.
 std::vector<Relaxed::Run> merged(std::vector<Relaxed::Run> runs) {
   std::sort(runs.begin(), runs.end(), [](const Relaxed::Run& a, const Relaxed::Run& b) {
     return std::tie(a.track, a.first) < std::tie(b.track, b.first);
@@ -190,7 +190,7 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Befor
 }
 
 std::vector<int> PoseGraph::partNumbers() const {
-  Problem<3> joined;  // of runs
+  Problem<3> joined;  // one pose per run
   std::vector<std::size_t> first;
   for (const std::vector<Run>& runs : runs_) {
     first.push_back(joined.poses.size());

@@ -154,12 +154,12 @@ TEST(IncrementalSolver, TakesBackWhatIsNotKept) {
     wrong.edge.Z.t += Eigen::Vector3d(0.2, 0.1, 0.0);
     const double before = core.cost();
     core.offer(tracks, wrong, INFINITY);
-    core.readmitByTruncatedSquares();
+    core.withdraw();
     EXPECT_EQ(core.cost(), before);
     // Far beyond hope the cost is a prediction, and nothing is laid.
     wrong.edge.Z.t += Eigen::Vector3d(30.0, 0.0, 0.0);
     EXPECT_GT(core.offer(tracks, wrong, 1000.0).innovation, 1000.0);
-    core.readmitByTruncatedSquares();
+    core.withdraw();
   }
   for (IncrementalSolver* each : {&core, &other}) {
     Tracks& on = each == &core ? tracks : untouched;
@@ -191,7 +191,7 @@ TEST(IncrementalSolver, TakesSeveralOnTrialBackOneByOne) {
     EXPECT_GT(core.cost(), costs.back());
   }
   while (!costs.empty()) {
-    core.readmitByTruncatedSquares();
+    core.withdraw();
     EXPECT_EQ(core.cost(), costs.back());
     const std::vector<Rigid<3>> now = poses();
     for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT((now[i].t - lay.back()[i].t).norm(), 1e-9) << i;
