@@ -14,10 +14,10 @@ namespace pose_graph {
 
 namespace {
 
-// Chi-square over degrees of freedom, in units of the middle one: as of a step of odometry that slipped.
+// Limit of chi-square over degrees of freedom relative to the median, as for slips of odometry.
 constexpr double kFalseSquare = 100.0;
-constexpr double kTieBreak = 1.1;      // factor of the weight of the first one, in the first round
-constexpr double kFitNarrowing = 4.0;  // of the square of the kernel's width, each round
+constexpr double kTieBreak = 1.1;      // factor of the weight of the first edge in the first round
+constexpr double kFitNarrowing = 4.0;  // divisor of the squared kernel width per round
 constexpr int kFitStartSteps = 20, kFitSteps = 3, kFitLastRounds = 5;
 constexpr double kFitStartShare = 1e-3, kFitShare = 1e-4;
 
@@ -61,7 +61,7 @@ double middleSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Ri
   return *at;
 }
 
-// Where odometry and most of the priors put the poses. Nothing where least squares fit all of them.
+// Returns the poses that fit odometry and most of the priors; empty if least squares fit all of them.
 template <int D>
 std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doubted<D>>& doubted) {
   const Problem<D>& problem = file.problem;
@@ -73,7 +73,7 @@ std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doub
     if (in.back()) part.edges.push_back(problem.edges[e]);
   }
   std::vector<Rigid<D>> poses = posesAlongEdges(part);
-  alignWithFixed(part, {}, poses);  // no other start finds how poses are turned whose positions alone are measured
+  alignWithFixed(part, {}, poses);  // no other initial guess determines rotations from positions only
   AcceptedGraph<D> graph(problem);
   std::vector<double> weights(in.begin(), in.end());
   graph.take(in, weights);
@@ -87,7 +87,7 @@ std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doub
        width = std::max(1.0, width / kFitNarrowing)) {
     last += width <= 1.0;
     for (const Doubted<D>& one : doubted) weights[sz(one.edge)] = 1.0 / (1.0 + one.squareOverRank(poses) / width);
-    // Two that contradict each other by the same amount would share the error for ever.
+    // Two measurements that contradict each other equally would share the error indefinitely.
     if (is_first) weights[sz(doubted.front().edge)] *= kTieBreak;
     is_first = false;
     alignWithFixed(problem, weights, poses);
@@ -118,7 +118,7 @@ FalsePriors findFalsePriors(const FileProblem<D>& file) {
     if (one.squareOverRank(poses) > scale * kFalseSquare) group.off.push_back(one.edge);
   }
   for (const auto& [name, group] : groups) {
-    const std::size_t witnesses = group.all + (name >= 0);  // with the first sighting
+    const std::size_t witnesses = group.all + (name >= 0);  // including the first observation
     if (2 * group.off.size() < witnesses) made.rejected.insert(made.rejected.end(), group.off.begin(), group.off.end());
     else made.undecided += group.off.size();
   }
