@@ -71,7 +71,7 @@ TEST(SelectionWarnings, SpeakOfScaleOnlyWhereItDoesHarm) {
   ASSERT_EQ(warnings(4.0, 1.0).size(), 1u);
   EXPECT_NE(warnings(4.0, 1.0)[0].find("divide its information by 16"), std::string::npos);
   ASSERT_EQ(warnings(0.2, 0.9).size(), 1u);
-  EXPECT_NE(warnings(0.2, 0.9)[0].find("weighed wrongly"), std::string::npos);
+  EXPECT_NE(warnings(0.2, 0.9)[0].find("weighted inconsistently"), std::string::npos);
   EXPECT_EQ(warnings(5.0, 5.0).size(), 2u);
 }
 
