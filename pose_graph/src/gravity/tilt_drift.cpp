@@ -19,35 +19,34 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-// What is sought: gravity's error and the accelerometer's fault (m/s2), its lever arm (m), the tilt about two axes
-// across gravity (rad).
+// State: error of gravity and accelerometer bias (m/s2), lever arm (m), tilt about two axes across gravity (rad).
 constexpr int kStates = 11, kFault = 3, kTilt = 9;
 using State = Eigen::Matrix<double, kStates, 1>;
 using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
 using Seen = Eigen::Matrix<double, 3, kStates>;
 
 constexpr std::size_t kLeastTiltSpans = 5;
-constexpr double kUnknown = 1e3;    // in noises of a force: as good as unknown
-constexpr double kTiltPrior = 6.0;  // numbers that what is known beforehand weighs
-// m/s2 in the root of a second: a bias that keeps within 0.02 m/s2 over ten minutes (XSens MTi).
+constexpr double kUnknown = 1e3;    // in units of force noise: an uninformative prior
+constexpr double kTiltPrior = 6.0;  // weight of the prior of a variance, in observations
+// m/s2 per square root of a second: a bias within 0.02 m/s2 over ten minutes (XSens MTi).
 constexpr double kFaultWalk = 1e-3;
 constexpr double kTiltHuber = 1.345;  // Huber 1964
-constexpr double kShock = 6.0;        // scatters: no drift within them
-constexpr double kMiddle = 0.888;     // median of the root of a mean of three squares, of normal numbers
-constexpr int kTiltRounds = 3;        // of weights
-constexpr double kMostTurn = 0.3;     // rad: sines are theirs to 1.5 %
+constexpr double kShock = 6.0;        // in standard deviations: above the range of drift
+constexpr double kMiddle = 0.888;     // median of the root mean square of three standard normal variables
+constexpr int kTiltRounds = 3;        // iterations of the weights
+constexpr double kMostTurn = 0.3;     // rad: small-angle approximation valid to 1.5 %
 
-/// A span as the filter sees it.
+/// Measurement of a span for the filter.
 struct Sight {
   StampNs stamp = 0;
-  double seconds = 0.0;  ///< since the one before
-  double growth = 0.0;   ///< of odometry's variance since then, rad2
-  Vector3d force;        ///< less gravity, m/s2
+  double seconds = 0.0;  ///< since the previous one
+  double growth = 0.0;   ///< increase of odometry's variance since the previous one, rad2
+  Vector3d force;        ///< minus gravity, m/s2
   Seen H;
 };
 
-/// How the tilt and the fault walk, in noises of a force, as squares: the factor on odometry's variance, and the
-/// variance a second. Logarithms.
+/// Variances of the random walks in units of the force noise, as logarithms: factor of odometry's variance, and bias
+/// variance per second.
 struct Walks {
   double tilt = 0.0, fault = 0.0;
 };
@@ -59,15 +58,16 @@ struct Passed {
 
 struct Filtered {
   std::vector<Passed> states;
-  std::vector<double> innovations;  ///< in their standard deviations, of one number
-  double noise2 = 1.0;              ///< of a force, (m/s2)^2
-  double cost = 0.0;                ///< -2 log of the likelihood
+  std::vector<double> innovations;  ///< normalised by their standard deviation
+  double noise2 = 1.0;              ///< variance of a force, (m/s2)^2
+  double cost = 0.0;                ///< -2 log likelihood
 };
 
-/// -2 log of a prior for a variance, `ratio` times what it should be, that weighs as many numbers seen.
+/// Returns -2 log of the prior of a variance with the weight of kTiltPrior observations; `ratio`: relative to its
+/// expected value.
 double priorCost(double ratio) { return kTiltPrior * (std::log(ratio) + 1.0 / ratio); }
 
-/// All covariances are in units of the noise of a force, which comes out at the end.
+/// Covariances are in units of the force noise, which is estimated at the end.
 Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& weights, const Walks& walks,
                 bool cost_alone) {
   Filtered made;
@@ -103,7 +103,7 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
   return made;
 }
 
-/// The walks under which the innovations are most likely: steps along one or the other, ever smaller ones.
+/// Returns the most likely walks: coordinate search with decreasing steps.
 Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& weights, Walks best, double step) {
   const auto costAt = [&](const Walks& walks) { return filter(sights, weights, walks, true).cost; };
   double best_cost = costAt(best);
@@ -125,7 +125,7 @@ Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& wei
   return best;
 }
 
-/// Shocks hardly count: one would turn the states after it.
+/// Weights down shocks, which would disturb all later states.
 std::vector<double> measureCalm(const std::vector<Span>& spans, const GravityFit& fit) {
   std::vector<double> made;
   for (const Span& span : spans) {
@@ -135,9 +135,9 @@ std::vector<double> measureCalm(const std::vector<Span>& spans, const GravityFit
   return made;
 }
 
-/// Huber's, for the innovations as they were under these weights.
+/// Returns Huber weights for innovations obtained with `weights`.
 std::vector<double> weightsFor(std::vector<double> innovations, const std::vector<double>& weights) {
-  // As unlikely as they were at full weight.
+  // Normalised to full weight.
   for (std::size_t k = 0; k < weights.size(); ++k) innovations[k] /= std::sqrt(weights[k]);
   std::vector<double> sorted = innovations;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -148,7 +148,7 @@ std::vector<double> weightsFor(std::vector<double> innovations, const std::vecto
   return made;
 }
 
-/// The states by all forces, those after them too (Rauch, Tung and Striebel 1965).
+/// Returns the smoothed states (Rauch, Tung and Striebel 1965).
 std::vector<State> smoothed(const std::vector<Passed>& states) {
   std::vector<State> made(states.size());
   made.back() = states.back().x;
@@ -196,7 +196,7 @@ std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double
   if (!fit) return {};
   const std::vector<double> calm = measureCalm(spans, *fit);
   std::vector<double> weights = calm;
-  // A force good to 0.01 m/s2, odometry as it promises, a fault as the data sheet has it.
+  // Initial values: force noise 0.01 m/s2, odometry as stated, bias as in the data sheet.
   Walks walks{std::log(1e4), std::log(1e4 * kFaultWalk * kFaultWalk)};
   Filtered filtered;
   for (int round = 0; round < kTiltRounds; ++round) {
