@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Are the covariances of relaxed poses true? Thirty simulated graphs (spheres, lattices, drives through a town) from
-// raw odometry, NEES of T_first_pose at ten poses of each, without false closures and with such present and rejected;
-// and how long all marginals take.
+// Consistency of the covariances of relaxed poses. Thirty simulated graphs (spheres, lattices, drives through a town)
+// from raw odometry: NEES of T_first_pose at ten poses of each, without false closures and with false closures present
+// and rejected; and time to compute all marginals.
 //   pose_graph-bench-covariance [--graphs N] [-o results/covariance.json]
 #include <array>
 #include <string>
@@ -42,7 +42,7 @@ SimulatedGraph makeGraph(int number) {
   }
 }
 
-using Nees = std::array<double, kPlaces>;  // at the ends of the ten tenths of the way
+using Nees = std::array<double, kPlaces>;  // at ten equidistant poses
 
 Nees computeNees(const SimulatedGraph& graph, const Problem<3>& problem, const std::vector<Rigid<3>>& poses,
                  const std::vector<double>& weights) {
@@ -62,12 +62,12 @@ Nees computeNees(const SimulatedGraph& graph) {
   return computeNees(graph, problem, solve(problem, {}).poses, {});
 }
 
-/// What became of closures, over all graphs.
+/// Numbers of closures over all graphs.
 struct Judged {
   std::size_t wrong = 0, wrong_kept = 0, right = 0, right_lost = 0;
 };
 
-/// With a fifth more closures, all false.
+/// NEES with 20 % additional closures, all false.
 Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
   constexpr FalseClosures kKinds[] = {FalseClosures::Random, FalseClosures::Local, FalseClosures::RandomGrouped,
                                       FalseClosures::LocalGrouped};

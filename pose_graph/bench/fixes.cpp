@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fixes of satellite navigation add to odometry: drives of 3 km that come by no place twice, with fixes a second
-// whose errors last, and with reflections of a minute.
+// Effect of satellite position fixes on odometry: drives of 3 km that revisit no place, with one fix per second,
+// time-correlated errors, and multipath lasting a minute.
 //   pose_graph-bench-fixes [--seeds N] [-o results/fixes.json]
 #include <algorithm>
 #include <string>
@@ -19,7 +19,7 @@ using urban_nav_core::testing::cell;
 
 constexpr double kSeconds = 2400.0;
 
-/// A receiver and an odometry; the drives differ by their seeds.
+/// A receiver and an odometry; the drives differ in their seeds.
 struct Kind {
   std::string name;
   GpsDrive drive;

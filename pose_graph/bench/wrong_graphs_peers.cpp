@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graphs of wrong_graphs, relaxed by other programs: how far each ends from the right poses, beside ours and beside
+// The graphs of wrong_graphs relaxed by other programs: distance of each result from the right poses, with ours and
 // least squares of all edges.
 //   pose_graph-bench-wrong_graphs_peers [NAME...] [--seeds N] [--kind PART_OF_ITS_NAME] --keep FOLDER
-// writes the graphs, GRAPH.KIND.SEED.g2o, which begin at the vertices of the public ones.
+// writes the graphs as GRAPH.KIND.SEED.g2o, with the vertices of the public graphs as initial guess.
 //   pose_graph-bench-wrong_graphs_peers [NAME...] [--seeds N] [--kind PART_OF_ITS_NAME] --peers FILE [-o
 //   results/wrong_graphs_peers.json]
-// FILE: what the programs made of them, `peer,graph,relaxed,seconds`, as CSV: name, name without .g2o, path, time of
-// the processor. A peer without a row for a graph did not answer.
+// FILE: results of the programs, CSV of `peer,graph,relaxed,seconds`: name, name without .g2o, path, processor time. A
+// peer without a row for a graph gave no result.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -49,7 +49,8 @@ void setValues(const Rigid<D>& T, std::array<double, 7>& values) {
   values = vertex.values;
 }
 
-/// The graph as a file has it: of space, information is that of the quaternion's vector, half the rotation vector.
+/// Converts a graph to the file format; in space, information refers to the vector part of the quaternion, half the
+/// rotation vector.
 template <int D>
 G2oGraph toG2o(const Problem<D>& problem) {
   G2oGraph graph;
@@ -74,7 +75,7 @@ G2oGraph toG2o(const Problem<D>& problem) {
   return graph;
 }
 
-/// What one program makes of the graphs of one kind.
+/// Results of one program on the graphs of one kind.
 struct Ended {
   int answers = 0;
   double worst = 0.0, seconds = 0.0;

@@ -28,7 +28,7 @@ EdgeTerm<D> makeTerm(const Edge<D>& edge);
 /// Quadratic approximation of an edge's cost. With A = R_from R_Z (predicted rotation of Z's child in the map) and d =
 /// t_to - t_from, every objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to, and is invariant under a
 /// common motion of both poses. Moving `to` by y, in the axes of A, changes it to
-/// cost + 2 g^T y + y^T H y + ...
+///   cost + 2 g^T y + y^T H y + ...
 /// H is the Gauss-Newton matrix, positive semidefinite.
 template <int D>
 struct LocalQuadratic {
@@ -57,9 +57,9 @@ template <Objective objective, int D>
 double localCost(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E);
 
 /// The approximation in the map's axes, for both poses moved by x_from and x_to (moved() of manifold/rotation.hpp):
-/// cost + 2 (g_from^T x_from + g_to^T x_to) + x_to^T K x_to + ...
+///   cost + 2 (g_from^T x_from + g_to^T x_to) + x_to^T K x_to + ...
 /// Derivatives with respect to `from` follow from the invariance under a common motion. With T = [I, -[d]x; 0, I]:
-/// g_from = -T^T g_to,  H_from_to = -T^T K,  H_from_from = T^T K T.
+///   g_from = -T^T g_to,  H_from_to = -T^T K,  H_from_from = T^T K T.
 template <int D>
 struct EdgeQuadratic {
   double cost = 0.0;

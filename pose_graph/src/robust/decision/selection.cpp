@@ -21,7 +21,7 @@ constexpr int kRow = 5;  // of the closures of a group outside, one in kRow is u
 constexpr double kDense = 20.0, kSoonFactored = 1e7;
 // Number of other rows per unconfirmed row above which it is left out, as in an exchange of groups.
 constexpr double kOthers = 8.0;
-// Number of poses above which an uncontested set is not scored, and above which only one selection is made; it is
+// Number of poses above which an uncontested set is not scored, and above which only one selection is run; it is
 // scored if the core graph of the chains is not larger than that.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
 
