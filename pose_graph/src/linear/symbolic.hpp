@@ -13,7 +13,6 @@ namespace pose_graph {
 /// A place is the position of a node in the elimination order. Supernode s contains the places begin[s]...begin[s + 1]
 /// - 1; the rows below it are the places rows[row_begin[s]]...rows[row_begin[s + 1] - 1], ascending. Supernodes are in
 /// postorder: children precede their parent, and a subtree directly precedes its root.
-/// postorder: children come before their parent, and all of a subtree directly before its root.
 struct Symbolic {
   std::vector<int> place;  ///< of each node
   std::vector<int> node;   ///< at each place

@@ -15,8 +15,8 @@ namespace pose_graph {
 namespace {
 
 constexpr int kSideBySide = 8;  // dimensions; as many as BlockCholesky::solveEight() has right-hand sides
-constexpr double kNoise =
-    0.3;  // of each number of the start: leaves the rotations what they are, and every way out open
+// Noise on each number of the initial value: small enough to keep the rotations, and it excites all dimensions.
+constexpr double kNoise = 0.3;
 constexpr int kLiftedSteps = 60, kInner = 60;
 constexpr double kEnoughOfCost = 1e-5;  // convergence: predicted decrease relative to the cost
 constexpr double kForcing = 0.1;        // relative to the gradient: accuracy of the inner solution

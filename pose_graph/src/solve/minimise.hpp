@@ -19,7 +19,6 @@ struct Descent {
 /// chapter 10; damping proportional to the diagonal, as in Marquardt's method). Only an undamped step can indicate
 /// convergence, since a strongly damped step predicts little decrease anywhere. Updates `poses` in place; their cost
 /// never increases.
-/// never worse than they were.
 template <int D>
 Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const SolveOptions& options,
                  const std::vector<double>& weights, std::vector<Rigid<D>>& poses);

@@ -67,7 +67,7 @@ double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole
 // evidence of an unbounded direction is undefined.
 template <int D>
 void boundInformation(double extent, TangentMatrix<D>& information) {
-  Tangent<D> deviation;  // of an even spread
+  Tangent<D> deviation;  // of a uniform distribution
   deviation.template head<D>().setConstant(2.0 * extent / std::sqrt(12.0));
   deviation.template tail<kRotationSize<D>>().setConstant(2.0 * M_PI / std::sqrt(12.0));
   const TangentMatrix<D> scaled = deviation.asDiagonal() * information * deviation.asDiagonal();

@@ -85,7 +85,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
   const double unit = (kTangentSize<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0) * std::pow(shift_, D) *
                       std::pow(turn_, kRotationSize<D>);  // volume of the ball of radius 1
   const double least = std::max(std::pow(resolved / unit, 2.0 / kTangentSize<D>), kLeastSquare);
-  std::vector<double> nearest;  // a heap of squares, the farthest first
+  std::vector<double> nearest;  // max-heap of squared distances
   std::size_t within = 0;
   double farthest = std::numeric_limits<double>::infinity();
   const auto look = [&](std::size_t i) {
@@ -144,7 +144,7 @@ PoseSample<D> ChanceDensity<D>::sample(std::optional<int> octave) const {
     pairs.push_back(poses_[from].inverse() * poses_[to]);
     ends.emplace_back(static_cast<int>(from), static_cast<int>(to));
   };
-  if (longest > shortest && n * (longest - shortest) <= pairs_) {  // all there are
+  if (longest > shortest && n * (longest - shortest) <= pairs_) {  // all pairs
     for (std::size_t from = 0; from < n; ++from)
       for (std::size_t to = from + shortest; to < from + longest; ++to) take(from, to);
     return {std::move(pairs), chains_.extent, std::move(ends)};

@@ -223,7 +223,9 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
               AdmissionState<D>& state) {
   const auto limit = [&](int e) { return findLimit(thresholds, evaluator.edge(e)); };
   const double candidates = static_cast<double>(evaluator.candidates().size());
-  const auto joins = [&](int e) { return !std::isfinite(state.evidence.chi2[sz(e)]); };  // two parts: not by itself
+  const auto joins = [&](int e) {
+    return !std::isfinite(state.evidence.chi2[sz(e)]);
+  };  // joins two parts: not tested here
   AdmissionState<D> all = state;
   for (int e : evaluator.candidates()) all.in[sz(e)] = evaluator.edge(e).rank > 0 && !joins(e);
   // A better order is not worth computing for a cheap factorisation.
