@@ -8,7 +8,7 @@
 namespace pose_graph {
 namespace {
 
-// Two chains of four poses, one closure within the first, and two between them.
+// Two chains of four poses, one closure within the first and two between them.
 struct TwoChains {
   FileProblem<2> file;
   RobustSolution<2> robust;

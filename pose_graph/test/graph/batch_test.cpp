@@ -17,7 +17,7 @@ PoseGraph driven(int laps) {
   return graph;
 }
 
-// What a batch is worth once all has been taken in.
+// The live graph equals a batch of the same inputs.
 void expectBatch(PoseGraph& live, PoseGraph& fresh) {
   live.relax();
   fresh.relax();

@@ -13,7 +13,7 @@
 namespace pose_graph {
 namespace {
 
-// A sphere of which odometry errs `drawn` times as much as its information says, and closures as much as theirs.
+// A sphere graph whose odometry errors are `drawn` times the stated ones; closure errors are as stated.
 struct Boasting {
   Problem<3> problem;
   std::size_t chains = 0;
@@ -42,7 +42,7 @@ TEST(OdometryVariance, FindsHowMuchOdometryBoasts) {
     const double factor = graph.factor();
     EXPECT_GT(factor, 0.8 * drawn * drawn);
     EXPECT_LT(factor, 1.25 * drawn * drawn);
-    // What is returned is where the problem with that factor is relaxed.
+    // The returned solution is the one of the problem with that factor.
     SolveOptions from_here;
     from_here.start = Start::Vertices;
     graph.problem.poses = graph.solution.poses;
@@ -73,7 +73,7 @@ TEST(OdometryVariance, IsNoLargerThanAllowed) {
 }
 
 TEST(OdometryVariance, IsNotDecidedByOneClosure) {
-  // Its six numbers weigh as much as what is stated: half way, on average.
+  // Its six degrees of freedom have the same weight as the stated variance: on average half way.
   double mean = 0.0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) mean += Boasting(3.0, 1, seed).factor() / 20.0;
   EXPECT_GT(mean, 3.0);
@@ -86,7 +86,7 @@ TEST(OdometryVariance, IsNotDecidedByOneClosure) {
 
 TEST(OdometryVariance, DoesNothingWhereClosuresLeaveDirectionsFree) {
   Boasting graph(3.0);
-  // Two parts, joined by planes alone.
+  // Two parts joined by planes only.
   graph.problem.edges[graph.chains / 2].information.setZero();
   for (std::size_t e = graph.chains; e < graph.problem.edges.size(); ++e) {
     graph.problem.edges[e].information.setZero();

@@ -23,10 +23,10 @@ using urban_nav_core::testing::Dice;
 
 constexpr double kMilli = 1e-3;
 
-/// Odometry whose rotation walks away from the truth, about every axis.
+/// Odometry with rotation drift about all axes.
 struct Odometry {
   Trajectory trajectory;
-  std::vector<double> variance;  ///< as it is, rad2
+  std::vector<double> variance;  ///< true variance, rad2
 };
 
 Odometry drifting(const Drive& drive, double rad_per_root_second, Dice& dice) {
@@ -48,10 +48,10 @@ Odometry drifting(const Drive& drive, double rad_per_root_second, Dice& dice) {
 }
 
 struct Lost {
-  double before = 0.0, after = 0.0;  ///< rad, root of the mean square, across gravity
+  double before = 0.0, after = 0.0;  ///< rad, root mean square, perpendicular to gravity
 };
 
-/// How far the robot seems to lean otherwise than it does.
+/// Returns the error of the robot's tilt, before and after the correction.
 Lost measureLoss(const Drive& drive, const Odometry& odometry, const std::vector<Tilt>& tilts) {
   const Trajectory truth = drive.trajectory();
   const Vector3d up = drive.trueUp();

@@ -14,14 +14,14 @@ namespace {
 using namespace std::chrono_literals;
 using urban_nav_core::UserError;
 
-/// A graph that notes what it is asked, and takes its time to relax.
+/// A graph that records its calls and takes time to relax.
 class Note : public LiveGraph {
  public:
   struct Book {
     std::vector<urban_nav_core::StampNs> steps;
     int closures = 0, batches = 0, updates = 0, kept = 0;
-    bool disagree = false;  // updates find closures that only a batch can judge
-    bool due = false;       // only a batch would do
+    bool disagree = false;  // updates find closures that require a batch
+    bool due = false;       // a batch is required
     int steps_at_batch = 0, steps_at_take = 0;
   };
   explicit Note(std::chrono::milliseconds relaxing) : relaxing_(relaxing) {}
@@ -100,7 +100,7 @@ urban_nav_core::RelativePose step(urban_nav_core::StampNs from, urban_nav_core::
   return step;
 }
 
-/// A worker in a thread, as a node has it.
+/// A worker in a thread, as in a node.
 class Worker {
  public:
   using Listener = GraphWorker::Listener;
@@ -165,7 +165,7 @@ TEST(GraphWorker, NothingWaitsForARelaxation) {
   };
   Worker worker(std::make_unique<Note>(200ms), 1000, listener);
   worker.put(urban_nav_core::MetricClosure());
-  std::this_thread::sleep_for(50ms);  // it is at work now
+  std::this_thread::sleep_for(50ms);  // the batch is running now
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 500; ++i) worker.put(step(i, i + 1));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 100ms);

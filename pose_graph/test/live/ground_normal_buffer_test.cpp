@@ -8,7 +8,7 @@ namespace {
 
 constexpr StampNs kFrame = 50'000'000;
 
-/// A straight drive of `spacing` metres a pose.
+/// Returns a straight drive with `spacing` metres between poses.
 Track makeTrack(int poses, double spacing) {
   Track track;
   for (int i = 0; i < poses; ++i) {

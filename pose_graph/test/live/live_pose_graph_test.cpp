@@ -56,18 +56,17 @@ class LivePoseGraphTest : public ::testing::Test {
     }
     graph.syncStore();
   }
-  /// Returns the announced session of a round of the recording.
+  /// Returns the announced session of one lap of the recording.
   static urban_nav_core::OdometrySessionPtr announce(int round) {
     const std::string recording = "monday (" + std::to_string(round) + ")";
     return std::make_shared<const urban_nav_core::OdometrySession>(urban_nav_core::OdometrySession{
         urban_nav_store::makeSessionId({"lisa", recording, 0, ""}), recording, "lisa", recording, 0});
   }
-  /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is
-  /// more than that.
+  /// Adds samples of an accelerometer that lies on its side at rest: inconsistent with the path, but gravity dominates.
   static void feel(LivePoseGraph& graph, int end) {
     for (int i = -5; i < end + 5; ++i) graph.add(SpecificForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
   }
-  /// What the camera sees of level ground while the robot drives a circle that is tilted in the axes of its first pose.
+  /// Adds normals of level ground while the robot drives a circle that is tilted in the axes of its first pose.
   static void seeGround(LivePoseGraph& graph, int end) {
     Pose T;
     for (int i = 0; i < end; ++i) {
@@ -75,7 +74,7 @@ class LivePoseGraphTest : public ::testing::Test {
       T = T * testing::stepAt(i).T_from_to;
     }
   }
-  /// Tilt of the map, rad.
+  /// Returns the tilt of the map, rad.
   static double tilt(const LivePoseGraph& graph) {
     const Pose first = graph.trajectory(0, 0, 0).segments[0].poses[0].T_map_base;
     return (first.R() * kUp - Eigen::Vector3d::UnitZ()).norm();
@@ -198,7 +197,7 @@ TEST_F(LivePoseGraphTest, ABagThatIsLoopedIsASessionEachTime) {
 TEST_F(LivePoseGraphTest, SessionsAreThoseOfTheOdometry) {
   auto graph = begin("own name");
   for (int round = 1; round <= 3; ++round) drive(*graph, 0, 20, announce(round));
-  graph->add(testing::stepAt(25));  // of an odometry that does not announce it: the session before, and a gap
+  graph->add(testing::stepAt(25));  // from odometry without an announced session: continues the session, after a gap
   graph.reset();
   const StoredGraph kept = stored();
   ASSERT_GE(kept.chains.size(), 3u);

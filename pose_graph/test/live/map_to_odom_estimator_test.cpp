@@ -14,7 +14,7 @@ Pose at(int i) { return Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 0.01 * i)), Eigen:
 
 const Pose kMoved(expSo3(Eigen::Vector3d(0.1, -0.2, 1.0)), Eigen::Vector3d(5.0, -3.0, 0.3));
 
-/// Poses first...last - 1, relaxed to somewhere else.
+/// Returns the track of poses first...last - 1, displaced by relaxation.
 Track track(int first, int last, const SessionId& session = "a") {
   Track made;
   made.session = session;

@@ -12,8 +12,8 @@ namespace {
 using test::Dice;
 
 constexpr int kCirclePoses = 100;       // poses of a circle
-constexpr double kOdometryStep = 0.5;   // metres
-constexpr std::size_t kFirstFalse = 8;  // candidates: so many true ones, then ten false ones
+constexpr double kOdometryStep = 0.5;   // m
+constexpr std::size_t kFirstFalse = 8;  // index of the first of ten false candidates, after the true ones
 
 Rigid<2> step() {
   Rigid<2> made;
@@ -22,8 +22,8 @@ Rigid<2> step() {
   return made;
 }
 
-// Three laps of a circle, hardly known to odometry for its closures: beginning and middle of the second lap are tied to
-// the first, and ten in a row of the third lap to places that are a quarter of a lap away.
+// Three laps of a circle with odometry of low information. Closures join the beginning and the middle of the second lap
+// to the first; ten in a row join the third lap to places a quarter of a lap away.
 struct Laps {
   Problem<2> problem;
   std::vector<EdgeRole> roles;
@@ -58,11 +58,11 @@ struct Laps {
   }
 };
 
-// The figures with all of them in and the graph relaxed to fit them all.
+// Statistics with all candidates accepted and the graph relaxed with them.
 struct Said {
   bool changed = false;
   std::vector<char> in;
-  double group_chi2 = 0.0;  // before, of the last group, as a round hears it
+  double group_chi2 = 0.0;  // of the last group before relaxation, as in a round of admission
 };
 Said summariseLaps(const Laps& laps) {
   const DeadReckoning<2> reckoning(laps.problem, laps.roles);

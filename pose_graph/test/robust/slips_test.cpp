@@ -12,7 +12,7 @@ namespace {
 
 using test::Dice;
 
-// A chain of 40 poses and closures over ten steps each, all exact but for one step.
+// A chain of 40 poses with closures over ten steps each; all are exact except for one step.
 struct SlippedChain {
   Problem<2> problem;
   std::vector<EdgeRole> roles;
@@ -72,12 +72,12 @@ TEST(Slips, AStepMayHaveSlippedWhereClosuresAreOutsideOrItIsFarOff) {
   const SlippedChain slipped(2.0), right(0.0);
   const auto may = [](const SlippedChain& chain, const std::vector<char>& in, const std::vector<char>& considered,
                       const std::vector<Rigid<2>>& poses) {
-    std::vector<int> row;  // a closure for itself
+    std::vector<int> row;  // each closure is its own row
     for (std::size_t e = 0; e < chain.roles.size(); ++e) row.push_back(static_cast<int>(e));
     return maySlip(chain.problem, chain.roles, in, considered, row, poses);
   };
-  EXPECT_TRUE(may(slipped, slipped.none, slipped.all, slipped.odometry));    // all that span it are outside
-  EXPECT_FALSE(may(slipped, slipped.none, slipped.none, slipped.odometry));  // and not considered
+  EXPECT_TRUE(may(slipped, slipped.none, slipped.all, slipped.odometry));    // all closures that span it are outside
+  EXPECT_FALSE(may(slipped, slipped.none, slipped.none, slipped.odometry));  // none is considered
   EXPECT_TRUE(may(slipped, slipped.all, slipped.all, slipped.truth));
   EXPECT_FALSE(may(right, right.all, right.all, right.truth));
 }
@@ -95,7 +95,7 @@ TEST(Slips, ClosuresThatDisagreeOnAStepShowNoSlip) {
   EXPECT_FALSE(maySlip(chain.problem, chain.roles, in, chain.all, row, chain.truth));
 }
 
-// The closures that span the step are all of them, one row of the same, two rows, or none.
+// The closures that span the step form one row each, one row in total, two rows, or are absent.
 TEST(Slips, OneRowOfClosuresContradictsNoStep) {
   const SlippedChain chain(2.0);
   std::vector<char> in = chain.all, none_spans = chain.all;

@@ -36,7 +36,7 @@ bool isNamed(const Listener& listener) {
   return false;
 }
 
-/// The frame of the messages is base_link, which needs no tf.
+/// The frame of the messages is base_link, so no tf is needed.
 TEST(PoseGraphGravity, AnAccelerometerWithTheSignOfNedIsNamedAndDoesNotTurnTheMapOver) {
   Listener listener;
   ASSERT_TRUE(listener.connected());
