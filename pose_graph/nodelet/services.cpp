@@ -39,8 +39,8 @@ void requireAbsolute(const std::string& path) {
 void addEdge(LiveGraph& graph, const AddEdge::Request& request, AddEdge::Response& response) {
   const auto measured = urban_nav_ros::toConstraint(request.T_a_b, request.information);
   if (!measured) {
-    throw UserError("", "the transform or its information",
-                    "finite numbers, a quaternion of length 1 (1 %), a symmetric matrix");
+    throw UserError("", "invalid transform or information",
+                    "finite numbers, a unit quaternion (1 %), a symmetric matrix");
   }
   Closure edge;
   edge.a = {request.a.session, toStampNs(request.a.stamp)};

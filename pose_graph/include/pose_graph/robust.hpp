@@ -78,12 +78,12 @@ struct RobustSolution {
 /// First, a common scale of the information matrices is estimated from loops of two near closures. If few candidates
 /// contradict odometry, all closures are accepted at once, and the result is final if they are consistent. Otherwise
 /// closures are admitted in rounds. Each candidate is tested by its innovation, with the covariance predicted from the
-/// accepted graph. Its evidence is the log likelihood ratio of the residual under a true closure and under one anywhere
-/// in the map. The better half of the candidates that pass is admitted, the graph is relaxed, and all closures are
-/// tested again; wrong ones are removed by Baarda's test of one observation, or of a common bias of a group (A testing
-/// procedure for use in geodetic networks, 1968). All closures are tested once more at the converged solution, which
-/// reveals groups that only fit because they bend a long path. If the information is too low, a closure that fits with
-/// its stated covariance and is far more likely true than random is kept.
+/// accepted graph. Its evidence is the log likelihood ratio of the residual for a true closure and for a uniformly
+/// distributed one in the map. The better half of the candidates that pass is admitted, the graph is relaxed, and all
+/// closures are tested again; wrong ones are removed by Baarda's test of one observation, or of a common bias of a
+/// group (A testing procedure for use in geodetic networks, 1968). All closures are tested once more at the converged
+/// solution, which reveals groups that only fit because they bend a long path. If the information is too low, a closure
+/// that fits with its stated covariance and is far more likely true than random is kept.
 ///
 /// Covariances are computed from random disturbances of all edges propagated through the factor, some dozens of
 /// right-hand sides; the cost is independent of the number of closures. If odometry is overconfident and closures are

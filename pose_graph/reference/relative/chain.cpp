@@ -65,7 +65,7 @@ void checkNumbers(const Problem<D>& problem) {
     for (const int pose : {edge.from, edge.to}) {
       if (pose < 0 || pose >= count) {
         throw UserError("", makeName(problem, i) + " refers to a missing pose",
-                        count == 0 ? "a pose of the graph, which has none" : "0..." + std::to_string(count - 1));
+                        count == 0 ? "a graph with poses" : "0..." + std::to_string(count - 1));
       }
     }
     if (edge.from == edge.to) throw UserError("", makeName(problem, i) + " goes from a pose to itself", "");

@@ -63,7 +63,7 @@ PoseGraph::PoseGraph(const Parameters& parameters, std::int64_t revision)
     : parameters_(parameters), revision_(revision) {}
 
 void PoseGraph::beginSession(const SessionId& session) {
-  if (hasSession(session)) throw UserError("pose_graph", "session " + session + " exists already", "a new one");
+  if (hasSession(session)) throw UserError("pose_graph", "session " + session + " exists already", "an unused id");
   track_of_[session] = tracks_.size();
   tracks_.emplace_back();
   tracks_.back().session = session;
@@ -164,9 +164,10 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
                     "stamps of poses; the nearest is " + urban_nav_core::printStamp(nearest) + " s");
   }
   const NodeIndex a = *findNode(offered.a), b = *findNode(offered.b);
-  if (a == b) throw UserError("closure", "from a pose to itself: " + toText(offered.a), "");
+  if (a == b) throw UserError("closure", "both ends are " + toText(offered.a), "two different poses");
   if (!offered.measured.T_a_b.isFinite() || !offered.measured.information.allFinite())
-    throw UserError("closure", "numbers that are not finite, " + toText(offered.a) + " to " + toText(offered.b), "");
+    throw UserError("closure", "non-finite values, " + toText(offered.a) + " to " + toText(offered.b),
+                    "finite numbers");
   if (offered.kind == EdgeKind::Odometry)
     throw UserError("closure", "kind odometry", "stereo, icp, plane, session, asserted");
   const Matrix6d symmetric = 0.5 * (offered.measured.information + offered.measured.information.transpose());

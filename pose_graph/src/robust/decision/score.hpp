@@ -85,9 +85,9 @@ class HypothesisEvaluator {
   Hypothesis<D> assessRows(const Hypothesis<D>& hypothesis, int rounds) const;
   static constexpr int kRounds = 10;
 
-  /// Returns the log Bayes factors by which a set evaluated by assessRows() loses without each of the given rows,
-  /// linearised at its solution. Minus infinity where no estimate is possible: rows of more than thirty closures, and
-  /// rows that alone connect parts.
+  /// Returns the log Bayes factors of a set evaluated by assessRows() over the same set without each of the given rows,
+  /// linearised at its solution. Minus infinity if no estimate is possible: for rows of more than thirty closures, and
+  /// for rows that are the only connection of parts.
   std::vector<double> estimateLosses(const Hypothesis<D>& rows, const Hypothesis<D>& hypothesis,
                                      const std::vector<std::vector<int>>& without) const;
 

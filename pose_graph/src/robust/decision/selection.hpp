@@ -151,7 +151,8 @@ class Selection {
   // Joins parts by links of consistent closures, and bars all closures between other parts.
   void joinSessions();
 
-  // Joins two parts if the closures then consistent have sufficient total evidence. Returns whether they have.
+  // Joins two parts by a closure if all closures consistent with it have sufficient total evidence. Returns whether
+  // the parts were joined.
   bool tryLink(int closure);
 
   struct Considered {

@@ -17,7 +17,7 @@ struct Evidence {
   /// Edges inside: chi-square of one bias common to the group, with the tangent's degrees of freedom; 0 without a
   /// group.
   std::vector<double> group_chi2;
-  /// Log likelihood ratio of the residual, under a true closure and under one anywhere.
+  /// Log likelihood ratio of the residual: true closure against a uniformly distributed one.
   std::vector<double> likelier;
   std::vector<double> group_likelier;  ///< as `likelier`, of the group's bias; 0 without a group
   double variance = 1.0;               ///< variance factor used in the evaluation

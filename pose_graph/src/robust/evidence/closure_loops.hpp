@@ -15,7 +15,7 @@ namespace pose_graph {
 struct ClosureLoop {
   double chi2 = 0.0;       ///< of the loop error, with all covariances as stated
   double log_true = 0.0;   ///< log density of a zero loop error if both are true
-  double log_false = 0.0;  ///< log density of any loop error if one of them is anywhere
+  double log_false = 0.0;  ///< log density of any loop error if one of them is uniform over the map
 };
 
 /// Closures sorted by their ends, for enumeration of near pairs.
