@@ -23,7 +23,7 @@ namespace {
 constexpr int kStates = 11, kFault = 3, kTilt = 9;
 using State = Eigen::Matrix<double, kStates, 1>;
 using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
-using Seen = Eigen::Matrix<double, 3, kStates>;
+using MeasurementMatrix = Eigen::Matrix<double, 3, kStates>;
 
 constexpr std::size_t kLeastTiltSpans = 5;
 constexpr double kUnknown = 1e3;    // in units of force noise: an uninformative prior
@@ -37,12 +37,12 @@ constexpr int kTiltRounds = 3;        // iterations of the weights
 constexpr double kMostTurn = 0.3;     // rad: small-angle approximation valid to 1.5 %
 
 /// Measurement of a span for the filter.
-struct Sight {
+struct Measurement {
   StampNs stamp = 0;
   double seconds = 0.0;  ///< since the previous one
   double growth = 0.0;   ///< increase of odometry's variance since the previous one, rad2
   Vector3d force;        ///< minus gravity, m/s2
-  Seen H;
+  MeasurementMatrix H;
 };
 
 /// Variances of the random walks in units of the force noise, as logarithms: factor of odometry's variance, and bias
@@ -51,13 +51,13 @@ struct Walks {
   double tilt = 0.0, fault = 0.0;
 };
 
-struct Passed {
+struct FilterState {
   State x, x_predicted;
   StateMatrix P, P_predicted;
 };
 
 struct Filtered {
-  std::vector<Passed> states;
+  std::vector<FilterState> states;
   std::vector<double> innovations;  ///< normalised by their standard deviation
   double noise2 = 1.0;              ///< variance of a force, (m/s2)^2
   double cost = 0.0;                ///< -2 log likelihood
@@ -68,7 +68,7 @@ struct Filtered {
 double priorCost(double ratio) { return kTiltPrior * (std::log(ratio) + 1.0 / ratio); }
 
 /// Covariances are in units of the force noise, which is estimated at the end.
-Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& weights, const Walks& walks,
+Filtered filter(const std::vector<Measurement>& measurements, const std::vector<double>& weights, const Walks& walks,
                 bool cost_alone) {
   Filtered made;
   const double tilt = std::exp(walks.tilt), fault = std::exp(walks.fault);
@@ -76,15 +76,15 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
   StateMatrix P = StateMatrix::Zero();
   P.diagonal().head<kTilt>().setConstant(kUnknown * kUnknown);
   double sum = 0.0, log_volume = 0.0;
-  for (std::size_t k = 0; k < sights.size(); ++k) {
-    const Sight& sight = sights[k];
-    P.diagonal().segment<3>(kFault).array() += fault * sight.seconds;
-    P.diagonal().tail<2>().array() += tilt * sight.growth;
+  for (std::size_t k = 0; k < measurements.size(); ++k) {
+    const Measurement& measurement = measurements[k];
+    P.diagonal().segment<3>(kFault).array() += fault * measurement.seconds;
+    P.diagonal().tail<2>().array() += tilt * measurement.growth;
     if (!cost_alone) made.states.push_back({x, x, P, P});
-    const Eigen::Matrix<double, kStates, 3> PH = P * sight.H.transpose();
-    const Eigen::Matrix3d S = sight.H * PH + Eigen::Matrix3d::Identity() / weights[k];
+    const Eigen::Matrix<double, kStates, 3> PH = P * measurement.H.transpose();
+    const Eigen::Matrix3d S = measurement.H * PH + Eigen::Matrix3d::Identity() / weights[k];
     const Eigen::LLT<Eigen::Matrix3d> llt(S);
-    const Vector3d innovation = sight.force - sight.H * x, whitened = llt.matrixL().solve(innovation);
+    const Vector3d innovation = measurement.force - measurement.H * x, whitened = llt.matrixL().solve(innovation);
     x += PH * llt.solve(innovation);
     P -= PH * llt.solve(PH.transpose());
     P = (0.5 * (P + P.transpose())).eval();
@@ -95,7 +95,7 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
     made.states.back().P = P;
     made.innovations.push_back(whitened.norm() / std::sqrt(3.0));
   }
-  const double numbers = 3.0 * static_cast<double>(sights.size());
+  const double numbers = 3.0 * static_cast<double>(measurements.size());
   made.noise2 = std::max(sum / numbers, 1e-12);
   made.cost = log_volume + numbers * std::log(made.noise2) + priorCost(tilt * made.noise2) +
               priorCost(fault * made.noise2 / (kFaultWalk * kFaultWalk));
@@ -104,8 +104,9 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
 }
 
 /// Returns the most likely walks: coordinate search with decreasing steps.
-Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& weights, Walks best, double step) {
-  const auto costAt = [&](const Walks& walks) { return filter(sights, weights, walks, true).cost; };
+Walks likeliest(const std::vector<Measurement>& measurements, const std::vector<double>& weights, Walks best,
+                double step) {
+  const auto costAt = [&](const Walks& walks) { return filter(measurements, weights, walks, true).cost; };
   double best_cost = costAt(best);
   for (; step > 0.1; step *= 0.5)
     for (double Walks::*which : {&Walks::tilt, &Walks::fault})
@@ -149,7 +150,7 @@ std::vector<double> weightsFor(std::vector<double> innovations, const std::vecto
 }
 
 /// Returns the smoothed states (Rauch, Tung and Striebel 1965).
-std::vector<State> smoothed(const std::vector<Passed>& states) {
+std::vector<State> smoothed(const std::vector<FilterState>& states) {
   std::vector<State> made(states.size());
   made.back() = states.back().x;
   for (std::size_t k = states.size() - 1; k-- > 0;) {
@@ -159,23 +160,23 @@ std::vector<State> smoothed(const std::vector<Passed>& states) {
   return made;
 }
 
-std::vector<Sight> collectSights(const std::vector<Span>& spans, const Trajectory& odometry,
-                                 const std::vector<double>& variance, const Vector3d& gravity,
-                                 const Eigen::Matrix<double, 3, 2>& across) {
-  std::vector<Sight> made;
+std::vector<Measurement> collectMeasurements(const std::vector<Span>& spans, const Trajectory& odometry,
+                                             const std::vector<double>& variance, const Vector3d& gravity,
+                                             const Eigen::Matrix<double, 3, 2>& across) {
+  std::vector<Measurement> made;
   double before = 0.0;
   StampNs last = odometry.front().stamp;
   for (const Span& span : spans) {
-    Sight sight;
-    sight.stamp = span.begin + (span.end - span.begin) / 2;
-    sight.seconds = secondsBetween(last, sight.stamp);
-    last = sight.stamp;
-    const double now = variance[odometry.nearest(sight.stamp)];
-    sight.growth = now - before;
+    Measurement measurement;
+    measurement.stamp = span.begin + (span.end - span.begin) / 2;
+    measurement.seconds = secondsBetween(last, measurement.stamp);
+    last = measurement.stamp;
+    const double now = variance[odometry.nearest(measurement.stamp)];
+    measurement.growth = now - before;
     before = now;
-    sight.force = span.force - gravity;
-    sight.H << Eigen::Matrix3d::Identity(), span.rotation, span.lever, urban_nav_core::skew(gravity) * across;
-    made.push_back(sight);
+    measurement.force = span.force - gravity;
+    measurement.H << Eigen::Matrix3d::Identity(), span.rotation, span.lever, urban_nav_core::skew(gravity) * across;
+    made.push_back(measurement);
   }
   return made;
 }
@@ -191,7 +192,8 @@ std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = level.up.unitOrthogonal();
   across.col(1) = level.up.cross(across.col(0));
-  const std::vector<Sight> sights = collectSights(spans, odometry, variance, level.gravity * level.up, across);
+  const std::vector<Measurement> measurements =
+      collectMeasurements(spans, odometry, variance, level.gravity * level.up, across);
   const std::optional<GravityFit> fit = fitGravity(spans);
   if (!fit) return {};
   const std::vector<double> calm = measureCalm(spans, *fit);
@@ -200,16 +202,16 @@ std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double
   Walks walks{std::log(1e4), std::log(1e4 * kFaultWalk * kFaultWalk)};
   Filtered filtered;
   for (int round = 0; round < kTiltRounds; ++round) {
-    walks = likeliest(sights, weights, walks, round == 0 ? 2.0 : 0.5);
-    filtered = filter(sights, weights, walks, false);
+    walks = likeliest(measurements, weights, walks, round == 0 ? 2.0 : 0.5);
+    filtered = filter(measurements, weights, walks, false);
     if (!std::isfinite(filtered.cost)) return {};
     weights = weightsFor(filtered.innovations, weights);
     std::transform(weights.begin(), weights.end(), calm.begin(), weights.begin(), std::multiplies<double>());
   }
   std::vector<Tilt> made;
   const std::vector<State> states = smoothed(filtered.states);
-  for (std::size_t k = 0; k < sights.size(); ++k) {
-    made.push_back({sights[k].stamp, across * states[k].tail<2>()});
+  for (std::size_t k = 0; k < measurements.size(); ++k) {
+    made.push_back({measurements[k].stamp, across * states[k].tail<2>()});
     if (!(made.back().turn.norm() < kMostTurn)) return {};
   }
   return made;

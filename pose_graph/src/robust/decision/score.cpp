@@ -25,10 +25,11 @@ namespace {
 
 // Prior probability that a step slipped: 1/1000.
 const double kLogSlip = std::log(Thresholds::kNegligible);
-constexpr double kDisplaced = 0.01;                   // share of the extent
-constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // ratio; logarithm
-constexpr double kComponentsSettled = 0.05;           // difference of the logarithms of the factors
-constexpr std::size_t kAskedOfMap = 512;  // limit of closures inside evaluated for the density of chance on a map
+constexpr double kDisplaced = 0.01;                                 // share of the extent
+constexpr double kLargestRatio = 0.9, kLargestExtrapolation = 2.0;  // ratio; logarithm
+constexpr double kComponentsSettled = 0.05;                         // difference of the logarithms of the factors
+// Limit of closures inside evaluated for the density of chance on a map.
+constexpr std::size_t kMostChanceQueries = 512;
 constexpr std::size_t kMostUnconfirmed = 8;
 // Maximum length of a row of false closures: in public graphs rows have tens of closures, real front ends that confuse
 // two corridors produce up to 25.
@@ -91,9 +92,9 @@ bool stateTheSame(const Problem<D>& problem, const std::vector<int>& candidates)
 }
 
 // Extrapolates a slowly converging sequence beyond its second step (Aitken 1926).
-double leap(double before, double now) {
-  const double ratio = before * now > 0.0 ? std::min(now / before, kMostLeap) : 0.0;
-  return std::clamp(now * ratio / (1.0 - ratio), -kLeapWithin, kLeapWithin);
+double aitkenExtrapolation(double before, double now) {
+  const double ratio = before * now > 0.0 ? std::min(now / before, kLargestRatio) : 0.0;
+  return std::clamp(now * ratio / (1.0 - ratio), -kLargestExtrapolation, kLargestExtrapolation);
 }
 
 // Whether both ends of two closures are near each other: between two chains partners may be at any distance.
@@ -204,13 +205,13 @@ double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis
   if (first.empty() || assertions_) return 0.0;
   ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
   const double log_predicted = gain / static_cast<double>(first.size());  // average log density per closure
-  const std::size_t every = 1 + first.size() / kAskedOfMap;
-  double sum = 0.0, asked = 0.0;
-  for (std::size_t i = 0; i < first.size(); i += every, asked += 1.0) {
+  const std::size_t every = 1 + first.size() / kMostChanceQueries;
+  double sum = 0.0, queries = 0.0;
+  for (std::size_t i = 0; i < first.size(); i += every, queries += 1.0) {
     const double on_map = by_chance.logAt(problem_.edges[first[i]], std::exp(-log_predicted));
     sum += std::max(0.0, on_map - log_false_[first[i]]);
   }
-  return sum / asked * static_cast<double>(first.size());
+  return sum / queries * static_cast<double>(first.size());
 }
 
 // Sums of squares over redundancy (Förstner 1979), translation and rotation combined.
@@ -260,9 +261,10 @@ void HypothesisEvaluator<D>::assess(Hypothesis<D>& hypothesis, int rounds) const
     if (std::abs(steps[0] - steps[1]) < kComponentsSettled) {
       round = rounds - 1;  // only the poses remain to be updated
     } else if (round % 2 == 1) {
-      hypothesis.factors.odometry =
-          std::min(hypothesis.factors.odometry * std::exp(leap(steps_before[0], steps[0])), largest_odometry_);
-      hypothesis.factors.closures *= std::exp(leap(steps_before[1], steps[1]));  // remains 1 if it is not estimated
+      hypothesis.factors.odometry = std::min(
+          hypothesis.factors.odometry * std::exp(aitkenExtrapolation(steps_before[0], steps[0])), largest_odometry_);
+      // Remains 1 if it is not estimated.
+      hypothesis.factors.closures *= std::exp(aitkenExtrapolation(steps_before[1], steps[1]));
     }
     std::copy(steps, steps + 2, steps_before);
   }

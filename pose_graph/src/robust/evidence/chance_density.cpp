@@ -88,7 +88,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
   std::vector<double> nearest;  // max-heap of squared distances
   std::size_t within = 0;
   double farthest = std::numeric_limits<double>::infinity();
-  const auto look = [&](std::size_t i) {
+  const auto addSample = [&](std::size_t i) {
     const Rigid<D>& pose = poses_[i];
     double square = per_shift * (pose.t - at.t).squaredNorm();
     if (square >= farthest) return;
@@ -118,7 +118,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
     const bool up = below == 0 || (above < poses_.size() && distance(above) < distance(below - 1));
     const std::size_t next = up ? above++ : --below;
     if (per_shift * distance(next) * distance(next) >= farthest) break;
-    look(next);
+    addSample(next);
   }
   const double volume = unit * std::pow(farthest, 0.5 * kTangentSize<D>);
   const double share = static_cast<double>(std::max(within, kNearestPairs)) / static_cast<double>(asked);

@@ -127,8 +127,8 @@ namespace {
 // Returns whether the converged graph with a group costs no more than chance explains for all its members. If the group
 // closes a long path, the linearised test assumes a straight line and rejects true closures.
 template <int D>
-bool stands(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, const std::vector<int>& members,
-            AcceptedGraph<D>& graph, const AdmissionState<D>& state, double cost) {
+bool isExplained(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, const std::vector<int>& members,
+                 AcceptedGraph<D>& graph, const AdmissionState<D>& state, double cost) {
   std::vector<char> in = state.in;
   int dof = 0;
   for (int e : members) {
@@ -142,11 +142,11 @@ bool stands(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, 
   return rise <= urban_nav_core::chiSquareQuantile(1.0 - thresholds.kFalseAlarms / kTries, dof);
 }
 
-// Keeps groups about to be removed if an arc may explain them and stands() confirms them.
+// Keeps groups about to be removed if an arc may explain them and isExplained() confirms them.
 template <int D>
-void reprieve(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const Thresholds& thresholds,
-              const AdmissionState<D>& state, AcceptedGraph<D>& graph, AdmissionRound<D>& round,
-              std::vector<int>& expelled) {
+void keepExplainedGroups(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
+                         const Thresholds& thresholds, const AdmissionState<D>& state, AcceptedGraph<D>& graph,
+                         AdmissionRound<D>& round, std::vector<int>& expelled) {
   std::map<int, std::vector<int>> members, leaving;
   for (int e : evaluator.candidates()) {
     if (!state.in[sz(e)]) continue;
@@ -158,7 +158,7 @@ void reprieve(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   std::size_t tries = 0;
   for (const auto& [name, some] : leaving) {
     if (++tries > kTries) break;
-    if (!stands(evaluator, thresholds, members[name], graph, state, cost)) continue;
+    if (!isExplained(evaluator, thresholds, members[name], graph, state, cost)) continue;
     for (int e : some) {
       round.next[sz(e)] = 1;
       --expelled[sz(e)];
@@ -181,7 +181,7 @@ std::size_t validateFinally(const ClosureEvaluator<D>& evaluator, const std::vec
   if (!state.evidence.known) return 0;
   AdmissionRound<D> round(evaluator, group, thresholds, state.evidence, state.in);
   round.expel(expelled);
-  if (round.changes > 0) reprieve(evaluator, group, thresholds, state, graph, round, expelled);
+  if (round.changes > 0) keepExplainedGroups(evaluator, group, thresholds, state, graph, round, expelled);
   if (round.changes == 0) round.admitLikely(expelled);
   if (round.changes == 0) return 0;
   state.in = std::move(round.next);

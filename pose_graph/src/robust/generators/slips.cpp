@@ -29,12 +29,12 @@ constexpr int kFewestCauchyRounds = 12, kMostCauchyRounds = 100;
 constexpr std::size_t kMostSlips = 20;
 // A step stands out if the distance to its few most similar steps exceeds, by this factor, that of every other step
 // that would explain the slip equally well.
-constexpr std::size_t kAlike = 3;
-constexpr double kStandsOut = 4.0;  // of squared distances
-constexpr double kBelieved = 0.5;   // weight under Cauchy's kernel above which a closure counts as accepted
-constexpr int kSlipReach = 200;     // search range around the step where a slip appears, in poses
-constexpr int kDoubtedRounds = 5;   // rounds until closures that span a down-weighted step agree
-constexpr double kDoubtedWeight = 1e-9;
+constexpr std::size_t kSimilarSteps = 3;
+constexpr double kStandsOut = 4.0;       // of squared distances
+constexpr double kAcceptedWeight = 0.5;  // weight under Cauchy's kernel above which a closure counts as accepted
+constexpr int kSlipReach = 200;          // search range around the step where a slip appears, in poses
+constexpr int kDownweightedRounds = 5;   // rounds until closures that span a down-weighted step agree
+constexpr double kDownweightedWeight = 1e-9;
 
 /// Steps of odometry between consecutive poses. The graph constrains a slip only by the closures that span it: all
 /// steps spanned by the same closures, adjacent or not, explain it equally well.
@@ -48,7 +48,7 @@ class Steps {
       const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
       if (roles[e] != EdgeRole::Candidate) {
         if (last == first + 1 && into_[sz(last)] < 0) into_[sz(last)] = static_cast<int>(e);
-      } else if (weights[e] > kBelieved) {
+      } else if (weights[e] > kAcceptedWeight) {
         // A closure contributes its number to the sums of the steps from its first pose to its last.
         const std::uint64_t number = scatteredBits(e);
         for (const int end : {first, last})
@@ -60,14 +60,14 @@ class Steps {
 
   /// Returns the step that clearly differs most from all others, among those spanned by the same closures as e;
   /// otherwise e.
-  int mostUnlike(int e) const {
+  int mostDistinct(int e) const {
     const int at = std::max(problem_.edges[sz(e)].from, problem_.edges[sz(e)].to);
     if (into_[sz(at)] != e) return e;
     int best = e;
     double most = 0.0, second = 0.0;
     const auto compare = [&](int pose) {
       if (spanned_[sz(pose)] != spanned_[sz(at)]) return;
-      const double square = unlikeness(into_[sz(pose)]);
+      const double square = distanceToSimilar(into_[sz(pose)]);
       if (square > most) {
         second = most;
         most = square;
@@ -100,8 +100,8 @@ class Steps {
     return edge.from < edge.to ? edge.Z : edge.Z.inverse();
   }
 
-  // Squared Mahalanobis distance to the kAlike-th nearest other step.
-  double unlikeness(int e) const {
+  // Squared Mahalanobis distance to the kSimilarSteps-th nearest other step.
+  double distanceToSimilar(int e) const {
     const Rigid<D> own = forward(e);
     std::vector<double> squares;
     for (const int other : into_) {
@@ -112,9 +112,9 @@ class Steps {
       d.template tail<kRotationSize<D>>() = logRotation(difference.R);
       squares.push_back((whitened_[sz(e)].W * d).squaredNorm());
     }
-    if (squares.size() < kAlike) return 0.0;
-    std::nth_element(squares.begin(), squares.begin() + kAlike - 1, squares.end());
-    return squares[kAlike - 1];
+    if (squares.size() < kSimilarSteps) return 0.0;
+    std::nth_element(squares.begin(), squares.begin() + kSimilarSteps - 1, squares.end());
+    return squares[kSimilarSteps - 1];
   }
 
   const Problem<D>& problem_;
@@ -145,8 +145,8 @@ double slipLimit(double least, const std::vector<EdgeRole>& roles, const std::ve
 
 // Returns by pose the excess of rejected over accepted closures that span the step to the next pose.
 template <int D>
-std::vector<int> countRefuting(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& in, const std::vector<char>& considered) {
+std::vector<int> countContradicting(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                    const std::vector<char>& in, const std::vector<char>& considered) {
   std::vector<int> against(problem.poses.size() + 1, 0);
   for (std::size_t e = 0; e < in.size(); ++e) {
     if (roles[e] != EdgeRole::Candidate || !considered[e]) continue;
@@ -230,7 +230,7 @@ bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, cons
 template <int D>
 std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                               const std::vector<char>& in, const std::vector<char>& considered) {
-  const std::vector<int> against = countRefuting(problem, roles, in, considered);
+  const std::vector<int> against = countContradicting(problem, roles, in, considered);
   const int most = *std::max_element(against.begin(), against.end());
   std::vector<char> made;
   if (most < static_cast<int>(Thresholds::kLeastAgreeing)) return made;
@@ -257,16 +257,16 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   const int rounds =
       static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestCauchyRounds, kMostCauchyRounds));
   for (int round = 0; round < rounds; ++round) {
-    const bool is_doubted = round < kDoubtedRounds && !doubted.empty();
+    const bool is_downweighted = round < kDownweightedRounds && !doubted.empty();
     double cost = 0.0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       weights[e] = 0.0;
       if (!in[e]) continue;
       const double square = squareOver(edges[e], poses);
-      weights[e] = is_doubted && doubted[e] ? kDoubtedWeight : 1.0 / (1.0 + square);
+      weights[e] = is_downweighted && doubted[e] ? kDownweightedWeight : 1.0 / (1.0 + square);
       cost += std::log1p(square);
     }
-    if (round > 0 && !is_doubted && std::abs(last - cost) <= kEndShare * cost) break;
+    if (round > 0 && !is_downweighted && std::abs(last - cost) <= kEndShare * cost) break;
     last = cost;
     graph.take(in, weights);
     graph.relax(poses, 1, 0.0, false);
@@ -276,7 +276,7 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   const Steps<D> steps(problem, roles, edges, weights);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (roles[e] != EdgeRole::Trusted || !(squareOver(edges[e], poses) > limit)) continue;
-    const int likeliest = steps.mostUnlike(static_cast<int>(e));
+    const int likeliest = steps.mostDistinct(static_cast<int>(e));
     if (std::any_of(made.begin(), made.end(), [&](const Slip<D>& slip) { return slip.edge == likeliest; })) continue;
     made.push_back({likeliest, steps.motionInstead(likeliest, static_cast<int>(e), poses)});
   }
