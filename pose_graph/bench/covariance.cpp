@@ -63,12 +63,12 @@ Nees computeNees(const SimulatedGraph& graph) {
 }
 
 /// Numbers of closures over all graphs.
-struct Judged {
+struct ClosureCounts {
   std::size_t wrong = 0, wrong_kept = 0, right = 0, right_lost = 0;
 };
 
 /// NEES with 20 % additional closures, all false.
-Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
+Nees neesAmongFalseOnes(SimulatedGraph graph, int number, ClosureCounts& counts) {
   constexpr FalseClosures kKinds[] = {FalseClosures::Random, FalseClosures::Local, FalseClosures::RandomGrouped,
                                       FalseClosures::LocalGrouped};
   const std::size_t closures = graph.edges.size() - graph.truth.size() + 1;
@@ -83,9 +83,9 @@ Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
     weights.push_back(robust.edges[e].weight);
     if (graph.edges[e].kind == GraphEdgeKind::Chain) continue;
     const bool kept = robust.edges[e].verdict == urban_nav_core::ClosureVerdict::Accepted;
-    ++(graph.edges[e].wrong ? judged.wrong : judged.right);
-    if (graph.edges[e].wrong && kept) ++judged.wrong_kept;
-    if (!graph.edges[e].wrong && !kept) ++judged.right_lost;
+    ++(graph.edges[e].wrong ? counts.wrong : counts.right);
+    if (graph.edges[e].wrong && kept) ++counts.wrong_kept;
+    if (!graph.edges[e].wrong && !kept) ++counts.right_lost;
   }
   return computeNees(graph, problem, robust.solution.poses, weights);
 }
@@ -113,10 +113,10 @@ int main(int argc, char** argv) try {
   const int graphs = asked.number("--graphs", 30);
   const urban_nav_core::ThreadLimit one(1);
   Nees plain{}, robust{};
-  Judged judged;
+  ClosureCounts counts;
   for (int number = 1; number <= graphs; ++number) {
     const SimulatedGraph graph = makeGraph(number);
-    const Nees alone = computeNees(graph), among = neesAmongFalseOnes(graph, number, judged);
+    const Nees alone = computeNees(graph), among = neesAmongFalseOnes(graph, number, counts);
     for (std::size_t k = 0; k < kPlaces; ++k) {
       plain[k] += alone[k] / graphs;
       robust[k] += among[k] / graphs;
@@ -129,8 +129,8 @@ int main(int argc, char** argv) try {
   for (std::size_t k = 0; k < kPlaces; ++k)
     table.add({cell(0.1 * static_cast<double>(k + 1), 1), marked(plain[k]), marked(robust[k]),
                cell(band.low, 2) + "..." + cell(band.high, 2)});
-  table.note("False closures: " + std::to_string(judged.wrong) + " beside " + std::to_string(judged.right) +
-             " true ones; " + std::to_string(judged.wrong_kept) + " kept, " + std::to_string(judged.right_lost) +
+  table.note("False closures: " + std::to_string(counts.wrong) + " beside " + std::to_string(counts.right) +
+             " true ones; " + std::to_string(counts.wrong_kept) + " kept, " + std::to_string(counts.right_lost) +
              " true ones lost.");
   for (const auto& [poses, closures] : {std::pair(20000, 200), std::pair(20000, 2000), std::pair(100000, 1000)})
     table.note(timed(poses, closures));

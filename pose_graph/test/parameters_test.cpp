@@ -132,7 +132,7 @@ TEST(NodeletParameters, EachChangesWhatTheNodeletDoes) {
                  {"queue_size", "NodeletParameters.LimitTheInputsThatWait", parameters},
                  {"robot", "LivePoseGraphTest.TheIdOfASessionHasRobotAndRecording"},
                  {"recording", "LivePoseGraphTest.TheIdOfASessionHasRobotAndRecording"},
-                 {"store", "Store.HasWhatWasTakenInASecondAgo", nodelet}}),
+                 {"store", "Store.ContainsInputsAfterOneSecond", nodelet}}),
             "");
 }
 

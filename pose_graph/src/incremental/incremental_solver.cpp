@@ -208,11 +208,11 @@ void IncrementalSolver::bringTogether(const GraphView& view, const ClosureEdge& 
 struct IncrementalSolver::Core {
   Problem<3> problem;
   std::size_t first_chain = 0;
-  struct Way {
+  struct CoreChain {
     NodeIndex begin;
     Node* node;
   };
-  std::vector<Way> chains;
+  std::vector<CoreChain> chains;
 };
 
 IncrementalSolver::Core IncrementalSolver::core(const GraphView& view) {
@@ -240,10 +240,10 @@ IncrementalSolver::Core IncrementalSolver::core(const GraphView& view) {
       made.problem.edges.back().information /= variance_;
     }
   made.first_chain = made.problem.edges.size();
-  for (const Core::Way& way : made.chains) {
-    made.problem.edges.push_back(way.node->onward.edge());
-    made.problem.edges.back().from = way.node->number;
-    made.problem.edges.back().to = way.node->number + 1;
+  for (const Core::CoreChain& chain : made.chains) {
+    made.problem.edges.push_back(chain.node->onward.edge());
+    made.problem.edges.back().from = chain.node->number;
+    made.problem.edges.back().to = chain.node->number + 1;
     made.problem.edges.back().information /= variance_;
   }
   return made;

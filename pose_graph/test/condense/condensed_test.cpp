@@ -182,7 +182,7 @@ TEST(Chains, FixedPosesAreInTheCore) {
   EXPECT_TRUE(made.core_edges.empty());
 }
 
-TEST(Chains, KnowTreesAndRings) {
+TEST(Chains, HandleTreesAndRings) {
   const auto find = [](const Problem<2>& problem) {
     return findChains(problem, std::vector<char>(problem.edges.size(), 1));
   };

@@ -72,7 +72,7 @@ TEST(EditedGraph, TheLastVerdictOnAClosureCounts) {
   expectSameMap(unedited.graph, taken_back.graph);
 }
 
-TEST(EditedGraph, AcceptsWhatDisagreesWithAllElse) {
+TEST(EditedGraph, AcceptsAClosureThatContradictsAllOthers) {
   const auto build = [](std::vector<Edit> edits) {
     PoseGraph graph{Parameters()};
     EditedGraph edited(graph, std::move(edits));

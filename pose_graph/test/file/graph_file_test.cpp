@@ -178,7 +178,7 @@ double costOfLines(const G2oGraph& graph) {
   return sum;
 }
 
-TEST(GraphFile, LandmarksAndPriorsCostWhatTheLinesSay) {
+TEST(GraphFile, LandmarksAndPriorsHaveTheCostOfTheirLines) {
   const G2oGraph graph = parseG2o(kConstrained, "g.g2o");
   const FileProblem<2> file = parsed<2>(kConstrained);
   EXPECT_EQ(file.problem.poses.size(), 5U);

@@ -50,7 +50,7 @@ TEST(SelectionWarnings, NameTheClosuresWithoutWhichPartsStayApart) {
   EXPECT_TRUE(graph.warns("2 parts of the graph that odometry does not join stay apart: all 2 closures between them"));
 }
 
-TEST(SelectionWarnings, SayNothingMoreWhereNothingCouldBeDecided) {
+TEST(SelectionWarnings, AreLimitedToOneWhereNothingCouldBeDecided) {
   TwoChains graph;
   graph.robust.selection.undecided = true;
   for (const auto& [from, to] : {std::pair{0, 3}, {1, 4}, {2, 6}}) graph.reject(from, to);
@@ -58,7 +58,7 @@ TEST(SelectionWarnings, SayNothingMoreWhereNothingCouldBeDecided) {
   EXPECT_FALSE(graph.warns("apart"));
 }
 
-TEST(SelectionWarnings, SpeakOfScaleOnlyWhereItDoesHarm) {
+TEST(SelectionWarnings, NameTheScaleOnlyWhereItMatters) {
   TwoChains graph;
   const auto warnings = [&](double odometry, double closures) {
     DeviationScales scales;

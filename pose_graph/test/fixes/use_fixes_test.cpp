@@ -40,7 +40,7 @@ TEST(UseFixes, MoveNothingWhereOdometryAndFixesAgree) {
   EXPECT_EQ(graph.fixUse().sigma_factor, 1.0);
 }
 
-TEST(UseFixes, BoundTheDriftOfALongWay) {
+TEST(UseFixes, BoundTheDriftOfALongPath) {
   double without = 0.0, with = 0.0;
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const GpsDrive drive = realisticDrive(seed);
@@ -74,7 +74,7 @@ TEST(UseFixes, LeaveOutReflections) {
   }
 }
 
-TEST(UseFixes, OfAReceiverThatPromisesTooMuchAreNoWorseThanOdometry) {
+TEST(UseFixes, OfAnOverconfidentReceiverAreNoWorseThanOdometry) {
   GpsDrive drive;  // odometry drifts by some decimetres; fixes have errors of metres and overconfident covariances
   drive.turn_drift = 1e-4;
   drive.slow = 5.0;

@@ -24,7 +24,7 @@ void driveKnowing(PoseGraph& graph, const SessionId& session, int steps, double 
   }
 }
 
-TEST(CommonErrorsOfAGraph, FollowWhatTheNewestStepKnows) {
+TEST(CommonErrorsOfAGraph, FollowTheEstimateOfTheNewestStep) {
   PoseGraph graph{Parameters()};
   driveKnowing(graph, "a", 5, 0.05, 0.01);
   const std::vector<CommonError<3>> errors = graph.commonErrors();

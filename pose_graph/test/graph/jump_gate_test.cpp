@@ -65,7 +65,7 @@ TEST(JumpGate, ASecondOneThatAgreesEndsTheWaitAtOnce) {
     EXPECT_TRUE(isApprox(live.tracks()[0].map[i], batch.tracks()[0].map[i], 1e-2)) << i;
 }
 
-TEST(JumpGate, OneThatDisagreesIsNoWitness) {
+TEST(JumpGate, AnInconsistentClosureConfirmsNothing) {
   PoseGraph live = driven();
   const ClosureId false_one = live.addClosure(wrong(30, 0.0, 2.0));
   live.update();
@@ -80,7 +80,7 @@ TEST(JumpGate, OneThatDisagreesIsNoWitness) {
   EXPECT_FALSE(isAccepted(live, false_one));
 }
 
-TEST(JumpGate, OneThatMayActAloneIsAWitness) {
+TEST(JumpGate, AClosureWithinTheOdometryGateConfirms) {
   PoseGraph live = driven();
   const ClosureId first = live.addClosure(large(20));
   live.update();

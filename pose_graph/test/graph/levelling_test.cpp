@@ -141,7 +141,7 @@ TEST(Levelling, TheGroundLevelsAMapOfWhichNoSessionHasForces) {
   EXPECT_THROW(graph.putGround("b", ground), urban_nav_core::UserError);
 }
 
-TEST(Levelling, LaterForcesTakeThePlaceOfWhatWasKnownThere) {
+TEST(Levelling, LaterForcesReplaceEarlierOnes) {
   PoseGraph graph{Parameters()}, whole{Parameters()};
   for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);
   const std::vector<SpecificForce> all = forcesAlong(whole.tracks()[0]);
@@ -157,12 +157,12 @@ TEST(Levelling, LaterForcesTakeThePlaceOfWhatWasKnownThere) {
 }
 
 /// Odometry with rotation drift, and the specific forces along the true path.
-struct Leaning {
+struct DriftingDrive {
   testing::Drive drive;
   std::vector<urban_nav_core::RelativePose> steps;
   std::vector<SpecificForce> forces;
 
-  Leaning() {
+  DriftingDrive() {
     urban_nav_core::testing::Dice dice(5);
     drive.frames = 3000;
     drive.noise = 0.01;
@@ -195,7 +195,7 @@ struct Leaning {
 };
 
 TEST(Levelling, TakesTheDriftOfRollAndPitchOutOfOdometry) {
-  const Leaning drive;
+  const DriftingDrive drive;
   Parameters without;
   without.gravity = false;
   PoseGraph graph{Parameters()}, plain{without};
@@ -209,7 +209,7 @@ TEST(Levelling, TakesTheDriftOfRollAndPitchOutOfOdometry) {
 }
 
 TEST(Levelling, ABatchLeavesNoTraceInTheNextOne) {
-  const Leaning drive;
+  const DriftingDrive drive;
   PoseGraph graph{Parameters()}, once{Parameters()};
   for (PoseGraph* each : {&graph, &once}) {
     drive.into(*each);
@@ -220,7 +220,7 @@ TEST(Levelling, ABatchLeavesNoTraceInTheNextOne) {
 }
 
 TEST(Levelling, AnUpdateGoesOnFromTheLevelledSteps) {
-  const Leaning drive;
+  const DriftingDrive drive;
   PoseGraph graph{Parameters()};
   drive.into(graph);
   graph.relax();

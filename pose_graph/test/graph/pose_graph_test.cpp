@@ -89,7 +89,7 @@ TEST(PoseGraph, ClosesALoop) {
   ASSERT_FALSE(relaxed.moved.empty());
 }
 
-TEST(PoseGraph, SaysWhyTheRobotJumped) {
+TEST(PoseGraph, ReportsTheReasonOfACorrection) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 5e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 20, "a", 20 + kRound));
@@ -195,7 +195,7 @@ TEST(PoseGraph, TakesAddedClosuresAsTheBatchDoes) {
   EXPECT_TRUE(isApprox(live.tracks()[0].map.back(), before, 1e-2));
 }
 
-TEST(PoseGraph, WaitsForASecondWitnessOfALargeCorrection) {
+TEST(PoseGraph, WaitsForConfirmationOfALargeCorrection) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 3e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 100, "a", 100 + kRound));
@@ -230,7 +230,7 @@ TEST(PoseGraph, FusesSessionsByTwoClosures) {
   EXPECT_EQ(graph.tracks()[1].part.back(), 0);
 }
 
-TEST(PoseGraph, SaysWhatIsWrongWithAClosure) {
+TEST(PoseGraph, ReportsInvalidClosures) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 100, 0.0);
   const auto message = [&](Closure closure) {
@@ -266,7 +266,7 @@ TEST(PoseGraph, ReplacesAndRemovesClosures) {
   EXPECT_FALSE(graph.removeClosure(id));
 }
 
-TEST(PoseGraph, TakesBadOdometryForWhatItIs) {
+TEST(PoseGraph, HandlesInvalidOdometry) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 50, 0.0);
   RelativePose step = stepAt(50, 0.0);

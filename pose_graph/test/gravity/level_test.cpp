@@ -45,7 +45,7 @@ TEST(Level, MapIsLevelWithTheHeadingOfTheFirstPose) {
   EXPECT_GT(ahead.x(), 0.9);
 }
 
-TEST(Level, TellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
+TEST(Level, SeparatesBiasFromTiltWhereTheRobotTurns) {
   Dice dice(1);
   Drive drive;
   drive.fault = {0.1, -0.15, 0.05};
@@ -75,7 +75,7 @@ TEST(Level, DoesNotDependOnTheFrameOfTheTrajectory) {
   EXPECT_LT((later.R().transpose() * level.up - from_later.up).norm(), 1e-9);
 }
 
-TEST(Level, StandsShocksAndRubbish) {
+TEST(Level, ToleratesShocksAndInvalidForces) {
   Dice dice(3);
   Drive drive;
   drive.noise = 0.05;
@@ -115,7 +115,7 @@ TEST(Level, ItsCovarianceIsRight) {
   EXPECT_TRUE(urban_nav_core::testing::meanChiSquareFits(sum / kDrives, 2, 30));
 }
 
-TEST(Level, AFewSecondsShowWhichWayIsUp) {
+TEST(Level, IsEstimatedFromAFewSeconds) {
   Dice dice(11);
   for (const int frames : {40, 60, 100}) {
     double sum = 0.0;
@@ -158,7 +158,7 @@ TEST(Level, RotationsThatAreNotExactAddToItsCovariance) {
   EXPECT_FALSE(withRotations(Level(), covariance).known());
 }
 
-TEST(Level, SaysWhyItIsNotKnown) {
+TEST(Level, ReportsWhyItIsUnknown) {
   Dice dice(1);
   Drive drive;
   EXPECT_EQ(estimateLevel(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);

@@ -143,7 +143,7 @@ TEST(IncrementalSolver, IsTheBatchAfterEachClosure) {
   EXPECT_NEAR(IncrementalSolver(tracks, closure_edges, 100).cost(), core->cost(), 0.01);
 }
 
-TEST(IncrementalSolver, TakesBackWhatIsNotKept) {
+TEST(IncrementalSolver, WithdrawsClosuresThatAreNotKept) {
   Tracks tracks, untouched;
   for (const ChainStep& step : liveDrive().steps)
     for (Tracks* each : {&tracks, &untouched}) each->add(0, step);
@@ -200,14 +200,15 @@ TEST(IncrementalSolver, TakesSeveralOnTrialBackOneByOne) {
   }
 }
 
-TEST(IncrementalSolver, SaysWhereAPoseIsBeforeItIsWritten) {
+TEST(IncrementalSolver, ReturnsPosesBeforeTheyAreWritten) {
   Tracks tracks;
   for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
   IncrementalSolver core(tracks, liveDrive().closure_edges, 100);
-  std::vector<Rigid<3>> said;
-  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
+  std::vector<Rigid<3>> predicted_poses;
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) predicted_poses.push_back(core.pose(tracks, {0, i}));
   core.write(tracks);
-  for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
+  for (std::size_t i = 0; i < predicted_poses.size(); ++i)
+    EXPECT_LT((tracks.pose({0, i}).t - predicted_poses[i].t).norm(), 1e-9) << i;
 }
 
 TEST(IncrementalSolver, TakesStepsForAsUncertainAsStated) {

@@ -199,7 +199,7 @@ TEST(GraphWorker, OptimizeIsABatch) {
   EXPECT_EQ(makeBook(worker).batches, 1);
 }
 
-TEST(GraphWorker, WhoWaitsForABatchIsInformedHowItEnds) {
+TEST(GraphWorker, RequestsOfABatchReceiveItsResult) {
   std::future<Figures> dropped;
   {
     Worker worker(std::make_unique<Note>(77ms), 100, {});
@@ -248,13 +248,13 @@ TEST(GraphWorker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
 }
 
 TEST(GraphWorker, ABatchThatFailsIsSaid) {
-  std::atomic<bool> said{false};
+  std::atomic<bool> reported_reason{false};
   Worker::Listener listener;
-  listener.refused = [&](const std::string& why) { said = why == "out of memory"; };
+  listener.refused = [&](const std::string& why) { reported_reason = why == "out of memory"; };
   Worker worker(std::make_unique<Note>(77ms), 100, listener);
   worker.optimize();
-  for (int i = 0; i < 1000 && !said; ++i) std::this_thread::sleep_for(5ms);
-  EXPECT_TRUE(said);
+  for (int i = 0; i < 1000 && !reported_reason; ++i) std::this_thread::sleep_for(5ms);
+  EXPECT_TRUE(reported_reason);
   EXPECT_EQ(makeBook(worker).batches, 0);
 }
 
@@ -269,7 +269,7 @@ TEST(GraphWorker, EndsInTheMiddleOfABatch) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
 }
 
-TEST(GraphWorker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {
+TEST(GraphWorker, ADisagreementLeadsToOneBatch) {
   Worker worker(std::make_unique<Note>(50ms), 100, {});
   set(worker, &Note::Book::disagree);
   const auto begin = std::chrono::steady_clock::now();
@@ -284,16 +284,16 @@ TEST(GraphWorker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {
   EXPECT_GT(book.kept, 0);
 }
 
-TEST(GraphWorker, WhatTheGraphRefusesIsCountedAndSaid) {
-  std::string said;
+TEST(GraphWorker, RejectedInputsAreCountedAndReported) {
+  std::string reported_reason;
   Worker::Listener listener;
-  listener.refused = [&](const std::string& why) { said = why; };
+  listener.refused = [&](const std::string& why) { reported_reason = why; };
   Worker worker(std::make_unique<Note>(0ms), 100, listener);
   worker.put(step(5, 3));
   worker.put(step(5, 7));
   EXPECT_EQ(makeBook(worker).steps.size(), 1U);
   EXPECT_EQ(worker.counts().refused, 1);
-  EXPECT_EQ(said, "step: backwards");
+  EXPECT_EQ(reported_reason, "step: backwards");
 }
 
 TEST(GraphWorker, AQuestionThrowsWhereItWasAsked) {
@@ -324,7 +324,7 @@ TEST(GraphWorker, ADroppedQuestionHasNoAnswer) {
   EXPECT_GE(worker.counts().dropped, 1);
 }
 
-TEST(GraphWorker, EndsWithWhatIsUnderWay) {
+TEST(GraphWorker, EndsWhileABatchRuns) {
   const auto begin = std::chrono::steady_clock::now();
   {
     Worker worker(std::make_unique<Note>(100ms), 100, {});

@@ -34,7 +34,7 @@ TEST(GroundNormalBuffer, KeepsWhatIsAheadOfThePoses) {
   EXPECT_EQ(rest.back().stamp, 9 * kFrame);
 }
 
-TEST(GroundNormalBuffer, TakesOneEveryQuarterMetreAndOneOfARobotThatStands) {
+TEST(GroundNormalBuffer, TakesOneEveryQuarterMetreAndOneAtRest) {
   GroundNormalBuffer moving, standing;
   addNormals(0, 101, moving);
   addNormals(0, 101, standing);

@@ -351,7 +351,7 @@ TEST_F(LivePoseGraphTest, ASessionEndsWithABatch) {
   EXPECT_FALSE(graph->isBatchPending());
 }
 
-TEST_F(LivePoseGraphTest, LevelsOnceItIsKnownWhichWayIsUp) {
+TEST_F(LivePoseGraphTest, LevelsOnceTheUpwardDirectionIsKnown) {
   auto graph = begin("monday", "");
   feel(*graph, 3 * kLap);
   drive(*graph, 0, 100);
@@ -395,7 +395,7 @@ TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   EXPECT_LT(tilt(*graph), 0.02);
 }
 
-TEST_F(LivePoseGraphTest, AnAccelerometerIsBelievedBeforeTheGround) {
+TEST_F(LivePoseGraphTest, AnAccelerometerHasPriorityOverTheGround) {
   auto graph = begin("monday", ""), alone = begin("monday", "");
   for (LivePoseGraph* each : {graph.get(), alone.get()}) {
     feel(*each, 3 * kLap);
@@ -424,20 +424,21 @@ TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapAfterARestartToo) {
   expectSame(graph->trajectory(0, 0, 0), before);
 }
 
-TEST_F(LivePoseGraphTest, FixesBendTheWayAndAreThereAfterARestart) {
-  testing::GpsDrive way;
-  way.turn_drift = 0.003;
-  way.white = 0.3;
-  testing::makeDrive(3, 700.0, way);
+TEST_F(LivePoseGraphTest, FixesCorrectThePathAlsoAfterARestart) {
+  testing::GpsDrive gps_drive;
+  gps_drive.turn_drift = 0.003;
+  gps_drive.white = 0.3;
+  testing::makeDrive(3, 700.0, gps_drive);
   Parameters parameters;
   parameters.gps = true;
   const auto start = [&] { return std::make_unique<LivePoseGraph>(parameters, "lisa", "monday", place.file("s.db")); };
   auto graph = start();
   graph->syncStore();
-  graph->add(way.fixes[0]);  // before any odometry
+  graph->add(gps_drive.fixes[0]);  // before any odometry
   std::size_t next = 1;
-  for (const urban_nav_core::RelativePose& step : way.odometry) {
-    for (; next < way.fixes.size() && way.fixes[next].reading.stamp <= step.to; ++next) graph->add(way.fixes[next]);
+  for (const urban_nav_core::RelativePose& step : gps_drive.odometry) {
+    for (; next < gps_drive.fixes.size() && gps_drive.fixes[next].reading.stamp <= step.to; ++next)
+      graph->add(gps_drive.fixes[next]);
     graph->add(step);
     if (graph->isBatchPending()) batch(*graph);
   }
@@ -446,11 +447,11 @@ TEST_F(LivePoseGraphTest, FixesBendTheWayAndAreThereAfterARestart) {
   const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
   Track track;
   for (const auto& pose : before.segments.at(0).poses) track.map.push_back(pose.T_map_base);
-  EXPECT_LT(testing::positionError(way, track),
-            0.5 * testing::positionError(way, testing::relaxDrive(way, false).tracks()[0]));
+  EXPECT_LT(testing::positionError(gps_drive, track),
+            0.5 * testing::positionError(gps_drive, testing::relaxDrive(gps_drive, false).tracks()[0]));
   graph.reset();
   ASSERT_EQ(stored().chains.size(), 1u);
-  EXPECT_EQ(stored().chains[0].fixes.size(), way.fixes.size());
+  EXPECT_EQ(stored().chains[0].fixes.size(), gps_drive.fixes.size());
   graph = start();
   relaxAll(*graph);
   batch(*graph);

@@ -48,7 +48,7 @@ TEST(MapToOdomEstimator, IsOfTheNewestPoseWhoseOdometryIsKnown) {
   expectTied(estimator, track(0, 80), 59);
 }
 
-TEST(MapToOdomEstimator, NothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMeet) {
+TEST(MapToOdomEstimator, IsUnknownForOdometryStartedEarlierUntilStampsMatch) {
   MapToOdomEstimator estimator;
   EXPECT_FALSE(estimator.estimate(nullptr));
   receive(estimator, 100, 130);
@@ -88,7 +88,7 @@ TEST(MapToOdomEstimator, AnOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
   EXPECT_TRUE(isApprox(*estimator.estimate(&after) * at(1), kMoved, 1e-9));
 }
 
-TEST(MapToOdomEstimator, ARecordingThatBeginsAgainHasNothingToDoWithTheSessionBefore) {
+TEST(MapToOdomEstimator, ARestartedRecordingIgnoresThePreviousSession) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 100);
   const Track before = track(0, 100), again = track(0, 10, "b");

@@ -184,7 +184,7 @@ void expectParts() {
   EXPECT_EQ(marginals.ofPose(15).covariance.norm(), 0.0);
   for (int i = 0; i < 10; ++i) EXPECT_LT((marginals.ofPose(i).covariance - alone.ofPose(i).covariance).norm(), 1e-9);
 }
-TEST(Marginals, PartsThatNothingConnectsKnowNothingOfEachOther) {
+TEST(Marginals, UnconnectedPartsHaveNoRelativeInformation) {
   expectParts<2>();
   expectParts<3>();
 }
@@ -274,7 +274,7 @@ TEST(Marginals, AreDisplayedWithTheLargestVarianceWhereNothingIsKnown) {
   EXPECT_NEAR(mixed(5, 5), 10.0, 1e-6);
 }
 
-TEST(Marginals, NumbersBeyondReasonAreReportedAsNothingKnown) {
+TEST(Marginals, OverflowIsReportedAsNoKnowledge) {
   Dice dice(8);
   Problem<3> problem = drawProblem<3>(dice, 6, 3, 0.1, 0.1);
   problem.edges[2].information *= 1e308;

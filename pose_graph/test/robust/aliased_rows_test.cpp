@@ -102,7 +102,7 @@ void expectRejected(double information) {
 TEST(AliasedRows, DoNotMoveTheMap) { expectRejected(1.0); }
 
 // With deviations stated twenty times too large the row fits.
-TEST(AliasedRows, DoNotMoveTheMapWhereTheInformationIsFarTooModest) { expectRejected(1.0 / 400.0); }
+TEST(AliasedRows, DoNotMoveTheMapWhereTheInformationIsFarTooLow) { expectRejected(1.0 / 400.0); }
 
 // All errors are a twentieth of the stated ones, except for one closure in thirty with almost the stated error.
 TEST(AliasedRows, CostNoClosureThatErrsAsMuchAsItStates) {

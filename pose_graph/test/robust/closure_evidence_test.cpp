@@ -28,14 +28,14 @@ TEST(TrueResidual, IsADensity) {
   }
 }
 
-TEST(TrueResidual, IsNormalWhereInformationIsRightOrBoasts) {
+TEST(TrueResidual, IsNormalWhereInformationIsRightOrOverconfident) {
   for (const double variance : {1.0, 4.0})
     for (const double residual : {0.0, 1.0, 10.0})
       EXPECT_NEAR(std::log(density(residual, variance)),
                   -0.5 * std::log(2.0 * M_PI * variance) - 0.5 * residual * residual / variance, 1e-12);
 }
 
-TEST(TrueResidual, FarOutIsWhatModestInformationStates) {
+TEST(TrueResidual, HasTheStatedTailsWhereInformationIsLow) {
   const double stated = -0.5 * std::log(2.0 * M_PI) - 0.5 * 9.0;
   EXPECT_NEAR(std::log(density(3.0, 0.01)), std::log(0.05) + stated, 1e-9) << "thirty deviations of the others";
   EXPECT_GT(density(0.0, 0.01), 9.0 * density(0.0, 1.0)) << "and near by it is nearly as sharp as the others";

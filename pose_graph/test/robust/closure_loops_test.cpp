@@ -52,7 +52,7 @@ TEST(InformationScale, IsThatOfTheNoise) {
   }
 }
 
-TEST(InformationScale, StandsBesideAsManyFalseClosures) {
+TEST(InformationScale, IsEstimatedAmongAsManyFalseClosures) {
   for (const FalseClosures kind : {FalseClosures::Random, FalseClosures::Local, FalseClosures::RandomGrouped})
     for (const double drawn : {0.2, 1.0, 4.0}) {
       SimulatedGraph graph = globe(drawn, 5);
@@ -70,7 +70,7 @@ TEST(InformationScale, IsOneWithoutLoops) {
 }
 
 // Few loops may deviate from the stated variance by chance, and must not loosen the tests.
-TEST(InformationScale, TakesFewLoopsForNoProofOfABoast) {
+TEST(InformationScale, DoesNotInferOverconfidenceFromFewLoops) {
   SimulatedGraph graph = globe(10.0, 5);
   graph.edges.resize(graph.truth.size() + 19);
   EXPECT_LE(estimateScale(graph).factor, 1.0);
@@ -78,7 +78,7 @@ TEST(InformationScale, TakesFewLoopsForNoProofOfABoast) {
 
 // Information overconfident by a factor of four in all deviations: every true closure looks false with the stated
 // covariance.
-TEST(InformationScale, KeepsTrueClosuresOfInformationThatBoasts) {
+TEST(InformationScale, KeepsTrueClosuresWithOverconfidentInformation) {
   const SimulatedGraph clean = globe(4.0, 7);
   SimulatedGraph spoilt = clean;
   addFalseClosures(spoilt, FalseClosures::Random, (clean.edges.size() - clean.truth.size()) / 2, 11);

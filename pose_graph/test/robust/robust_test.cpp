@@ -98,7 +98,7 @@ TEST(Robust, ExactMeasurementsStayExact) {
 }
 
 // Most residuals are a fifth of the stated deviation, one is three times as large.
-TEST(Robust, WhatModestInformationStatesIsBelieved) {
+TEST(Robust, LowInformationIsTakenAsStated) {
   SimulatedGraph graph = urban_nav_core::testing::manhattanGraph(
       600, 12, 0.5,
       [] {
@@ -225,7 +225,7 @@ TEST(Robust, RolesFollowTheNumbers) {
                                                             EdgeRole::Trusted, EdgeRole::Candidate}));
 }
 
-TEST(Robust, NothingToDecideIsNoTrouble) {
+TEST(Robust, GraphsWithoutCandidatesAreRelaxed) {
   Problem<3> problem;
   problem.poses.resize(3);
   problem.edges = {{0, 1, {}, TangentMatrix<3>::Identity()}, {1, 2, {}, TangentMatrix<3>::Zero()}};

@@ -79,7 +79,7 @@ TEST(Selection, AChainWithFalseClosuresAloneStaysWithOdometry) {
 }
 
 // Odometry with a rotation error of 0.5 rad per step can be bent to fit any closures, in a map that is one point.
-TEST(Selection, AMapThatIsDrawnTogetherExplainsNothing) {
+TEST(Selection, AContractedMapExplainsNothing) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SimulatedGraph graph =
         urban_nav_core::testing::gridGraph(5, 5, 5, 1.0, 0.5, urban_nav_core::testing::evenNoise(0.1, 0.4), seed);
@@ -141,7 +141,7 @@ TEST(Selection, ASlippedStepThatCostsFewClosuresIsFound) {
 }
 
 // The rows fill the factor, so that the search uses only some closures of each.
-TEST(Selection, ASlippedStepIsFoundBesideRowsOfFalseClosures) {
+TEST(Selection, ASlippedStepIsFoundAmongRowsOfFalseClosures) {
   for (const std::uint64_t seed : {1, 5, 9}) {
     SimulatedGraph graph =
         urban_nav_core::testing::manhattanGraph(1500, 20, 1.0, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
@@ -157,7 +157,7 @@ TEST(Selection, ASlippedStepIsFoundBesideRowsOfFalseClosures) {
   }
 }
 
-TEST(Selection, AChainThatNothingRefutesIsNotTornApart) {
+TEST(Selection, AChainThatNothingContradictsHasNoSlip) {
   SimulatedGraph graph = drawTown(2);
   graph.edges.resize(graph.truth.size() - 1);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
@@ -267,7 +267,7 @@ TEST(Selection, NoneOfTheClosuresOfStreetsDrivenTwiceIsLost) {
 
 // Closures that measure nothing are consistent with each other and with a map that is one point, if odometry's variance
 // is increased.
-TEST(Selection, ClosuresThatOnlySayTheSamePlaceDoNotShrinkTheMap) {
+TEST(Selection, ClosuresThatOnlyAssertTheSamePlaceDoNotContractTheMap) {
   SimulatedGraph graph = drawTown(3);
   addFalseClosures(graph, FalseClosures::Random, 80, 5);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
@@ -401,7 +401,7 @@ TEST(Selection, OneClosureAloneJoinsNothing) {
 }
 
 // Steps have rotation errors of 0.2 rad: after a few of them any two closures are consistent.
-TEST(Selection, ClosuresThatAgreeAsAWholeJoinSessionsOfLooseOdometry) {
+TEST(Selection, ClosuresConsistentAsAWholeJoinSessionsOfUncertainOdometry) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const SimulatedGraph graph =
         urban_nav_core::testing::sphereGraph(8, 12, 2.0, urban_nav_core::testing::evenNoise(0.05, 0.2), seed);

@@ -50,19 +50,19 @@ TEST(Slips, AStepThatAllClosuresContradictIsFound) {
   EXPECT_TRUE(findSlips(chain.problem, chain.roles, chain.none, {}, chain.odometry).empty());
 }
 
-TEST(Slips, OdometryThatIsFarSurerThanClosuresHidesASlipUntilItIsDoubted) {
+TEST(Slips, OverconfidentOdometryHidesASlipUntilItIsWeightedDown) {
   SlippedChain chain(1.0);
   for (std::size_t e = 0; e < chain.roles.size(); ++e)
     if (chain.roles[e] == EdgeRole::Trusted) chain.problem.edges[e].information *= 1e3;
   std::vector<char> in = chain.all;
   for (std::size_t e = 0; e < in.size(); ++e)
     in[e] = chain.roles[e] == EdgeRole::Trusted || chain.problem.edges[e].from > 20 || chain.problem.edges[e].to <= 20;
-  const std::vector<char> doubted = mostRefuted(chain.problem, chain.roles, in, chain.all);
-  ASSERT_EQ(std::count(doubted.begin(), doubted.end(), 1), 1);
-  EXPECT_TRUE(doubted[20]);
+  const std::vector<char> weighted_down = mostRefuted(chain.problem, chain.roles, in, chain.all);
+  ASSERT_EQ(std::count(weighted_down.begin(), weighted_down.end(), 1), 1);
+  EXPECT_TRUE(weighted_down[20]);
   EXPECT_TRUE(mostRefuted(chain.problem, chain.roles, chain.all, chain.all).empty());
   EXPECT_TRUE(findSlips(chain.problem, chain.roles, chain.all, {}, chain.odometry).empty());
-  const auto slips = findSlips(chain.problem, chain.roles, chain.all, doubted, chain.odometry);
+  const auto slips = findSlips(chain.problem, chain.roles, chain.all, weighted_down, chain.odometry);
   ASSERT_EQ(slips.size(), 1u);
   EXPECT_EQ(slips[0].edge, 20);
   EXPECT_LT((slips[0].T_from_to.t - (chain.truth[20].inverse() * chain.truth[21]).t).norm(), 0.05);

@@ -37,7 +37,7 @@ bool isNamed(const Listener& listener) {
 }
 
 /// The frame of the messages is base_link, so no tf is needed.
-TEST(PoseGraphGravity, AnAccelerometerWithTheSignOfNedIsNamedAndDoesNotTurnTheMapOver) {
+TEST(PoseGraphGravity, AnAccelerometerWithTheSignOfNedIsReportedAndDoesNotInvertTheMap) {
   Listener listener;
   ASSERT_TRUE(listener.connected());
   ASSERT_TRUE(listener.call("reset"));

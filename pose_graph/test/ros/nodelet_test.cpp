@@ -440,7 +440,7 @@ class Store : public PoseGraphNodelet {
   }
 };
 
-TEST_F(Store, HasWhatWasTakenInASecondAgo) {
+TEST_F(Store, ContainsInputsAfterOneSecond) {
   drive(0, kLap);
   ASSERT_TRUE(driven(kLap + 1));
   listener().forget();

@@ -132,7 +132,7 @@ TEST(Certificate, IsNarrowWherePosesHaveConverged) {
   EXPECT_DOUBLE_EQ(narrow.cost, cost(problem, poses, Objective::Chordal)) << "poses are those of the certificate";
 }
 
-TEST(Certificate, LeavesOutWhatHasNoWeightAndKnowsParts) {
+TEST(Certificate, IgnoresEdgesWithoutWeightAndSeparatesComponents) {
   Dice dice(23);
   Problem<3> problem = drawProblem<3>(dice, 20, 10, 0.05, 0.05);
   const std::size_t edges = problem.edges.size();

@@ -77,7 +77,7 @@ TEST(LiftedPoses, LeaveFixedOnesWhereTheyAre) {
   }
 }
 
-TEST(LiftedPoses, KnowPartsAndWeights) {
+TEST(LiftedPoses, RespectComponentsAndWeights) {
   // Two rings joined only by an edge without weight: each keeps its first pose, and neither keeps its wrap-around.
   Problem<2> both = ring(24, 2);
   const Problem<2> other = ring(24, 1);

@@ -320,7 +320,7 @@ double excess(const SimulatedGraph& graph) {
 }
 
 // Without a search, one in six of the grids ends in a local minimum 1 to 3 % above the optimum.
-TEST(Solve, FindsTheBestValleyWhereNoiseIsLarge) {
+TEST(Solve, FindsTheGlobalMinimumWhereNoiseIsLarge) {
   const auto noise = evenNoise(0.3, 0.3);
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
     EXPECT_LT(excess<2>(urban_nav_core::testing::planarGridGraph(30, 30, 1.0, 0.5, noise, seed)), 1e-6) << seed;
@@ -329,7 +329,7 @@ TEST(Solve, FindsTheBestValleyWhereNoiseIsLarge) {
 }
 
 // Rotations with an error of 0.5 rad: without a search the result is on average an eighth above the optimum.
-TEST(Solve, ComesNearTheBestValleyWhereNoiseIsEnormous) {
+TEST(Solve, ComesNearTheGlobalMinimumWhereNoiseIsEnormous) {
   double sum = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     sum += excess<3>(urban_nav_core::testing::sphereGraph(16, 40, 20.0, evenNoise(0.5, 0.5), seed));

@@ -424,9 +424,9 @@ void Selection<D>::proposeSlips(const VarianceFactors& factors) {
   // From odometry, a slip that closures nearby appear to confirm is not found. A set that is no better than chance
   // contradicts nothing.
   if (evidence() < kDecisive) return;
-  const std::vector<char> doubted = mostRefuted(scaled, proposed_roles_, in, considered);
-  if (!doubted.empty())
-    proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, doubted, odometry_.poses), factors);
+  const std::vector<char> weighted_down = mostRefuted(scaled, proposed_roles_, in, considered);
+  if (!weighted_down.empty())
+    proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, weighted_down, odometry_.poses), factors);
 }
 
 template <int D>

@@ -243,7 +243,7 @@ std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeR
 
 template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& considered, const std::vector<char>& doubted,
+                               const std::vector<char>& considered, const std::vector<char>& weighted_down,
                                const std::vector<Rigid<D>>& odometry) {
   const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
   std::vector<char> in;
@@ -257,13 +257,13 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   const int rounds =
       static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestCauchyRounds, kMostCauchyRounds));
   for (int round = 0; round < rounds; ++round) {
-    const bool is_downweighted = round < kDownweightedRounds && !doubted.empty();
+    const bool is_downweighted = round < kDownweightedRounds && !weighted_down.empty();
     double cost = 0.0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       weights[e] = 0.0;
       if (!in[e]) continue;
       const double square = squareOver(edges[e], poses);
-      weights[e] = is_downweighted && doubted[e] ? kDownweightedWeight : 1.0 / (1.0 + square);
+      weights[e] = is_downweighted && weighted_down[e] ? kDownweightedWeight : 1.0 / (1.0 + square);
       cost += std::log1p(square);
     }
     if (round > 0 && !is_downweighted && std::abs(last - cost) <= kEndShare * cost) break;

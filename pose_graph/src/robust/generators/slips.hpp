@@ -31,11 +31,11 @@ std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeR
 /// Finds slipped steps of odometry. All edges, of closures those `considered`, are relaxed under Cauchy's kernel from
 /// odometry; a step has slipped if it ends far outside its covariance and much farther than others. If several steps
 /// are spanned by the same closures, the one that differs from all other steps of the drive is reported. A step that no
-/// closure spans cannot be contradicted. `doubted`: by edge, steps with almost no weight at first, so that the closures
-/// that span them have full weight initially; may be empty.
+/// closure spans cannot be contradicted. `weighted_down`: by edge, steps with almost no weight at first, so that the
+/// closures that span them have full weight initially; may be empty.
 template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& considered, const std::vector<char>& doubted,
+                               const std::vector<char>& considered, const std::vector<char>& weighted_down,
                                const std::vector<Rigid<D>>& odometry);
 
 /// Returns whether accepted edges connect the ends of each slip even without any one row of closures (`row`: by edge,

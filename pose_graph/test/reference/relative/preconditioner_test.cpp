@@ -61,7 +61,7 @@ TEST(Preconditioner, IsSymmetricAndPositiveDefiniteWithAnyOfThem) {
   }
 }
 
-TEST(Preconditioner, CouplesTheClosuresOfWhichTheChainKnowsLeast) {
+TEST(Preconditioner, CouplesTheClosuresLeastConstrainedByTheChain) {
   // One closure over the whole chain and many over two links: including the long one must be what helps.
   Problem<2> problem = smallGraph<2>(40, 0, 0.0, 0.0);
   const auto add = [&problem](int from, int to) {

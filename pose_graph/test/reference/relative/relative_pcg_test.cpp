@@ -81,7 +81,7 @@ TEST(RelativePcg, ReachesTheCostOfADenseMinimisationOverPoses) {
   expectTheDenseMinimum<3>(0.2, 0.15);
 }
 
-TEST(RelativePcg, CouplingChangesTheWayAndNotTheEnd) {
+TEST(RelativePcg, CouplingChangesThePathAndNotTheResult) {
   const Problem<3> problem = smallGraph<3>(60, 30, 0.1, 0.05);
   RelativePcgOptions options;
   const RelativeSolution<3> all = relaxRelative(problem, options);
