@@ -102,7 +102,7 @@ std::string timed(int poses, int closures) {
   const Marginals<3> marginals(problem, relaxed);
   const double pair = measureSeconds(3, [&] { marginals.between(poses / 3, poses / 2); });
   return std::to_string(poses) + " poses with " + std::to_string(closures) + " closures: all marginals in " +
-         cell(seconds, 3) + " s of one core, the covariance of one pair that no edge joins in " + cell(1e3 * pair, 1) +
+         cell(seconds, 3) + " s of one core, the covariance of one pair without an edge in " + cell(1e3 * pair, 1) +
          " ms.";
 }
 
@@ -122,14 +122,14 @@ int main(int argc, char** argv) try {
       robust[k] += among[k] / graphs;
     }
   }
-  BenchTable table({"share of the way", "mean NEES of " + std::to_string(graphs), "with false closures", "99 % band"},
+  BenchTable table({"share of the path", "mean NEES of " + std::to_string(graphs), "with false closures", "99 % band"},
                    argc, argv);
   const urban_nav_core::Band band = urban_nav_core::chiSquareMeanBand(6.0, graphs, 0.99);
   const auto marked = [&band](double mean) { return cell(mean, 2) + (band.contains(mean) ? "" : " (outside)"); };
   for (std::size_t k = 0; k < kPlaces; ++k)
     table.add({cell(0.1 * static_cast<double>(k + 1), 1), marked(plain[k]), marked(robust[k]),
                cell(band.low, 2) + "..." + cell(band.high, 2)});
-  table.note("False closures: " + std::to_string(counts.wrong) + " beside " + std::to_string(counts.right) +
+  table.note("False closures: " + std::to_string(counts.wrong) + " among " + std::to_string(counts.right) +
              " true ones; " + std::to_string(counts.wrong_kept) + " kept, " + std::to_string(counts.right_lost) +
              " true ones lost.");
   for (const auto& [poses, closures] : {std::pair(20000, 200), std::pair(20000, 2000), std::pair(100000, 1000)})

@@ -108,10 +108,9 @@ int main(int argc, char** argv) try {
                     "true ones lost", "time, times plain"},
                    argc, argv);
   for (const PublicGraph& graph : readGraphs(asked.names)) addDraws(graph, asked.number("--percent", 50), seed, table);
-  table.note(
-      "Drawn with seed " + std::to_string(seed) +
-      ", one draw a row. One core, processor time; plain: the graph without false closures, every edge taken as it "
-      "is.");
+  table.note("Drawn with seed " + std::to_string(seed) +
+             ", one draw a row. One core, processor time; plain: the graph without false closures, every edge used as "
+             "given.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -88,8 +88,8 @@ int main(int argc, char** argv) try {
   const Arguments asked = parseArguments(argc, argv, {"--seeds"});
   const int seeds = asked.number("--seeds", 20);
   const urban_nav_core::ThreadLimit one(1);
-  testing::BenchTable table({"graph", "measured to, m and rad", "first guess", "at the optimum", "worst above it",
-                             "by 25 steps from the guess alone", "ms"},
+  testing::BenchTable table({"graph", "noise, m and rad", "initial guess", "at the optimum", "worst above it",
+                             "by 25 steps from the guess only", "ms"},
                             argc, argv);
   const auto addRows = [&](double sigma, const Shape& shape) {
     for (const Guess& guess : guesses()) {
@@ -116,7 +116,7 @@ int main(int argc, char** argv) try {
   };
   for (const double sigma : {0.1, 0.3})
     for (const Shape& shape : shapes(sigma)) addRows(sigma, shape);
-  table.note("Measurements along and about each axis; poses 1 m apart (sphere: 6 m at the equator).");
+  table.note("Noise along and about each axis; poses 1 m apart (sphere: 6 m at the equator).");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -138,8 +138,8 @@ int main(int argc, char** argv) try {
         table.add(row);
       }
   table.note(
-      "Expected: NEES 6, of translation and rotation 3 each, 90 % inside. Pairs overlap, so errors of a session "
-      "are few independent ones.");
+      "Expected: NEES 6, of translation and rotation 3 each, 90 % inside. Pairs overlap, so a session has few "
+      "independent errors.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

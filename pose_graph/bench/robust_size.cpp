@@ -118,8 +118,8 @@ int main(int argc, char** argv) try {
     addRow<3>(table, "town", drawTown(count), times(count, kTownClosures * kTownFalse));
   }
   table.note(
-      "One core, processor time, one run. Plain: without false closures, every edge taken as it is. Memory: what "
-      "the relaxation adds to that of the problem itself.");
+      "One core, processor time, one run. Plain: without false closures, every edge used as given. Memory: "
+      "growth by the relaxation, without the problem.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -77,7 +77,7 @@ int main(int argc, char** argv) try {
   for (const auto& [poses, closures] : kSizes)
     if (poses <= largest) addSize(table, poses, closures, runs);
   table.note("One core, processor time, median of " + std::to_string(runs) +
-             ", from raw odometry. Memory: what the relaxation adds to that of the problem itself.");
+             ", from raw odometry. Memory: growth by the relaxation, without the problem.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

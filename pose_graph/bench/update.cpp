@@ -117,8 +117,8 @@ int main(int argc, char** argv) try {
   for (const Size& size : kSizes)
     if (size.poses <= largest) addSize(table, size);
   table.note(
-      "One core, processor time of each update, all closures counted. Off the batch: of the same accepted closures, "
-      "relaxed from the measurements alone.");
+      "One core, processor time of each update, all closures counted. Off the batch: relative to a batch "
+      "relaxation with the same accepted closures.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

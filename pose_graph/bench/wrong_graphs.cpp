@@ -112,10 +112,11 @@ int main(int argc, char** argv) try {
   table.note(
       "Seeds from " + std::to_string(draws.first) +
       ". The right one: least squares of the graph as published; of odometry with false closures, odometry; of "
-      "sessions that no true closure joins, each by itself. Wrong: more than 2 % of the true closures lost, or "
+      "sessions without a true closure between them, each separately. Wrong: more than 2 % of the true closures lost, "
+      "or "
       "something false kept and more than 1 % of the extent off. Drawn closures within 1 m and 20 deg of the right one "
-      "count neither as false nor as true. One core, processor time; plain: the graph as published, every edge taken "
-      "as it is.");
+      "count neither as false nor as true. One core, processor time; plain: the graph as published, every edge used "
+      "as given.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

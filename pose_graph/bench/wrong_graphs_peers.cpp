@@ -111,7 +111,7 @@ class Answers {
       const G2oGraph file = urban_nav_core::readG2o(path);
       std::vector<Rigid<D>> poses(wrong.right.size());
       if (file.vertices.size() != poses.size())
-        throw urban_nav_core::UserError(path, "has other vertices", "those of the graph");
+        throw urban_nav_core::UserError(path, "vertices of another graph", "the vertices of the graph");
       for (const G2oGraph::Vertex& vertex : file.vertices)
         poses.at(static_cast<std::size_t>(vertex.id)) = toRigid<D>(file.pose(vertex));
       ended[table_.text(row, table_.column("peer"))].add(distanceFromRight(wrong, poses) / extent,
@@ -196,8 +196,7 @@ int main(int argc, char** argv) try {
   }
   const Answers answers(asked.text("--peers", "peers.csv"));
   std::vector<std::string> columns{
-      "graph",  "what is wrong",        "draws", "from the right one, % of the extent, worst", "s",
-      "warned", "all edges as they are"};
+      "graph", "what is wrong", "draws", "from the right one, % of the extent, worst", "s", "warned", "all edges used"};
   for (const std::string& peer : answers.peers()) {
     columns.push_back(peer);
     columns.push_back("s");
@@ -206,8 +205,8 @@ int main(int argc, char** argv) try {
   for (const PublicGraph& graph : graphs)
     std::visit([&](const auto& problem) { addKinds(graph.name, problem, draws, answers, table); }, graph.problem);
   table.note(
-      "Seeds from 1; the worst of the draws, % of the extent from the right poses; mean times of the processor on one "
-      "core. All edges as they are: least squares by our plain solver.");
+      "Seeds from 1; the worst of the draws, % of the extent from the right poses; mean processor times on one "
+      "core. All edges used: least squares by our plain solver.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);
