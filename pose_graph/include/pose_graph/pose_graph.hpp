@@ -266,25 +266,25 @@ class PoseGraph {
   /// Renumbers the parts. Returns the poses whose part changed.
   std::vector<Relaxed::Run> numberParts();
   /// Fills the counts and the correction of the newest pose. `moved`: poses that moved.
-  void tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled = false);
+  void reportCorrection(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled = false);
   std::optional<Pose> newest() const;
   Problem<3> problem(double odometry_variance) const;
   /// Poses of all tracks.
-  using Laid = std::vector<std::vector<Pose>>;
+  using PoseTable = std::vector<std::vector<Pose>>;
   /// Returns the poses of a batch, followed by odometry since then.
-  Laid laidBy(const Batch& batch) const;
-  void takeVerdicts(const Batch& batch);
+  PoseTable posesAfter(const Batch& batch) const;
+  void applyVerdicts(const Batch& batch);
   /// Applies the levelled steps; slipped steps follow the closures.
-  void takeSteps(const Batch& batch);
-  void takeClosureVariance(double variance);
+  void applySteps(const Batch& batch);
+  void applyClosureVariance(double variance);
   /// Rotates maps whose upward direction is known; with `stay`, only those that are not level yet. Returns the first
   /// tracks of the maps that were not level before.
-  std::vector<std::size_t> level(Laid& laid, bool stay);
+  std::vector<std::size_t> level(PoseTable& pose_table, bool stay);
   bool isOfRunning(const std::vector<std::size_t>& maps) const;
   /// Sets the poses. Returns those that moved.
-  std::vector<Relaxed::Run> lay(const Laid& laid);
+  std::vector<Relaxed::Run> applyPoses(const PoseTable& pose_table);
   /// Tests the closures without a verdict and relaxes with the accepted ones. Returns the poses that moved.
-  std::vector<Relaxed::Run> judgeNew(Relaxed& made);
+  std::vector<Relaxed::Run> evaluateNew(Relaxed& made);
 
   Parameters parameters_;
   std::vector<Track> tracks_;

@@ -109,13 +109,13 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
 Relaxed PoseGraph::take(const Batch& batch) {
   if (batch.solution.poses.empty()) return {};
   const Before before = this->before();
-  takeVerdicts(batch);
+  applyVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
   selection_ = batch.selection;
-  takeClosureVariance(batch.selection.rescaled ? batch.selection.closure_factor : 1.0);
+  applyClosureVariance(batch.selection.rescaled ? batch.selection.closure_factor : 1.0);
   odometry_lean_ = batch.odometry_lean;
   fix_use_ = batch.fix_use;
-  takeSteps(batch);
+  applySteps(batch);
   live_.reset();
   Relaxed made;
   made.cost_before = batch.solution.cost_before;
@@ -124,19 +124,19 @@ Relaxed PoseGraph::take(const Batch& batch) {
   made.ending = batch.solution.ending;
   made.gradient = batch.solution.gradient;
   std::vector<Relaxed::Run> moved = numberParts();
-  Laid laid = laidBy(batch);
-  const bool levelled = isOfRunning(level(laid, false));
-  append(moved, lay(laid));
+  PoseTable pose_table = posesAfter(batch);
+  const bool levelled = isOfRunning(level(pose_table, false));
+  append(moved, applyPoses(pose_table));
   if (std::any_of(closures_.begin(), closures_.end(), [](const auto& each) { return !each.second.judged; })) {
-    append(moved, judgeNew(made));
+    append(moved, evaluateNew(made));
     append(moved, numberParts());
   }
   ending_warning_ = endingWarning(made.ending, made.iterations.size(), made.gradient);
-  tell(made, std::move(moved), before, levelled);
+  reportCorrection(made, std::move(moved), before, levelled);
   return made;
 }
 
-void PoseGraph::takeVerdicts(const Batch& batch) {
+void PoseGraph::applyVerdicts(const Batch& batch) {
   for (auto& [id, closure] : closures_) {
     const auto judged = batch.closures.find(id);
     if (judged != batch.closures.end() && isSame(judged->second, closure)) {
@@ -150,7 +150,7 @@ void PoseGraph::takeVerdicts(const Batch& batch) {
   }
 }
 
-void PoseGraph::takeSteps(const Batch& batch) {
+void PoseGraph::applySteps(const Batch& batch) {
   slips_.clear();
   auto slipped = batch.slipped.begin();
   int edge = 0;
@@ -173,27 +173,27 @@ void PoseGraph::takeSteps(const Batch& batch) {
     }
 }
 
-void PoseGraph::takeClosureVariance(double variance) {
+void PoseGraph::applyClosureVariance(double variance) {
   if (variance == closure_variance_) return;
   closure_variance_ = variance;
   for (auto& [id, closure_edge] : closure_edges_)
     closure_edge.edge = toEdge(closures_.at(id), closure_edge.a, closure_edge.b, variance);
 }
 
-PoseGraph::Laid PoseGraph::laidBy(const Batch& batch) const {
-  Laid laid;
+PoseGraph::PoseTable PoseGraph::posesAfter(const Batch& batch) const {
+  PoseTable pose_table;
   std::size_t number = 0;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
     const std::size_t known = t < batch.stamps.size() ? batch.stamps[t].size() : 0;
-    laid.emplace_back();
+    pose_table.emplace_back();
     for (std::size_t i = 0; i < track.map.size(); ++i) {
-      if (i < known) laid[t].push_back(toPose(batch.solution.poses[number++]));
-      else if (i == 0) laid[t].push_back(track.map[0]);
-      else laid[t].push_back(laid[t][i - 1] * (track.odom[i - 1].inverse() * track.odom[i]));
+      if (i < known) pose_table[t].push_back(toPose(batch.solution.poses[number++]));
+      else if (i == 0) pose_table[t].push_back(track.map[0]);
+      else pose_table[t].push_back(pose_table[t][i - 1] * (track.odom[i - 1].inverse() * track.odom[i]));
     }
   }
-  return laid;
+  return pose_table;
 }
 
 }  // namespace pose_graph

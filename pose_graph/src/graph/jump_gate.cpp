@@ -220,8 +220,9 @@ std::vector<AcceptedSpan> findPartners(const AcceptedSpan& tried, const Incremen
 
 }  // namespace
 
-Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
-                       const std::map<ClosureId, ClosureEdge>& closure_edges, std::map<ClosureId, Closure>& closures) {
+Addition evaluateAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
+                          const std::map<ClosureId, ClosureEdge>& closure_edges,
+                          std::map<ClosureId, Closure>& closures) {
   Addition made;
   made.cost_before = core.cost();
   for (auto& [id, closure] : closures) {

@@ -34,7 +34,7 @@ struct Assessment {
 Assessment assess(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 
-/// Result of judgeAddition().
+/// Result of evaluateAddition().
 struct Addition {
   double cost_before = 0.0;   ///< cost of the initial poses, with the closures accepted last
   bool disagreement = false;  ///< a closure was rejected, or more closures wait than were tried with it
@@ -43,7 +43,8 @@ struct Addition {
 };
 /// Tests the closures without a verdict one by one against the accepted ones, together with waiting closures that may
 /// confirm them. Accepted ones stay in `core`.
-Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
-                       const std::map<ClosureId, ClosureEdge>& closure_edges, std::map<ClosureId, Closure>& closures);
+Addition evaluateAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
+                          const std::map<ClosureId, ClosureEdge>& closure_edges,
+                          std::map<ClosureId, Closure>& closures);
 
 }  // namespace pose_graph

@@ -96,15 +96,15 @@ Relaxed PoseGraph::update() {
   const Before before = this->before();
   if (std::all_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.map.empty(); })) return {};
   Relaxed made;
-  std::vector<Relaxed::Run> moved = judgeNew(made);
+  std::vector<Relaxed::Run> moved = evaluateNew(made);
   const std::vector<Relaxed::Run> renumbered = numberParts();
   moved.insert(moved.end(), renumbered.begin(), renumbered.end());
   ending_warning_ = endingWarning(made.ending, made.iterations.size(), made.gradient);
-  tell(made, std::move(moved), before);
+  reportCorrection(made, std::move(moved), before);
   return made;
 }
 
-std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
+std::vector<Relaxed::Run> PoseGraph::evaluateNew(Relaxed& made) {
   TrackView paper(*this);
   const auto renewed = [&] {
     std::vector<ClosureEdge> closure_edges;
@@ -114,7 +114,7 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   };
   if (!live_.has_value()) live_ = renewed();
   IncrementalSolver& live = *std::any_cast<IncrementalSolver>(&live_);
-  const Addition added = judgeAddition(live, paper, parameters_, closure_edges_, closures_);
+  const Addition added = evaluateAddition(live, paper, parameters_, closure_edges_, closures_);
   if (added.others_wait) live = renewed();
   for (auto& [id, closure] : closures_) closure.judged = true;
   live.write(paper);
@@ -127,10 +127,10 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   return std::move(paper.moves.runs);
 }
 
-std::vector<Relaxed::Run> PoseGraph::lay(const Laid& laid) {
+std::vector<Relaxed::Run> PoseGraph::applyPoses(const PoseTable& pose_table) {
   Moves moves;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (std::size_t i = 0; i < laid[t].size(); ++i) moves.put(t, i, laid[t][i], tracks_[t].map[i]);
+    for (std::size_t i = 0; i < pose_table[t].size(); ++i) moves.put(t, i, pose_table[t][i], tracks_[t].map[i]);
   return std::move(moves.runs);
 }
 
@@ -152,7 +152,7 @@ std::vector<Relaxed::Run> PoseGraph::numberParts() {
   return changed;
 }
 
-void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled) {
+void PoseGraph::reportCorrection(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled) {
   made.revision = ++revision_;
   made.closures = closures_.size();
   made.selection = selection_;
