@@ -57,10 +57,10 @@ TEST(Slips, OverconfidentOdometryHidesASlipUntilItIsWeightedDown) {
   std::vector<char> in = chain.all;
   for (std::size_t e = 0; e < in.size(); ++e)
     in[e] = chain.roles[e] == EdgeRole::Trusted || chain.problem.edges[e].from > 20 || chain.problem.edges[e].to <= 20;
-  const std::vector<char> weighted_down = mostRefuted(chain.problem, chain.roles, in, chain.all);
+  const std::vector<char> weighted_down = mostContradicted(chain.problem, chain.roles, in, chain.all);
   ASSERT_EQ(std::count(weighted_down.begin(), weighted_down.end(), 1), 1);
   EXPECT_TRUE(weighted_down[20]);
-  EXPECT_TRUE(mostRefuted(chain.problem, chain.roles, chain.all, chain.all).empty());
+  EXPECT_TRUE(mostContradicted(chain.problem, chain.roles, chain.all, chain.all).empty());
   EXPECT_TRUE(findSlips(chain.problem, chain.roles, chain.all, {}, chain.odometry).empty());
   const auto slips = findSlips(chain.problem, chain.roles, chain.all, weighted_down, chain.odometry);
   ASSERT_EQ(slips.size(), 1u);

@@ -194,7 +194,7 @@ double HypothesisEvaluator<D>::chance(const Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::collapsePenalty(const Hypothesis<D>& hypothesis) const {
   std::vector<std::size_t> first;
   double gain = hypothesis.log_inside - log_odometry_;
   for (const int e : candidates_) {

@@ -23,9 +23,9 @@ struct Hypothesis {
   std::vector<char> in;  ///< by edge: nonzero if assumed true
   std::vector<Rigid<D>> poses;
   VarianceFactors factors;
-  double log_inside = 0.0;      ///< part of the evidence due to the edges inside
-  double log_evidence = 0.0;    ///< total evidence
-  double by_contraction = 0.0;  ///< HypothesisEvaluator::gainByContraction()
+  double log_inside = 0.0;        ///< part of the evidence due to the edges inside
+  double log_evidence = 0.0;      ///< total evidence
+  double collapse_penalty = 0.0;  ///< HypothesisEvaluator::collapsePenalty()
 };
 
 /// Scores sets of edges of one graph by their log evidence: the density of all measurements with the poses integrated
@@ -60,7 +60,7 @@ class HypothesisEvaluator {
   /// whole set predicts the first closure of each row; later closures of a row are found because of the first. Never
   /// negative. Zero if closures are assertions: they are scored with the stated variance of odometry, which does not
   /// contract the map. Requires: evaluate().
-  double gainByContraction(const Hypothesis<D>& hypothesis) const;
+  double collapsePenalty(const Hypothesis<D>& hypothesis) const;
 
   /// Returns whether most closures state the same value, such as "the same place" without a measurement. They are
   /// exactly consistent with each other, the more so the larger the variance of odometry: variances estimated from them

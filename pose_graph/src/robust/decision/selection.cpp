@@ -33,7 +33,7 @@ void Selection<D>::run() {
   if (candidates_ == 0) return;
   if (problem_.poses.size() > kManyPoses && !isContested(best_.selected)) return;
   if (problem_.poses.size() > kMostPoses) {
-    weighCore();
+    evaluateReducedGraph();
     return;
   }
   parts_ = sessionParts(problem_, roles_);
@@ -41,12 +41,12 @@ void Selection<D>::run() {
   contested_ = isContested(best_.selected) || between_ > 0;
   evaluator_ = std::make_unique<HypothesisEvaluator<D>>(problem_, roles_);
   odometry_ = evaluator_->evaluateOdometry();
-  weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
+  scored_.emplace_back(odometry_.log_evidence, odometry_.in);
   best_.hypothesis = hypothesisOver(best_.selected, {});
   evaluator_->evaluate(best_.hypothesis);
   readmit(best_);
-  contract(best_.hypothesis);
-  weighed_.emplace_back(best_.hypothesis.log_evidence, best_.members);
+  applyCollapsePenalty(best_.hypothesis);
+  scored_.emplace_back(best_.hypothesis.log_evidence, best_.members);
   if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
   if (!contested_) {
     // A short slip affects few closures; a single one does not contradict a step.
@@ -66,11 +66,11 @@ template <int D>
 bool Selection<D>::isUndecided() const {
   if (contested_ || core_) return !(evidence() >= kDecisive);
   const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
-  // Factors estimated from the rows make them more likely; the gain by contraction is about that of all closures.
-  if (overOdometry(rowsAlone()) - best_.hypothesis.by_contraction >= loosened) return false;
+  // Factors estimated from the rows make them more likely; the collapse penalty is about that of all closures.
+  if (overOdometry(rowsAlone()) - best_.hypothesis.collapse_penalty >= loosened) return false;
   Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
-  rows.by_contraction = 0.0;  // computed for another volume
-  contract(rows);
+  rows.collapse_penalty = 0.0;  // computed for another volume
+  applyCollapsePenalty(rows);
   const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
   return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
 }
@@ -138,7 +138,7 @@ std::optional<std::vector<char>> Selection<D>::findShared() const {
 template <int D>
 bool Selection<D>::shareWithSets(std::vector<char>& shared) const {
   bool has_rival = false;
-  for (const auto& [log_evidence, in] : weighed_) {
+  for (const auto& [log_evidence, in] : scored_) {
     if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
     std::size_t differ = 0;
     for (std::size_t e = 0; e < roles_.size(); ++e)
@@ -198,7 +198,7 @@ Hypothesis<D> Selection<D>::hypothesisOver(const SelectedEdges<D>& selected, con
 }
 
 template <int D>
-bool Selection<D>::isInflated(const Hypothesis<D>& hypothesis) const {
+bool Selection<D>::reliesOnInflatedVariance(const Hypothesis<D>& hypothesis) const {
   if (overOdometry(hypothesis) < kDecisive) return true;
   if (!hypothesis.factors.areBeyond(kContestedFactor)) return false;
   return overOdometry(hypothesis) < kDecisive + kEachDecisive * evaluator_->rowsInside(hypothesis);
@@ -293,23 +293,23 @@ bool Selection<D>::propose(const VarianceFactors& factors, const std::vector<Sli
   made.hypothesis = hypothesisOver(made.selected, factors);
   readmit(made);
   const bool known =
-      std::any_of(weighed_.begin(), weighed_.end(), [&](const auto& other) { return other.second == made.members; });
+      std::any_of(scored_.begin(), scored_.end(), [&](const auto& other) { return other.second == made.members; });
   if (known && !forced && !is_doubtful_link) return false;
   evaluator_->evaluate(made.hypothesis);
-  weighed_.emplace_back(made.hypothesis.log_evidence, made.members);
+  scored_.emplace_back(made.hypothesis.log_evidence, made.members);
   const bool is_new_slip = slips.size() > best_.slips.size();
   const bool likelier = made.hypothesis.log_evidence >
                             best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
                         (!is_new_slip || holdsWithout(made.selected, slips)) &&
                         (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
-  if (likelier || forced) contract(made.hypothesis);
-  if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
+  if (likelier || forced) applyCollapsePenalty(made.hypothesis);
+  if (!forced && (!likelier || reliesOnInflatedVariance(made.hypothesis))) return false;
   best_ = std::move(made);
   return true;
 }
 
 template <int D>
-void Selection<D>::weighCore() {
+void Selection<D>::evaluateReducedGraph() {
   core_ = CoreGraph<D>::of(problem_, roles_);
   unweighed_ = !core_ || core_->problem().poses.size() > kMostPoses;
   if (unweighed_) return;
@@ -332,7 +332,7 @@ void Selection<D>::weighCore() {
   evaluator_->evaluate(made);
   best_.hypothesis = std::move(made);
   odometry_.log_evidence = log_evidence;
-  contract(best_.hypothesis);
+  applyCollapsePenalty(best_.hypothesis);
 }
 
 template <int D>
@@ -365,7 +365,7 @@ void Selection<D>::joinSessions() {
   std::vector<char> tried(roles_.size(), 0);
   for (const int closure : links.doubtful) {
     if (!barred_[sz(closure)] || tried[sz(closure)] || tryLink(closure)) continue;
-    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= weighed_.back().second[e];
+    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= scored_.back().second[e];
   }
 }
 
@@ -424,7 +424,7 @@ void Selection<D>::proposeSlips(const VarianceFactors& factors) {
   // From odometry, a slip that closures nearby appear to confirm is not found. A set that is no better than chance
   // contradicts nothing.
   if (evidence() < kDecisive) return;
-  const std::vector<char> weighted_down = mostRefuted(scaled, proposed_roles_, in, considered);
+  const std::vector<char> weighted_down = mostContradicted(scaled, proposed_roles_, in, considered);
   if (!weighted_down.empty())
     proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, weighted_down, odometry_.poses), factors);
 }

@@ -80,7 +80,7 @@ class Selection {
   bool shareWithoutRows(std::vector<char>& shared) const;
 
   double overOdometry(const Hypothesis<D>& hypothesis) const {
-    return hypothesis.log_evidence - hypothesis.by_contraction - odometry_.log_evidence;
+    return hypothesis.log_evidence - hypothesis.collapse_penalty - odometry_.log_evidence;
   }
   bool isLoosened() const {
     const VarianceFactors& factors = best_.hypothesis.factors;
@@ -95,13 +95,13 @@ class Selection {
   }
   Hypothesis<D> hypothesisOver(const SelectedEdges<D>& selected, const VarianceFactors& factors) const;
 
-  // Subtracts the gain by contraction if it can change the decision.
-  void contract(Hypothesis<D>& hypothesis) const {
-    if (overOdometry(hypothesis) > 0.0) hypothesis.by_contraction = evaluator_->gainByContraction(hypothesis);
+  // Applies the collapse penalty (HypothesisEvaluator::collapsePenalty()) if it can change the decision.
+  void applyCollapsePenalty(Hypothesis<D>& hypothesis) const {
+    if (overOdometry(hypothesis) > 0.0) hypothesis.collapse_penalty = evaluator_->collapsePenalty(hypothesis);
   }
 
   // Whether a set fits only because variances were changed: each of its rows is then hardly more likely than chance.
-  bool isInflated(const Hypothesis<D>& hypothesis) const;
+  bool reliesOnInflatedVariance(const Hypothesis<D>& hypothesis) const;
 
   bool isBetween(std::size_t e) const {
     return roles_[e] == EdgeRole::Candidate && parts_[sz(problem_.edges[e].from)] != parts_[sz(problem_.edges[e].to)];
@@ -140,7 +140,7 @@ class Selection {
                bool is_doubtful_link = false);
 
   // Compares the only selection of a large graph with odometry, in its core graph.
-  void weighCore();
+  void evaluateReducedGraph();
 
   // Adds a closure between two parts as a trusted edge.
   void addLink(int closure);
@@ -211,7 +211,7 @@ class Selection {
   Proposal best_;
   mutable std::optional<Hypothesis<D>> rows_alone_;  // computed on demand
   VarianceFactors repeated_with_;
-  std::vector<std::pair<double, std::vector<char>>> weighed_;  // log evidence of each set, and its members
+  std::vector<std::pair<double, std::vector<char>>> scored_;  // log evidence of each set, and its members
   std::vector<Slip<D>> slips_;
 };
 

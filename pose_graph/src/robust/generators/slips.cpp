@@ -228,8 +228,8 @@ bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, cons
 }
 
 template <int D>
-std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                              const std::vector<char>& in, const std::vector<char>& considered) {
+std::vector<char> mostContradicted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                   const std::vector<char>& in, const std::vector<char>& considered) {
   const std::vector<int> against = countContradicting(problem, roles, in, considered);
   const int most = *std::max_element(against.begin(), against.end());
   std::vector<char> made;
@@ -317,10 +317,10 @@ template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const 
                          const std::vector<char>&, const std::vector<int>&, const std::vector<Rigid<2>>&);
 template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                          const std::vector<char>&, const std::vector<int>&, const std::vector<Rigid<3>>&);
-template std::vector<char> mostRefuted<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                          const std::vector<char>&);
-template std::vector<char> mostRefuted<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                          const std::vector<char>&);
+template std::vector<char> mostContradicted<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                               const std::vector<char>&, const std::vector<char>&);
+template std::vector<char> mostContradicted<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                               const std::vector<char>&, const std::vector<char>&);
 template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                                            const std::vector<char>&, const std::vector<Rigid<2>>&);
 template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,

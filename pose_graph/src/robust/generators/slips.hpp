@@ -25,8 +25,8 @@ bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, cons
 /// Returns the steps, by edge, that have the largest excess of rejected over accepted spanning closures; empty if that
 /// excess is small. Arguments as in maySlip().
 template <int D>
-std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                              const std::vector<char>& in, const std::vector<char>& considered);
+std::vector<char> mostContradicted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                   const std::vector<char>& in, const std::vector<char>& considered);
 
 /// Finds slipped steps of odometry. All edges, of closures those `considered`, are relaxed under Cauchy's kernel from
 /// odometry; a step has slipped if it ends far outside its covariance and much farther than others. If several steps
