@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Are the covariances of relaxed poses true? Thirty simulated graphs (spheres, lattices, drives through a town) from
-// raw odometry, NEES of T_first_pose at ten poses of each, without false closures and with such present and rejected;
-// and how long all marginals take.
+// Consistency of the covariances of relaxed poses. Thirty simulated graphs (spheres, lattices, drives through a town)
+// from raw odometry: NEES of T_first_pose at ten poses of each, without false closures and with false closures present
+// and rejected; and time to compute all marginals.
 //   pose_graph-bench-covariance [--graphs N] [-o results/covariance.json]
 #include <array>
 #include <string>
@@ -42,7 +42,7 @@ SimulatedGraph makeGraph(int number) {
   }
 }
 
-using Nees = std::array<double, kPlaces>;  // at the ends of the ten tenths of the way
+using Nees = std::array<double, kPlaces>;  // at ten equidistant poses
 
 Nees computeNees(const SimulatedGraph& graph, const Problem<3>& problem, const std::vector<Rigid<3>>& poses,
                  const std::vector<double>& weights) {
@@ -62,13 +62,13 @@ Nees computeNees(const SimulatedGraph& graph) {
   return computeNees(graph, problem, solve(problem, {}).poses, {});
 }
 
-/// What became of closures, over all graphs.
-struct Judged {
+/// Numbers of closures over all graphs.
+struct ClosureCounts {
   std::size_t wrong = 0, wrong_kept = 0, right = 0, right_lost = 0;
 };
 
-/// With a fifth more closures, all false.
-Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
+/// NEES with 20 % additional closures, all false.
+Nees neesAmongFalseOnes(SimulatedGraph graph, int number, ClosureCounts& counts) {
   constexpr FalseClosures kKinds[] = {FalseClosures::Random, FalseClosures::Local, FalseClosures::RandomGrouped,
                                       FalseClosures::LocalGrouped};
   const std::size_t closures = graph.edges.size() - graph.truth.size() + 1;
@@ -83,9 +83,9 @@ Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
     weights.push_back(robust.edges[e].weight);
     if (graph.edges[e].kind == GraphEdgeKind::Chain) continue;
     const bool kept = robust.edges[e].verdict == urban_nav_core::ClosureVerdict::Accepted;
-    ++(graph.edges[e].wrong ? judged.wrong : judged.right);
-    if (graph.edges[e].wrong && kept) ++judged.wrong_kept;
-    if (!graph.edges[e].wrong && !kept) ++judged.right_lost;
+    ++(graph.edges[e].wrong ? counts.wrong : counts.right);
+    if (graph.edges[e].wrong && kept) ++counts.wrong_kept;
+    if (!graph.edges[e].wrong && !kept) ++counts.right_lost;
   }
   return computeNees(graph, problem, robust.solution.poses, weights);
 }
@@ -102,7 +102,7 @@ std::string timed(int poses, int closures) {
   const Marginals<3> marginals(problem, relaxed);
   const double pair = measureSeconds(3, [&] { marginals.between(poses / 3, poses / 2); });
   return std::to_string(poses) + " poses with " + std::to_string(closures) + " closures: all marginals in " +
-         cell(seconds, 3) + " s of one core, the covariance of one pair that no edge joins in " + cell(1e3 * pair, 1) +
+         cell(seconds, 3) + " s of one core, the covariance of one pair without an edge in " + cell(1e3 * pair, 1) +
          " ms.";
 }
 
@@ -113,24 +113,24 @@ int main(int argc, char** argv) try {
   const int graphs = asked.number("--graphs", 30);
   const urban_nav_core::ThreadLimit one(1);
   Nees plain{}, robust{};
-  Judged judged;
+  ClosureCounts counts;
   for (int number = 1; number <= graphs; ++number) {
     const SimulatedGraph graph = makeGraph(number);
-    const Nees alone = computeNees(graph), among = neesAmongFalseOnes(graph, number, judged);
+    const Nees alone = computeNees(graph), among = neesAmongFalseOnes(graph, number, counts);
     for (std::size_t k = 0; k < kPlaces; ++k) {
       plain[k] += alone[k] / graphs;
       robust[k] += among[k] / graphs;
     }
   }
-  BenchTable table({"share of the way", "mean NEES of " + std::to_string(graphs), "with false closures", "99 % band"},
+  BenchTable table({"share of the path", "mean NEES of " + std::to_string(graphs), "with false closures", "99 % band"},
                    argc, argv);
   const urban_nav_core::Band band = urban_nav_core::chiSquareMeanBand(6.0, graphs, 0.99);
   const auto marked = [&band](double mean) { return cell(mean, 2) + (band.contains(mean) ? "" : " (outside)"); };
   for (std::size_t k = 0; k < kPlaces; ++k)
     table.add({cell(0.1 * static_cast<double>(k + 1), 1), marked(plain[k]), marked(robust[k]),
                cell(band.low, 2) + "..." + cell(band.high, 2)});
-  table.note("False closures: " + std::to_string(judged.wrong) + " beside " + std::to_string(judged.right) +
-             " true ones; " + std::to_string(judged.wrong_kept) + " kept, " + std::to_string(judged.right_lost) +
+  table.note("False closures: " + std::to_string(counts.wrong) + " among " + std::to_string(counts.right) +
+             " true ones; " + std::to_string(counts.wrong_kept) + " kept, " + std::to_string(counts.right_lost) +
              " true ones lost.");
   for (const auto& [poses, closures] : {std::pair(20000, 200), std::pair(20000, 2000), std::pair(100000, 1000)})
     table.note(timed(poses, closures));

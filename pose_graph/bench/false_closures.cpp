@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Graphs with false closures drawn anew, by the definition of Vertigo's script (Suenderhauf, Protzel, IROS 2012): how
-// far the relaxed graph lies from the optimum without them, how many wrong ones were kept and true ones lost, and how
-// long that takes. A row for each draw, or with --seeds one for each graph: of so many seeds in a row each kind of
-// false closures, a tenth and half as many as true ones.
+// Graphs with false closures, drawn by the definition of Vertigo's script (Suenderhauf, Protzel, IROS 2012): distance
+// of the relaxed graph from the optimum without them, false ones accepted, true ones rejected, and time. One row per
+// draw, or with --seeds one per graph: each kind of false closures with as many consecutive seeds, a tenth and half as
+// many as true closures.
 //   pose_graph-bench-false_closures [NAME or FILE.g2o...] [--seed N] [--percent N] [--seeds N]
 //     [-o results/false_closures.json]
 #include <algorithm>
@@ -22,7 +22,8 @@ using namespace pose_graph::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-// What a user is promised: of the extent, and more of a small one; of the wrong ones; of the true ones.
+// Requirements: error as a share of the extent, and a larger share for small graphs; share of false closures kept;
+// share of true ones lost.
 constexpr double kShareOff = 0.005, kShareOffSmall = 0.01, kSmallM = 30.0, kShareKept = 0.002, kShareLost = 0.02;
 
 std::vector<PublicGraph> readGraphs(const std::vector<std::string>& names) {
@@ -107,10 +108,9 @@ int main(int argc, char** argv) try {
                     "true ones lost", "time, times plain"},
                    argc, argv);
   for (const PublicGraph& graph : readGraphs(asked.names)) addDraws(graph, asked.number("--percent", 50), seed, table);
-  table.note(
-      "Drawn with seed " + std::to_string(seed) +
-      ", one draw a row. One core, processor time; plain: the graph without false closures, every edge taken as it "
-      "is.");
+  table.note("Drawn with seed " + std::to_string(seed) +
+             ", one draw a row. One core, processor time; plain: the graph without false closures, every edge used as "
+             "given.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fixes of satellite navigation add to odometry: drives of 3 km that come by no place twice, with fixes a second
-// whose errors last, and with reflections of a minute.
+// Effect of satellite position fixes on odometry: drives of 3 km that revisit no place, with one fix per second,
+// time-correlated errors, and multipath lasting a minute.
 //   pose_graph-bench-fixes [--seeds N] [-o results/fixes.json]
 #include <algorithm>
 #include <string>
@@ -19,7 +19,7 @@ using urban_nav_core::testing::cell;
 
 constexpr double kSeconds = 2400.0;
 
-/// A receiver and an odometry; the drives differ by their seeds.
+/// A receiver and an odometry; the drives differ in their seeds.
 struct Kind {
   std::string name;
   GpsDrive drive;
@@ -37,12 +37,12 @@ GpsDrive withErrors(double turn_drift, double slow, double white, double reflect
 }
 
 std::vector<Kind> kinds() {
-  return {{"heading drifts by 0.17 deg per root of a metre", withErrors(0.003, 1.5, 0.5, 0.0, 2.0)},
-          {"the same, reflections of 40 m for a minute in eight", withErrors(0.003, 1.5, 0.5, 40.0, 2.0)},
-          {"the same, reflections of 8 m", withErrors(0.003, 1.5, 0.5, 8.0, 2.0)},
-          {"the same, the receiver states 0.5 m", withErrors(0.003, 1.5, 0.5, 8.0, 0.5)},
-          {"heading drifts by 0.03 deg per root of a metre", withErrors(0.0005, 1.5, 0.5, 0.0, 2.0)},
-          {"the same, fixes off by 8 m for a minute", withErrors(0.0005, 8.0, 1.0, 0.0, 8.0)}};
+  return {{"heading drift of 0.17 deg per root of a metre", withErrors(0.003, 1.5, 0.5, 0.0, 2.0)},
+          {"as above, multipath of 40 m for one minute in eight", withErrors(0.003, 1.5, 0.5, 40.0, 2.0)},
+          {"as above, multipath of 8 m", withErrors(0.003, 1.5, 0.5, 8.0, 2.0)},
+          {"as above, the receiver states 0.5 m", withErrors(0.003, 1.5, 0.5, 8.0, 0.5)},
+          {"heading drift of 0.03 deg per root of a metre", withErrors(0.0005, 1.5, 0.5, 0.0, 2.0)},
+          {"as above, fixes off by 8 m for a minute", withErrors(0.0005, 8.0, 1.0, 0.0, 8.0)}};
 }
 
 double median(std::vector<double> values) {
@@ -55,7 +55,7 @@ double median(std::vector<double> values) {
 int main(int argc, char** argv) try {
   const Arguments asked = parseArguments(argc, argv, {"--seeds"});
   const int seeds = asked.number("--seeds", 9);
-  urban_nav_core::testing::BenchTable table({"odometry and receiver", "odometry alone, m", "largest", "with fixes, m",
+  urban_nav_core::testing::BenchTable table({"odometry and receiver", "odometry only, m", "largest", "with fixes, m",
                                              "largest", "rejected, %", "sigma factor", "s"},
                                             argc, argv);
   for (const Kind& kind : kinds()) {
@@ -78,7 +78,7 @@ int main(int argc, char** argv) try {
   table.note("Root mean square of positions after the best rigid alignment; medians and largest of " +
              std::to_string(seeds) +
              " drives of 3 km, two poses and a fix a second. Scale of odometry off by 0.2 %. "
-             "Errors of fixes last for 60 s (standard deviation 1.5 m unless stated), and have 0.5 m of noise.");
+             "Errors of fixes: 1.5 m unless stated, with a correlation time of 60 s, and 0.5 m of noise.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return complain(error);

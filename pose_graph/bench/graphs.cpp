@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The public graphs, from what their files hold to the optimum, with each objective: how near, and how long on one core
-// with reading left out. It is time of the processor, so that what else runs does not count.
+// The public graphs, from the file to the optimum, with each objective: remaining cost and time. Processor time on one
+// core, without reading, so that other processes do not count.
 //   pose_graph-bench-graphs [NAME...] [--peers FILE] [--runs N] [-o results/graphs.json]
-// FILE: what other programs took on the same machine, `graph,peer,version,options,seconds,reached` (reached 1: ends at
-// its own optimum), as CSV.
+// FILE: results of other programs on the same machine, CSV of `graph,peer,version,options,seconds,reached` (reached 1:
+// ends at its own optimum).
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -53,7 +53,7 @@ Found relaxed(const PublicGraph& graph, Objective objective, int runs) {
       graph.problem);
 }
 
-/// The same by Ceres, with what it takes to set its problem up; empty where that ends elsewhere.
+/// As above with Ceres, including problem setup; empty if it ends elsewhere.
 std::string byCeres(const PublicGraph& graph, double best, int runs) {
   return std::visit(
       [&](const auto& problem) {
@@ -64,7 +64,7 @@ std::string byCeres(const PublicGraph& graph, double best, int runs) {
       graph.problem);
 }
 
-/// 1.2e-09: by what share a cost lies above the best one that is known.
+/// Returns the relative excess of a cost over the best known one, as "1.2e-09".
 std::string excess(double cost, double best) {
   char text[32];
   std::snprintf(text, sizeof text, "%.0e", (cost - best) / best);
@@ -73,7 +73,7 @@ std::string excess(double cost, double best) {
 
 std::string milliseconds(double seconds) { return cell(1e3 * seconds, seconds < 0.0995 ? 1 : 0); }
 
-/// The fastest peer that reached its optimum, "0.30 s, GTSAM GN from chordal".
+/// Returns the fastest peer that reached its optimum, as "0.30 s, GTSAM GN from chordal".
 struct Peer {
   double seconds = INFINITY;
   std::string name;
@@ -89,7 +89,7 @@ Peer bestPeer(const CsvTable& peers, const std::string& graph) {
   return best;
 }
 
-/// "Peers: GTSAM 4.3a0; g2o ..." in the order of the file.
+/// Returns "Peers: GTSAM 4.3a0; g2o ..." in the order of the file.
 std::string versions(const CsvTable& peers) {
   std::vector<std::string> named;
   for (std::size_t row = 0; row < peers.rows(); ++row) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First guesses that twist the graph into knots: no rotation at all, or rotations that are off by 90 deg (about each
-// axis, standard deviation). Of 20 seeds, each with its own noise of measurement and of the guess, how many end at the
-// global optimum: the least cost found from the truth and from all guesses.
+// Initial guesses with rotation wrap-arounds: no rotation at all, or rotations with errors of 90 deg (standard
+// deviation about each axis). Of 20 seeds, each with its own measurement noise and guess, the number that reach the
+// global optimum: the lowest cost found from the truth and from all guesses.
 //   pose_graph-bench-knots [--seeds N] [-o results/knots.json]
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ using testing::SimulatedGraph;
 using urban_nav_core::Pose;
 
 constexpr double kQuarterTurn = 1.5707963267948966;
-constexpr int kDescent = 25;    // steps of the descent from the guess alone: who is in a knot goes on for ever
-constexpr double kSame = 1e-6;  // of the cost: the same optimum
+constexpr int kDescent = 25;    // steps of the descent from the given guess; with a wrap-around it would not converge
+constexpr double kSame = 1e-6;  // relative to the cost: same optimum
 
 struct Shape {
   const char* name;
@@ -62,8 +62,8 @@ std::vector<Guess> guesses() {
           {"rotations off by 90 deg", turned}};
 }
 
-/// Least costs from the guess with default options and with that guess alone (no search for a better start), and from
-/// the truth.
+/// Lowest costs from the guess with default options, from the guess without a search for a better start, and from the
+/// truth.
 struct Costs {
   double found = 0.0, descended = 0.0, from_truth = 0.0, seconds = 0.0;
 };
@@ -88,8 +88,8 @@ int main(int argc, char** argv) try {
   const Arguments asked = parseArguments(argc, argv, {"--seeds"});
   const int seeds = asked.number("--seeds", 20);
   const urban_nav_core::ThreadLimit one(1);
-  testing::BenchTable table({"graph", "measured to, m and rad", "first guess", "at the optimum", "worst above it",
-                             "by 25 steps from the guess alone", "ms"},
+  testing::BenchTable table({"graph", "noise, m and rad", "initial guess", "at the optimum", "worst above it",
+                             "by 25 steps from the guess only", "ms"},
                             argc, argv);
   const auto addRows = [&](double sigma, const Shape& shape) {
     for (const Guess& guess : guesses()) {
@@ -116,7 +116,7 @@ int main(int argc, char** argv) try {
   };
   for (const double sigma : {0.1, 0.3})
     for (const Shape& shape : shapes(sigma)) addRows(sigma, shape);
-  table.note("Measurements along and about each axis; poses 1 m apart (sphere: 6 m at the equator).");
+  table.note("Noise along and about each axis; poses 1 m apart (sphere: 6 m at the equator).");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

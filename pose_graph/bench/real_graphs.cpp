@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real odometry and real closures by image words, many of them false, beside the truth: KITTI's sequences with closures
-// at 21 thresholds each (Latif, Cadena, Neira, Robust loop closing over time for pose graph SLAM, IJRR 2013). A row for
-// each sequence: how far off odometry, least squares and relax with its defaults are, and whether a warning was given
-// where relax is worse than odometry. Each graph is named on stderr.
+// Real odometry and real closures by visual words, many of them false, with ground truth: KITTI sequences with closures
+// at 21 thresholds each (Latif, Cadena, Neira, Robust loop closing over time for pose graph SLAM, IJRR 2013). One row
+// per sequence: errors of odometry, least squares and relax with default options, and whether a warning was given if
+// relax is worse than odometry. Each graph is named on stderr.
 //   pose_graph-bench-real_graphs FOLDER... [--every N] [--peers PEERS.csv] [-o results/real_graphs.json]
 // FOLDER: one of https://github.com/ylatif/dataset-RobustSLAM, with NAME_GT.g2o, NAME_odom.g2o and NAME_alpha_*.g2o.
 // PEERS: `graph,peer,error_m` (the name of the graph without its ending).

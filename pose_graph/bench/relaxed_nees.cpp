@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Consistency (NEES) of covariances between poses of relaxed sessions, near and far, with and without the constants of
-// the rig, from stores of `urban_nav map --store` over simulated sessions, each with the truth of its session.
+// the rig, from stores of `urban_nav map --store` of simulated sessions with ground truth.
 //   pose_graph-bench-relaxed_nees [-o FILE.json] STORE TRUTH.tum [STORE TRUTH.tum]...
-// First from odometry alone, then with the closures and planes that the store holds.
+// First from odometry only, then with the closures and planes in the store.
 #include <array>
 #include <cmath>
 #include <string>
@@ -25,8 +25,8 @@ using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::testing::cell;
 
 constexpr std::array<double, 3> kLags = {1.0, 10.0, 100.0};  // m driven
-constexpr std::size_t kEvery = 5;                            // poses between the first ones of pairs
-constexpr double kReturnM = 2.0, kReturnDriven = 60.0;       // m: at the place of the first pose again
+constexpr std::size_t kEvery = 5;                            // poses between the first poses of pairs
+constexpr double kReturnM = 2.0, kReturnDriven = 60.0;       // m: revisits of the first pose
 constexpr StampNs kTruthGap = 200'000'000;
 
 /// Sums over pairs of poses.
@@ -51,7 +51,7 @@ struct Score {
   }
 };
 
-/// Indices of the first and the last pose of pairs; the last group are returns to the first pose.
+/// Indices of the first and the last pose of pairs; the last group contains revisits of the first pose.
 using Pairs = std::array<std::vector<std::pair<std::size_t, std::size_t>>, kLags.size() + 2>;
 
 Pairs findPairs(const std::vector<Pose>& truth) {
@@ -71,7 +71,7 @@ Pairs findPairs(const std::vector<Pose>& truth) {
   return pairs;
 }
 
-using Scores = std::array<std::array<Score, 2>, std::tuple_size_v<Pairs>>;  // without, with constants
+using Scores = std::array<std::array<Score, 2>, std::tuple_size_v<Pairs>>;  // without and with constants
 
 void score(const PoseGraph& graph, const std::vector<Pose>& truth, Scores& scores) {
   const Track& track = graph.tracks().front();
@@ -122,9 +122,9 @@ int main(int argc, char** argv) try {
   if (asked.names.empty() || asked.names.size() % 2 != 0) throw std::runtime_error("STORE TRUTH.tum, in pairs");
   Scores before, after;
   for (std::size_t i = 0; i < asked.names.size(); i += 2) add(asked.names[i], asked.names[i + 1], before, after);
-  urban_nav_core::testing::BenchTable table({"poses", "pairs", "constants of the rig", "NEES", "translation",
-                                             "rotation", "positions inside 90 %"},
-                                            argc, argv);
+  urban_nav_core::testing::BenchTable table(
+      {"poses", "pairs", "constants of the rig", "NEES", "translation", "rotation", "positions inside 90 %"}, argc,
+      argv);
   const std::array<const char*, std::tuple_size_v<Pairs>> kGroups = {"1 m apart", "10 m apart", "100 m apart",
                                                                      "from the first", "back at the first"};
   for (const bool relaxed : {false, true})
@@ -137,8 +137,9 @@ int main(int argc, char** argv) try {
         for (std::string& each : of.cells()) row.push_back(std::move(each));
         table.add(row);
       }
-  table.note("Expected: NEES 6, of translation and rotation 3 each, 90 % inside. Pairs overlap, so errors of a session "
-             "are few independent ones.");
+  table.note(
+      "Expected: NEES 6, of translation and rotation 3 each, 90 % inside. Pairs overlap, so a session has few "
+      "independent errors.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How size tells where closures are false: a city drawn like city10000 (M. Kaess) with 250 000 poses, 77 000 true and
-// 15 000 false closures, and a town with a million poses, 6 000 closures and a fifth more that are false. Time of the
-// processor with rejection and, of the graph without false closures, without; growth of the memory at its peak.
+// Effect of graph size with false closures: a city like city10000 (M. Kaess) with 250 000 poses, 77 000 true and 15 000
+// false closures, and a town with a million poses, 6 000 closures and 20 % additional false ones. Processor time with
+// rejection, and without rejection for the graph without false closures; growth of peak memory.
 //   pose_graph-bench-robust_size [city] [town] [--poses N] [-o results/robust_size.json]
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ using urban_nav_core::testing::FalseClosures;
 using urban_nav_core::testing::measureMemory;
 using urban_nav_core::testing::SimulatedGraph;
 
-// Of city10000: deviations of its information, crossings a pose; of the bar: closures a pose.
+// As in city10000: standard deviations of its information, crossings per pose; of the requirement: closures per pose.
 constexpr double kCityM = 0.1414, kCityRad = 0.1, kCrossings = 1.14, kCityTrue = 0.308, kCityFalse = 0.06;
 constexpr std::size_t kCityPoses = 250000, kTownPoses = 1000000;
 constexpr double kTownClosures = 0.006, kTownFalse = 0.2;
@@ -118,8 +118,8 @@ int main(int argc, char** argv) try {
     addRow<3>(table, "town", drawTown(count), times(count, kTownClosures * kTownFalse));
   }
   table.note(
-      "One core, processor time, one run. Plain: without false closures, every edge taken as it is. Memory: what "
-      "the relaxation adds to that of the problem itself.");
+      "One core, processor time, one run. Plain: without false closures, every edge used as given. Memory: "
+      "growth by the relaxation, without the problem.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot drives through a town and comes back to its streets: the paper's size (50 000 poses, 300 closures) and up to
-// twenty times as much, relaxed from raw odometry; at the paper's size by its own method too. Time of the processor,
-// growth of the memory at its peak, and what is left of the error.
+// Relaxation of drives through a town with revisits from raw odometry: the paper's size (50 000 poses, 300 closures)
+// and up to twenty times as much; at the paper's size also by its own method. Processor time, growth of peak memory,
+// and remaining error.
 //   pose_graph-bench-size [--runs N] [--largest POSES] [-o results/size.json]
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ using urban_nav_core::testing::SimulatedGraph;
 
 constexpr std::pair<int, int> kSizes[] = {{50000, 300}, {100000, 500}, {200000, 1000}, {500000, 2500}, {1000000, 5000}};
 
-/// Root mean square of the distance to the truth, m; the first poses are one.
+/// Root mean square distance to the truth, m; the first poses coincide.
 double offBy(const SimulatedGraph& graph, const std::vector<Rigid<3>>& poses) {
   const Rigid<3> T = Rigid<3>{graph.truth[0].R(), graph.truth[0].t()} * poses[0].inverse();
   double sum = 0.0;
@@ -37,7 +37,7 @@ double offBy(const SimulatedGraph& graph, const std::vector<Rigid<3>>& poses) {
   return std::sqrt(sum / static_cast<double>(poses.size()));
 }
 
-/// One method on one graph. `best`: the cost that a start from the truth leads to.
+/// One method on one graph. `best`: cost reached from the truth.
 void addRow(BenchTable& table, const std::string& solver, const SimulatedGraph& graph, const Problem<3>& problem,
             double best, int runs, const std::function<Solution<3>()>& relax) {
   Solution<3> solution;
@@ -77,7 +77,7 @@ int main(int argc, char** argv) try {
   for (const auto& [poses, closures] : kSizes)
     if (poses <= largest) addSize(table, poses, closures, runs);
   table.note("One core, processor time, median of " + std::to_string(runs) +
-             ", from raw odometry. Memory: what the relaxation adds to that of the problem itself.");
+             ", from raw odometry. Memory: growth by the relaxation, without the problem.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A closure arrives: how long until the map says so? A robot drives through a town; closures come one at a time when
-// their later pose is reached, with the odometry since the last one, as live, and a fifth more that are false. Time of
-// the processor of each PoseGraph::update().
+// Time from the arrival of a closure to the updated map. A robot drives through a town; closures arrive one at a time
+// when their later pose is reached, with the odometry since the last one, as on a robot; a further 20 % are false.
+// Processor time of each PoseGraph::update().
 //   pose_graph-bench-update [--largest POSES] [-o results/update.json]
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ Closure toClosure(const GraphEdge& edge) {
   closure.a = {"drive", static_cast<StampNs>(edge.a) * kStep};
   closure.b = {"drive", static_cast<StampNs>(edge.b) * kStep};
   closure.kind = EdgeKind::Stereo;
-  closure.odometry_gate = true;  // acts alone: every closure is relaxed as it comes
+  closure.odometry_gate = true;  // accepted without confirmation: every closure is relaxed on arrival
   closure.measured.T_a_b = edge.T_a_b;
   closure.measured.information = edge.information;
   return closure;
@@ -54,7 +54,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
 }
 
-/// By what the live poses are off those of the batch: root mean square, m.
+/// Root mean square distance between the live poses and those of the batch, m.
 double offBy(const std::vector<Pose>& live, const std::vector<Pose>& batch) {
   double sum = 0.0;
   for (std::size_t i = 0; i < live.size(); ++i) sum += (live[i].t() - batch[i].t()).squaredNorm();
@@ -90,7 +90,7 @@ void addSize(BenchTable& table, const Size& size) {
     lost += !is_wrong && !accepted;
   }
   const std::vector<Pose> live = graph.tracks()[0].map;
-  // The batch on what was accepted live.
+  // Batch with the closures accepted live.
   for (const auto& [id, is_wrong] : wrong)
     if (!(graph.closures().at(id).weight > 0.0)) graph.removeClosure(id);
   const Problem<3> problem = graph.problem();
@@ -117,8 +117,8 @@ int main(int argc, char** argv) try {
   for (const Size& size : kSizes)
     if (size.poses <= largest) addSize(table, size);
   table.note(
-      "One core, processor time of each update, all closures counted. Off the batch: of the same accepted closures, "
-      "relaxed from the measurements alone.");
+      "One core, processor time of each update, all closures counted. Off the batch: relative to a batch "
+      "relaxation with the same accepted closures.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

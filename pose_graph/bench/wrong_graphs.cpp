@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Graphs that are wrong: false closures among true ones, odometry and false closures alone, a step of odometry that
-// slipped, information of the wrong scale, two sessions that few closures join. A row for each kind, of so many seeds:
-// how far the relaxed graph lies from the right one, what was kept and lost, in how many draws a warning was given, and
-// in how many the result is wrong without one; these are named on stderr.
+// Graphs with errors: false closures among true ones, odometry with false closures only, a slipped step of odometry,
+// information of the wrong scale, two sessions with few closures. One row per kind, over several seeds: distance of the
+// relaxed graph from the right one, closures accepted and rejected wrongly, number of draws with a warning, and number
+// with a wrong result but no warning; the latter are named on stderr.
 //   pose_graph-bench-wrong_graphs [NAME...] [--seed N] [--seeds N] [--kind PART_OF_ITS_NAME] [-o
 //   results/wrong_graphs.json]
 #include <algorithm>
@@ -24,7 +24,8 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::Dice;
 
-// What calls for a warning: closures lost, or something false kept and the map this much of its extent off.
+// A warning is required if more than this share of closures is lost, or if something false is kept and the map is off
+// by this share of its extent.
 constexpr double kShareLost = 0.02, kShareOff = 0.01;
 
 struct Sum {
@@ -67,7 +68,7 @@ void addOutcome(const WrongGraph<D>& wrong, const std::string& name, double exte
   sum.lost += lost;
 }
 
-/// Which draws to make.
+/// Draws to evaluate.
 struct Draws {
   std::uint64_t first = 1;
   int seeds = 3;
@@ -111,10 +112,11 @@ int main(int argc, char** argv) try {
   table.note(
       "Seeds from " + std::to_string(draws.first) +
       ". The right one: least squares of the graph as published; of odometry with false closures, odometry; of "
-      "sessions that no true closure joins, each by itself. Wrong: more than 2 % of the true closures lost, or "
+      "sessions without a true closure between them, each separately. Wrong: more than 2 % of the true closures lost, "
+      "or "
       "something false kept and more than 1 % of the extent off. Drawn closures within 1 m and 20 deg of the right one "
-      "count neither as false nor as true. One core, processor time; plain: the graph as published, every edge taken "
-      "as it is.");
+      "count neither as false nor as true. One core, processor time; plain: the graph as published, every edge used "
+      "as given.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graphs of wrong_graphs, relaxed by other programs: how far each ends from the right poses, beside ours and beside
+// The graphs of wrong_graphs relaxed by other programs: distance of each result from the right poses, with ours and
 // least squares of all edges.
 //   pose_graph-bench-wrong_graphs_peers [NAME...] [--seeds N] [--kind PART_OF_ITS_NAME] --keep FOLDER
-// writes the graphs, GRAPH.KIND.SEED.g2o, which begin at the vertices of the public ones.
+// writes the graphs as GRAPH.KIND.SEED.g2o, with the vertices of the public graphs as initial guess.
 //   pose_graph-bench-wrong_graphs_peers [NAME...] [--seeds N] [--kind PART_OF_ITS_NAME] --peers FILE [-o
 //   results/wrong_graphs_peers.json]
-// FILE: what the programs made of them, `peer,graph,relaxed,seconds`, as CSV: name, name without .g2o, path, time of
-// the processor. A peer without a row for a graph did not answer.
+// FILE: results of the programs, CSV of `peer,graph,relaxed,seconds`: name, name without .g2o, path, processor time. A
+// peer without a row for a graph gave no result.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -49,7 +49,8 @@ void setValues(const Rigid<D>& T, std::array<double, 7>& values) {
   values = vertex.values;
 }
 
-/// The graph as a file has it: of space, information is that of the quaternion's vector, half the rotation vector.
+/// Converts a graph to the file format; in space, information refers to the vector part of the quaternion, half the
+/// rotation vector.
 template <int D>
 G2oGraph toG2o(const Problem<D>& problem) {
   G2oGraph graph;
@@ -74,7 +75,7 @@ G2oGraph toG2o(const Problem<D>& problem) {
   return graph;
 }
 
-/// What one program makes of the graphs of one kind.
+/// Results of one program on the graphs of one kind.
 struct Ended {
   int answers = 0;
   double worst = 0.0, seconds = 0.0;
@@ -110,7 +111,7 @@ class Answers {
       const G2oGraph file = urban_nav_core::readG2o(path);
       std::vector<Rigid<D>> poses(wrong.right.size());
       if (file.vertices.size() != poses.size())
-        throw urban_nav_core::UserError(path, "has other vertices", "those of the graph");
+        throw urban_nav_core::UserError(path, "vertices of another graph", "the vertices of the graph");
       for (const G2oGraph::Vertex& vertex : file.vertices)
         poses.at(static_cast<std::size_t>(vertex.id)) = toRigid<D>(file.pose(vertex));
       ended[table_.text(row, table_.column("peer"))].add(distanceFromRight(wrong, poses) / extent,
@@ -195,8 +196,7 @@ int main(int argc, char** argv) try {
   }
   const Answers answers(asked.text("--peers", "peers.csv"));
   std::vector<std::string> columns{
-      "graph",  "what is wrong",        "draws", "from the right one, % of the extent, worst", "s",
-      "warned", "all edges as they are"};
+      "graph", "what is wrong", "draws", "from the right one, % of the extent, worst", "s", "warned", "all edges used"};
   for (const std::string& peer : answers.peers()) {
     columns.push_back(peer);
     columns.push_back("s");
@@ -205,8 +205,8 @@ int main(int argc, char** argv) try {
   for (const PublicGraph& graph : graphs)
     std::visit([&](const auto& problem) { addKinds(graph.name, problem, draws, answers, table); }, graph.problem);
   table.note(
-      "Seeds from 1; the worst of the draws, % of the extent from the right poses; mean times of the processor on one "
-      "core. All edges as they are: least squares by our plain solver.");
+      "Seeds from 1; the worst of the draws, % of the extent from the right poses; mean processor times on one "
+      "core. All edges used: least squares by our plain solver.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);

@@ -29,14 +29,14 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-// s; a filter with a window publishes its first smoothed pose so late, and later ones at the rate of its images.
+// s; delay of the first smoothed pose of a filter with a window; later poses arrive at the rate of its images.
 constexpr double kOdometryTimeout = 5.0;
-// s after an interrupt within which the last poses and closures of other stages are awaited and stored.
+// s after an interrupt during which the last poses and closures of other stages are received and stored.
 constexpr double kDrain = 10.0;
 
 }  // namespace
 
-/// Pose graph on topics. map -> odom is published with every odometry message, whatever the worker does.
+/// Pose graph on topics. map -> odom is published with every odometry message, independent of the worker.
 class PoseGraphStage {
  public:
   static constexpr const char* name = "pose_graph";
@@ -63,10 +63,10 @@ class PoseGraphStage {
     accelerometer_->addTo(report);
     if (ground_->isAssumed())
       report.warn("no static tf from " + nodelet_.base_frame + " to the camera of " + topics::kGroundPlane +
-                  ": its axes are taken to be those of REP 103");
+                  ": assuming the axes of REP 103");
     if (fixes_ && fixes_->isAssumed())
       report.warn("no static tf from " + nodelet_.base_frame + " to the antenna of " + topics::kGpsFix +
-                  ": it is taken to be at the origin of the robot");
+                  ": assuming the origin of the robot");
     return report;
   }
 
@@ -89,10 +89,10 @@ class PoseGraphStage {
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<urban_nav_ros::Accelerometer>
       accelerometer_;  // of the callbacks of the node's queue, which are sequential
-  // As accelerometer_. The subscription ends with the first sample of an accelerometer: dense stereo is expensive.
+  // As accelerometer_. Unsubscribed at the first sample of an accelerometer, because dense stereo is expensive.
   std::unique_ptr<urban_nav_ros::GroundNormals> ground_;
   ros::Subscriber ground_subscriber_;
-  std::unique_ptr<urban_nav_ros::GpsFixes> fixes_;  // as accelerometer_; null: not wanted
+  std::unique_ptr<urban_nav_ros::GpsFixes> fixes_;  // as accelerometer_; null: GPS is disabled
   std::unique_ptr<GraphWorker> worker_;
 
   std::optional<Clock::time_point> last_picture_;
@@ -202,7 +202,7 @@ void PoseGraphStage::publishIdle(const LiveGraph& graph) {
   const bool changed = graph.revision() != drawn_revision_ || graph.newest() != drawn_newest_;
   if (!due || !changed || !publisher_->isWatched()) return;
   const LiveGraph::Picture picture = graph.picture();
-  if (!last_picture_ && picture.segments.empty()) return;  // the first pose does not wait for a period
+  if (!last_picture_ && picture.segments.empty()) return;  // the first pose is published without waiting for a period
   last_picture_ = now;
   drawn_revision_ = graph.revision();
   drawn_newest_ = graph.newest();

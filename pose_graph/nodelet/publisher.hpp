@@ -10,21 +10,21 @@
 
 namespace pose_graph {
 
-/// Converts outputs of the graph to messages and tf. T_map_odom is thread-safe; the rest is used by the worker.
+/// Converts outputs of the graph to messages and tf. T_map_odom is thread-safe; all else is used by the worker only.
 class Publisher {
  public:
   Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters);
 
-  /// Sets map -> odom; empty: not known yet.
+  /// Sets map -> odom; empty: unknown.
   void setMapFromOdom(const std::optional<urban_nav_core::Pose>& T_map_odom) { map_from_odom_.set(T_map_odom); }
   /// Publishes map -> odom with the stamp of an odometry message, unless tf is disabled.
   void sendTransform(urban_nav_core::StampNs stamp);
 
   void publish(const LiveGraph::Outcome& outcome, urban_nav_core::StampNs newest, double relax_ms);
 
-  /// Returns true if a subscriber would receive a picture.
+  /// Returns whether a path or markers have subscribers.
   bool isWatched() const;
-  /// Publishes graph/path (of the last run) and graph/markers.
+  /// Publishes graph/path (of the last segment) and graph/markers.
   void publish(const LiveGraph::Picture& picture, urban_nav_core::StampNs newest);
 
  private:

@@ -29,7 +29,7 @@ using urban_nav_ros::toStampNs;
 
 namespace {
 
-// A batch relaxation of a million poses takes some ten seconds.
+// A batch relaxation of a million poses takes about ten seconds.
 constexpr std::chrono::seconds kBatchTimeout{30};
 
 void requireAbsolute(const std::string& path) {
@@ -39,8 +39,8 @@ void requireAbsolute(const std::string& path) {
 void addEdge(LiveGraph& graph, const AddEdge::Request& request, AddEdge::Response& response) {
   const auto measured = urban_nav_ros::toConstraint(request.T_a_b, request.information);
   if (!measured) {
-    throw UserError("", "the transform or its information",
-                    "finite numbers, a quaternion of length 1 (1 %), a symmetric matrix");
+    throw UserError("", "invalid transform or information",
+                    "finite numbers, a unit quaternion (1 %), a symmetric matrix");
   }
   Closure edge;
   edge.a = {request.a.session, toStampNs(request.a.stamp)};
@@ -62,13 +62,13 @@ void getTrajectory(LiveGraph& graph, const GetTrajectory::Request& request, GetT
     response.segments.push_back(urban_nav_ros::toTrajectorySegmentMessage(run));
 }
 
-/// A service that the graph answers in the worker's thread.
+/// Advertises a service that is answered in the worker's thread.
 template <typename Service, typename Question>
 void advertiseQuestion(GraphNode& node, GraphWorker& worker, const std::string& name, const Question& question) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
   node.advertiseService<Service>(name, [&node, &worker, question](const Request& request, Response& response) {
-    // By value: the worker may evaluate it after the caller has given up.
+    // Captured by value: the worker may evaluate the request after the caller's timeout.
     response = node.ask([&worker, question, request] {
       Response made;
       made.success = true;
@@ -94,11 +94,12 @@ void load(GraphNode& node, GraphWorker& worker, const std::string& path, std::st
 std::string optimize(GraphNode& node, GraphWorker& worker) {
   std::future<Figures> ended = node.ask([&worker] { return worker.requestBatch(); });
   if (ended.wait_for(kBatchTimeout) != std::future_status::ready)
-    throw UserError("", "the batch relaxation is still under way; graph/state reports its end", "");
+    throw UserError("", "the batch relaxation is still running; graph/state reports its end", "");
   try {
     return toSentence(ended.get());
   } catch (const std::future_error&) {
-    throw UserError("", "the batch relaxation was dropped: too many inputs wait, or the nodelet ends", "");
+    throw UserError("", "the batch relaxation was dropped: the input queue is full, or the nodelet is shutting down",
+                    "");
   }
 }
 

@@ -10,8 +10,8 @@ namespace pose_graph {
 
 using GraphNode = urban_nav_ros::StageNodeWith<GraphWorker::Input>;
 
-/// Advertises the services of the stage. Each asks the worker and waits for its turn; ~optimize waits for the end of
-/// the batch. Files are read and copied in the caller's thread. `worker` must exist while `node` runs.
+/// Advertises the services of the stage. Each request waits for the worker; ~optimize blocks until the batch has ended.
+/// Files are read and copied in the caller's thread. `worker` must exist while `node` runs.
 void advertiseServices(GraphNode& node, GraphWorker& worker);
 
 }  // namespace pose_graph

@@ -18,7 +18,7 @@ namespace {
 using testing::kLap;
 using Experiment = urban_nav_core::testing::ParameterExperiment<Parameters>;
 
-/// Relaxes; returns the poses and the verdicts of the closures, bit by bit.
+/// Relaxes; returns the poses and the verdicts of the closures as exact text.
 std::string relaxedBytes(PoseGraph& graph) {
   graph.relax({}, {relativeSolver(), ceresSolver()});
   std::string bytes;
@@ -48,7 +48,7 @@ std::string threeLaps(const Parameters& parameters) {
   return relaxedBytes(graph);
 }
 
-/// Two laps of uncertain odometry and a single closure, `distance` (m) and `turn` (rad) from where odometry has it.
+/// Two laps of uncertain odometry and a single closure that deviates from odometry by `distance` (m) and `turn` (rad).
 std::string singleClosure(const Parameters& parameters, double distance, double turn) {
   PoseGraph graph(parameters);
   Pose T_first_last;
@@ -132,7 +132,7 @@ TEST(NodeletParameters, EachChangesWhatTheNodeletDoes) {
                  {"queue_size", "NodeletParameters.LimitTheInputsThatWait", parameters},
                  {"robot", "LivePoseGraphTest.TheIdOfASessionHasRobotAndRecording"},
                  {"recording", "LivePoseGraphTest.TheIdOfASessionHasRobotAndRecording"},
-                 {"store", "Store.HasWhatWasTakenInASecondAgo", nodelet}}),
+                 {"store", "Store.ContainsInputsAfterOneSecond", nodelet}}),
             "");
 }
 

@@ -12,7 +12,7 @@ namespace pose_graph::bench {
 
 namespace {
 
-/// Adjoint of SE(D): with it the Jacobians of an edge without residual are -Ad(Z^-1) and the identity.
+/// Adjoint of SE(D). The Jacobians of an edge with zero residual are -Ad(Z^-1) and the identity.
 template <int D>
 TangentMatrix<D> adjoint(const Rigid<D>& T) {
   TangentMatrix<D> made = TangentMatrix<D>::Identity();

@@ -5,9 +5,9 @@
 
 namespace pose_graph::bench {
 
-/// Seconds of the processor that CHOLMOD with its default settings takes to order, analyse and factorise the
-/// Gauss-Newton matrix of a problem (pose 0 held) once, the median of `runs`: what every sparse solver is held against.
-/// Negative where it finds the matrix not positive definite.
+/// Returns the processor time (s) of CHOLMOD with default settings to order, analyse and factorise the Gauss-Newton
+/// matrix of a problem once (pose 0 held), the median of `runs`: a reference for sparse solvers. Negative if the matrix
+/// is not positive definite.
 template <int D>
 double cholmodOnce(const Problem<D>& problem, int runs);
 

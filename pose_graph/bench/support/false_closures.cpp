@@ -16,7 +16,7 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double kPlaceM = 0.3, kTurnRad = 10.0 * M_PI / 180.0;  // deviation of a false transform, each axis
+constexpr double kPlaceM = 0.3, kTurnRad = 10.0 * M_PI / 180.0;  // standard deviation of a false transform per axis
 
 template <int D>
 bool isClosure(const Edge<D>& edge) {

@@ -22,7 +22,7 @@ using urban_nav_core::testing::SimulatedGraph;
 
 namespace {
 
-/// The rows and columns of a plane out of those of space.
+/// Returns the rows and columns of the plane from an information of space.
 template <int D>
 TangentMatrix<D> ofDimension(const Matrix6d& information) {
   if constexpr (D == 3) {
@@ -44,7 +44,7 @@ AnyProblem fromSimulated(const SimulatedGraph& graph, const std::vector<Pose>& g
   problem.edges.reserve(graph.edges.size());
   for (const Pose& pose : guess) problem.poses.push_back(toRigid<D>(pose));
   for (const GraphEdge& edge : graph.edges) {
-    // From the frame of a, where the noise was drawn, to that of b.
+    // Rotates the information from the frame of a, where the noise was drawn, to that of b.
     Matrix6d turn = Matrix6d::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.T_a_b.R();
     problem.edges.push_back({static_cast<int>(edge.a), static_cast<int>(edge.b), toRigid<D>(edge.T_a_b),

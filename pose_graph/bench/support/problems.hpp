@@ -10,22 +10,22 @@
 
 namespace pose_graph::bench {
 
-/// In the plane or in space, as the file or the simulation has it. std::visit gives the one to a generic function.
+/// A problem in the plane or in space, depending on the file or simulation.
 using AnyProblem = std::variant<Problem<2>, Problem<3>>;
 
-/// `guess`: where the poses begin.
+/// `guess`: initial poses.
 AnyProblem makeProblem(const urban_nav_core::testing::SimulatedGraph& graph,
                        const std::vector<urban_nav_core::Pose>& guess);
 
-/// One of the public graphs of URBAN_NAV_DATA/graphs with what is known of its optima (its README.md).
+/// A public graph of URBAN_NAV_DATA/graphs with its known optima (see its README.md).
 struct PublicGraph {
   std::string name;
   AnyProblem problem;
   double chordal = 0.0;  ///< F_certified
   double g2o = 0.0;      ///< chi2_g2o_optimum
 };
-/// All of them or those that are named, in the order of optima.csv. Needs the program xz. UserError where
-/// URBAN_NAV_DATA does not lead to them.
+/// Returns all public graphs, or those named, in the order of optima.csv. Requires the program xz. Throws UserError if
+/// URBAN_NAV_DATA does not contain them.
 std::vector<PublicGraph> publicGraphs(const std::vector<std::string>& names);
 
 }  // namespace pose_graph::bench

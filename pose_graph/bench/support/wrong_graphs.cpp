@@ -17,7 +17,7 @@ using urban_nav_core::testing::Dice;
 
 namespace {
 
-constexpr double kSlipShare = 0.05, kSlipRad = 1.0;  // of the extent; about each axis
+constexpr double kSlipShare = 0.05, kSlipRad = 1.0;  // share of the extent; rotation about each axis
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

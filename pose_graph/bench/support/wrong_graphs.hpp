@@ -11,47 +11,47 @@
 
 namespace pose_graph::bench {
 
-/// Open: drawn as false and yet near the right poses, though not to its information. Keeping and rejecting it are both
+/// Open: drawn as false but near the right poses, though not to its information. Both keeping and rejecting it are
 /// right.
 enum class EdgeTruth { True, False, Open };
 
-/// A graph with what is wrong about it.
+/// A graph with known errors.
 template <int D>
 struct WrongGraph {
   Problem<D> problem;
-  std::vector<Rigid<D>> right;   ///< poses
+  std::vector<Rigid<D>> right;   ///< right poses
   std::vector<EdgeTruth> truth;  ///< by edge
 };
 
-/// One kind of wrong graph: false closures among true ones, odometry and false closures alone, a step of odometry that
-/// slipped, information of the wrong scale, two sessions that few closures join.
+/// One kind of erroneous graph: false closures among true ones, odometry with false closures only, a slipped step of
+/// odometry, information of the wrong scale, two sessions with few closures.
 template <int D>
 struct WrongKind {
   std::string name;
-  bool is_drawn = true;  ///< otherwise one graph is all there is of it
+  bool is_drawn = true;  ///< false: there is only one graph of this kind
   std::function<WrongGraph<D>(urban_nav_core::testing::Dice&)> draw;
 };
 
-/// All kinds of one graph, of which `optimum` is the least-squares solution. Both must outlive the result.
+/// Returns all kinds for one graph. `optimum`: its least-squares solution. Both arguments must outlive the result.
 template <int D>
 std::vector<WrongKind<D>> wrongKinds(const Problem<D>& clean, const std::vector<Rigid<D>>& optimum);
 
-/// Metres: how far `poses` lie from the right ones, rms after the best rigid motion; of parts that no true edge joins
-/// the worst.
+/// Returns the rms distance of `poses` from the right ones after the best rigid motion, m; of parts that no true edge
+/// joins, the largest.
 template <int D>
 double distanceFromRight(const WrongGraph<D>& wrong, const std::vector<Rigid<D>>& poses);
 
-/// Joins pose i with pose i + 1.
+/// Returns whether an edge joins pose i with pose i + 1.
 template <int D>
 bool isStep(const Edge<D>& edge) {
   return edge.to == edge.from + 1;
 }
 
-/// Metres: the longest side of the box about all poses.
+/// Returns the longest side of the bounding box of all poses, m.
 template <int D>
 double longestSide(const std::vector<Rigid<D>>& poses);
 
-/// How many warnings `relax` gives with this result.
+/// Returns the number of warnings that `relax` gives for this result.
 template <int D>
 std::size_t countWarnings(const Problem<D>& problem, const RobustSolution<D>& robust);
 

@@ -7,11 +7,11 @@
 
 namespace pose_graph {
 
-/// An error that edges have in common, such as that of a constant with which all of them were measured.
+/// An error common to several edges, such as that of a calibration constant with which all of them were measured.
 template <int D>
 struct CommonError {
-  /// Displacement of each edge's measurement for one standard deviation, in the axes of its pose `from`. Edges beyond
-  /// the end have none.
+  /// Displacement of each edge's measurement per standard deviation, in the axes of its pose `from` (m, rad). Edges
+  /// past the end of the vector are not affected.
   std::vector<Tangent<D>> of_edge;
 };
 

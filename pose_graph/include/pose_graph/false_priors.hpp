@@ -8,18 +8,18 @@
 
 namespace pose_graph {
 
-/// Priors and sightings of landmarks that contradict odometry and each other.
+/// Priors and landmark observations that contradict odometry and each other.
 struct FalsePriors {
   std::vector<int> rejected;  ///< indices in FileProblem::problem.edges, ascending
-  std::size_t undecided =
-      0;  ///< that contradict as well, where more than half of those that could tell do: all are used
+  /// Number of contradicting ones that are kept, because more than half of those that could be tested contradict.
+  std::size_t undecided = 0;
 };
 
-/// Relaxes odometry with all of them under Cauchy's kernel, its width falling from what all of them fit to one
-/// deviation (graduated non-convexity), and finds those whose chi-square over degrees of freedom ends 100 times beyond
-/// that of the middle one, or beyond 1 where that is less. Closures take no part: which of them are true is decided
-/// with the priors that are left. Of the priors, and of the sightings of one landmark, fewer than half are rejected:
-/// where more contradict, nothing tells which are right. The first sighting of a landmark, which defines it, stays.
+/// Relaxes odometry, priors and landmark observations under Cauchy's kernel, whose width decreases until it is one
+/// deviation (graduated non-convexity). Rejects those whose chi-square over degrees of freedom ends above 100 times the
+/// median, or above 1 if that is less. Closures are not used: they are selected afterwards with the remaining priors.
+/// Of the priors, and of the observations of one landmark, fewer than half are rejected; if more contradict, all are
+/// kept. The first observation of a landmark, which defines it, is always kept.
 template <int D>
 FalsePriors findFalsePriors(const FileProblem<D>& file);
 

@@ -9,13 +9,13 @@ namespace pose_graph {
 
 using urban_nav_core::PositionFix;
 
-/// What became of the fixes of a graph.
+/// Statistics of the position fixes of a graph.
 struct FixUse {
   std::size_t used = 0;
-  std::size_t rejected = 0;   ///< contradict odometry, closures and most of the others: reflections
-  std::size_t unplaced = 0;   ///< at times without a pose, or not finite
-  double sigma_factor = 1.0;  ///< by which the stated standard deviations were multiplied, at least 1
-  double moved = 0.0;         ///< m, the most that a pose was moved
+  std::size_t rejected = 0;   ///< outliers with respect to odometry, closures and most other fixes: multipath
+  std::size_t unplaced = 0;   ///< without a pose at that time, or not finite
+  double sigma_factor = 1.0;  ///< factor applied to the stated standard deviations, at least 1
+  double moved = 0.0;         ///< largest displacement of a pose, m
 };
 
 }  // namespace pose_graph

@@ -10,17 +10,17 @@ namespace pose_graph {
 
 using urban_nav_core::GroundNormal;
 
-/// Estimates the upward direction from the ground along a trajectory, seen from a pose of the trajectory's world: the
-/// robust mean of the normals (Tukey's weights), for robots without an accelerometer. Normals whose stamp is that of no
-/// pose are ignored. Level::gravity is 0. Level::trouble is TooShort with less than five normals.
+/// Estimates the upward direction, in the axes of a pose given in the trajectory's world frame, as the robust mean of
+/// ground normals along a trajectory (Tukey's weights), for robots without an accelerometer. Normals whose stamp
+/// matches no pose are ignored. Level::gravity is 0. Level::trouble is TooShort if there are less than five normals.
 ///
-/// WARNING: ground is level on average only. The covariance allows for slopes of 1 deg that persist over 50 m; a
-/// session that only goes downhill is levelled as its hill. The trajectory's rotations are taken as exact: see
-/// withRotations. Derivation: docs/derivations/gravity_alignment.md.
+/// WARNING: the ground is level only on average. The covariance allows for slopes of 1 deg that persist over 50 m; a
+/// session that only goes downhill is levelled to its slope. The rotations of the trajectory are treated as exact, see
+/// withRotations(). Derivation: docs/derivations/gravity_alignment.md.
 Level estimateLevel(const urban_nav_core::Trajectory& trajectory, const std::vector<GroundNormal>& normals,
                     const urban_nav_core::Pose& T_world_first);
 
-/// Returns whether a direction is known from the ground, not from an accelerometer.
+/// Returns whether the direction was estimated from ground normals, not from an accelerometer.
 inline bool isFromGround(const Level& level) { return level.known() && level.gravity == 0.0; }
 
 }  // namespace pose_graph

@@ -8,11 +8,10 @@
 
 namespace pose_graph {
 
-/// Returns the normals of the ground that a store has of a session, in order of time; views without a plane are left
-/// out.
+/// Returns the ground normals of a session in a store, in order of time; views without a plane are left out.
 std::vector<GroundNormal> readGround(urban_nav_store::Store& store, const SessionId& session);
 
-/// Writes normals of the ground as views of a session.
+/// Writes ground normals as views of a session.
 void writeGround(urban_nav_store::Store& store, const SessionId& session, const std::vector<GroundNormal>& normals);
 
 }  // namespace pose_graph

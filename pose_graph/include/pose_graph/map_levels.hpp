@@ -8,11 +8,11 @@
 
 namespace pose_graph {
 
-/// The first track in whose map this one lies as a whole: itself where it joined none before it.
+/// Returns the first track whose map contains all of `track`; `track` itself if it was not joined to an earlier one.
 std::size_t findMap(const std::vector<Track>& tracks, std::size_t track);
 
-/// What turns a map so that it is level: T_level_map. The map's first pose comes to the origin, its heading to zero.
-/// The identity where it is not known which way is up.
+/// Returns T_level_map, which levels a map: its first pose moves to the origin with heading zero. Identity if the
+/// upward direction is unknown.
 Pose levelling(const Level& level, const Pose& T_map_first);
 
 }  // namespace pose_graph

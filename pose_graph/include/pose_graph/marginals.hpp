@@ -10,52 +10,52 @@
 
 namespace pose_graph {
 
-/// What the edges tell of a relative pose.
+/// Observability of a relative pose.
 enum class Knowledge {
-  Full,     ///< `covariance`
-  Partial,  ///< no edge says anything along some directions: `information`, singular
-  None,     ///< the two are in parts that no edge with weight and information connects
+  Full,     ///< `covariance` is valid
+  Partial,  ///< unobservable along some directions: `information` is valid, and singular
+  None,     ///< the poses are in components that no edge with weight and information connects
 };
 const char* toString(Knowledge knowledge);
 
-/// Of T_a_b, as everything that leaves a stage: (rho, phi) of [Exp(phi) R, t + rho], in the axes of a.
+/// Marginal of T_a_b in the convention of all stage outputs: (rho, phi) of [Exp(phi) R, t + rho], in the axes of a.
 template <int D>
 struct Marginal {
   Knowledge knowledge = Knowledge::None;
-  TangentMatrix<D> covariance = TangentMatrix<D>::Zero();   ///< where Full
-  TangentMatrix<D> information = TangentMatrix<D>::Zero();  ///< where Partial: zero along what is free
+  TangentMatrix<D> covariance = TangentMatrix<D>::Zero();   ///< if Full
+  TangentMatrix<D> information = TangentMatrix<D>::Zero();  ///< if Partial: zero along free directions
 };
 
-/// A covariance to be shown or written where there must be one: 1e6 m2 and 10 rad2 along directions that are free
-/// (covarianceForDisplay of the core; `length`: the m that weigh as much as one rad).
+/// Returns a covariance for output where one is mandatory: 1e6 m2 and 10 rad2 along free directions
+/// (covarianceForDisplay() of urban_nav_core). `length`: m that correspond to one rad.
 urban_nav_core::Matrix6d displayed(const Marginal<3>& marginal, double length);
 
 /// Marginal covariances of relaxed poses, (J^T W J)^-1 of the geodesic residuals.
 ///
-/// They are as true as the edges' information is: errors independent from edge to edge, of that size, no false closure
-/// among them, and poses at the optimum. Whatever the objective was that led there, the error is the geodesic one. A
-/// rejected edge has the weight zero: it then says nothing and connects nothing.
+/// They are valid if the information of the edges is: errors independent between edges, no false closures, poses at the
+/// optimum. The error is the geodesic one for every objective. A rejected edge has weight zero and neither constrains
+/// nor connects poses.
 ///
-/// Common errors are consider states (Schmidt 1966): one standard deviation of them displaces the poses by
-/// x = (J^T W J)^-1 J^T W s, one back-substitution each, and every covariance contains x x^T. Derivation:
+/// Common errors are consider states (Schmidt 1966). One standard deviation of a common error displaces the poses by x
+/// = (J^T W J)^-1 J^T W s, which takes one back-substitution, and each covariance includes x x^T. Derivation:
 /// docs/derivations/consider_states.md.
 ///
-/// One factorisation and one selected inverse, about three times what an iteration of the solver takes, for all poses
-/// and for all pairs that an edge joins; another pair costs a walk from both up the elimination tree. Keeps buffers:
-/// not thread-safe.
+/// Cost: one factorisation and one selected inverse, about three solver iterations, for all poses and all pairs joined
+/// by an edge. Any other pair takes a traversal of the elimination tree from both poses. Not thread-safe: keeps
+/// buffers.
 template <int D>
 class Marginals {
  public:
-  /// `poses` are T_map_i, finite; `weights` as in solve(). Where numbers overflow, nothing is known of any pair.
+  /// `poses`: T_map_i, finite. `weights` as in solve(). If numbers overflow, every pair has Knowledge::None.
   Marginals(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights = {},
             const std::vector<CommonError<D>>& common = {});
   ~Marginals();
   Marginals(Marginals&&) noexcept;
   Marginals& operator=(Marginals&&) noexcept;
 
-  /// The first pose of the part that a pose belongs to, or the first fixed one where the part has any.
+  /// Returns the first pose of the component of `pose`, or its first fixed pose if it has any.
   int first(int pose) const;
-  /// Of T_first_pose; that of the first itself is zero.
+  /// Returns the marginal of T_first_pose; zero for the first pose itself.
   Marginal<D> ofPose(int pose) const { return between(first(pose), pose); }
   Marginal<D> between(int a, int b) const;
 

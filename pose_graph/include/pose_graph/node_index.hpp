@@ -8,23 +8,24 @@
 
 namespace pose_graph {
 
-/// A pose by the number of its track and its own in there.
+/// Index of a track and index of a pose in it.
 using NodeIndex = std::pair<std::size_t, std::size_t>;
 
-/// One step of a track's odometry, as relaxation needs it.
+/// One odometry step of a track, as used in relaxation.
 struct ChainStep {
-  bool joins = true;  ///< false: the chain is broken here; the rest is nothing then
-  Edge<3> edge;       ///< but for its numbers
-  TangentMatrix<3> covariance = TangentMatrix<3>::Zero();  ///< inverse of its information
-  bool slipped = false;    ///< closures contradict it: `edge` is the motion they give, with next to no information
-  bool invertible = true;  ///< whether there is one: else the step is no link of a chain
-  TangentMatrix<3> own_noise = TangentMatrix<3>::Zero();  ///< of the pose it ends at (PoseGraph::ownNoise)
+  bool joins = true;  ///< false: the chain is broken here and all other members are unused
+  Edge<3> edge;       ///< pose numbers are not set
+  TangentMatrix<3> covariance = TangentMatrix<3>::Zero();  ///< inverse of the edge's information
+  bool slipped = false;  ///< contradicted by closures: `edge` is the motion that they imply, with almost no information
+  bool invertible = true;  ///< false: the information is singular, so the step cannot be part of a condensed chain
+  /// Of the pose at which the step ends (PoseGraph::ownNoise()).
+  TangentMatrix<3> own_noise = TangentMatrix<3>::Zero();
 };
 
-/// A closure between two places.
+/// A closure between two nodes.
 struct ClosureEdge {
   NodeIndex a, b;
-  Edge<3> edge;  ///< but for its numbers
+  Edge<3> edge;  ///< pose numbers are not set
 };
 
 }  // namespace pose_graph

@@ -7,21 +7,21 @@
 
 namespace pose_graph {
 
-/// What a user may want to change; one member per row of table().
+/// User parameters of the stage; one member per row of table().
 struct Parameters {
   std::string solver;            // gauss_newton; with references: relative_pcg, ceres
   bool robust;                   // reject false closures
-  bool gravity;                  // takes the drift of roll and pitch out of odometry
-  bool gps;                      // fixes of satellite navigation are used
+  bool gravity;                  // corrects the drift of roll and pitch of odometry
+  bool gps;                      // uses position fixes of satellite navigation
   double gps_correlation;        // s
-  int iterations;                // of one minimisation, at most
+  int iterations;                // limit for one minimisation
   double confirmation_distance;  // m
   double confirmation_angle;     // deg
 
   Parameters();
 };
 
-/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+/// Returns the table with default, range, unit and description of each parameter.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace pose_graph

@@ -9,18 +9,18 @@
 
 namespace pose_graph {
 
-/// A minimiser for comparison, which relaxes the accepted closures in place of solve(). Each lies in a library of its
-/// own (reference/), and whoever offers it hands it to run() or PoseGraph::relax().
+/// A minimiser for comparison that relaxes the accepted closures instead of solve(). Each is in a separate library
+/// (reference/); a program passes those it offers to run() or PoseGraph::relax().
 struct ReferenceSolver {
-  std::string name;  ///< the value of pose_graph.solver that selects it
-  /// As solve(). `weights`: a factor for each edge, 0 for closures that are not accepted.
+  std::string name;  ///< value of pose_graph.solver that selects it
+  /// As solve(). `weights`: a factor per edge, 0 for closures that are not accepted.
   std::function<Solution<3>(const Problem<3>& problem, const SolveOptions& options, const std::vector<double>& weights)>
       solve;
 };
 using ReferenceSolvers = std::vector<ReferenceSolver>;
 
-/// Returns the solver that a value of pose_graph.solver selects; null: the stage's own, gauss_newton. Throws UserError,
-/// with the allowed values, if `references` has no such name either.
+/// Returns the solver selected by a value of pose_graph.solver; null for gauss_newton. Throws UserError with the
+/// allowed values if `references` does not contain `name`.
 const ReferenceSolver* findReference(const std::string& name, const ReferenceSolvers& references);
 
 }  // namespace pose_graph

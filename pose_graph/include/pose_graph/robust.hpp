@@ -8,56 +8,57 @@
 
 namespace pose_graph {
 
-/// What may happen to an edge.
+/// Role of an edge in the selection.
 enum class EdgeRole {
-  Trusted,    ///< odometry: never weighted down, and yields where closures agree on something else
-  Asserted,   ///< said by a person: never weighted down
-  Candidate,  ///< a closure: accepted or rejected
+  Trusted,    ///< odometry: never weighted down; rejected only as a slip
+  Asserted,   ///< stated by a user: never weighted down
+  Candidate,  ///< closure: accepted or rejected
 };
 
-/// Roles where it is not stated which edges are odometry: the first edge between two consecutive numbers, either way,
-/// is Trusted, all others are Candidate. A graph without any edge between consecutive numbers trusts those that reach a
-/// pose for the first time, in the order of its edges.
+/// Returns roles for a graph that does not mark its odometry. The first edge between two consecutive numbers, in either
+/// direction, is Trusted, all others are Candidate. If no edge joins consecutive numbers, the edges that first reach a
+/// pose, in their order, are Trusted.
 template <int D>
 std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem);
 
 enum class Reason {
   Role,         ///< Trusted or Asserted
-  Fits,         ///< agrees with all that is accepted
-  Disagrees,    ///< with what is accepted, by more than chance and noise explain
-  Unconfirmed,  ///< could be, but so much could be there that fitting proves nothing, and no other closure supports it
-  NoWitness,    ///< would join two parts of the graph that nothing else joins
-  Slipped,      ///< a step of odometry that all else contradicts
-  Undecided,    ///< agrees with others, but a set without it is nearly as likely, or odometry alone
+  Fits,         ///< consistent with all accepted edges
+  Disagrees,    ///< inconsistent with the accepted edges beyond noise
+  Unconfirmed,  ///< consistent, but so weakly constrained that it proves nothing, and no other closure supports it
+  NoWitness,    ///< would join two otherwise unconnected parts of the graph
+  Slipped,      ///< a step of odometry contradicted by all other edges
+  Undecided,    ///< consistent with other closures, but a set without it, or odometry only, is nearly as likely
 };
-/// A sentence.
+/// Returns a sentence.
 const char* toString(Reason reason);
 
-/// What robust selection makes of one edge.
+/// Result of robust selection for one edge.
 struct EdgeAssessment {
-  double weight = 1.0;  ///< 0 where rejected
+  double weight = 1.0;  ///< 0 if rejected
   urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Accepted;
   Reason reason = Reason::Role;
-  double chi2 =
-      0.0;      ///< of a candidate against all other accepted edges together; of others, what remains of their own
-  int dof = 0;  ///< directions that the edge measures
-  std::vector<int> contradicted_by;  ///< of an asserted edge: edges that cannot be true beside it, the worst first
+  /// Candidates: with respect to all other accepted edges together. Other edges: of their own residual.
+  double chi2 = 0.0;
+  int dof = 0;                       ///< number of directions that the edge measures
+  std::vector<int> contradicted_by;  ///< asserted edges: edges inconsistent with this one, the worst first
 };
 
-/// How a selection among several sets of edges ended.
+/// Result of the selection among sets of edges.
 struct SelectionReport {
-  bool contested = false;  ///< whether more sets than one and odometry alone were weighed
-  bool unweighed = false;  ///< the graph is too large for that, and closures were rejected or variances are far off
-  bool undecided = false;  ///< no set of closures is likelier than chance: odometry alone
-  /// Another set, with other closures, is likelier than a thousandth of the chosen one: what is not in both is left
-  /// out.
+  bool contested = false;  ///< sets other than odometry only were compared
+  /// The graph is too large to compare sets, and closures were rejected or variances are far off.
+  bool unweighed = false;
+  bool undecided = false;  ///< no set of closures is more likely than chance: odometry only
+  /// Another set with different closures has more than a thousandth of the chosen set's likelihood. Closures that are
+  /// not in both are not used.
   bool has_rival = false;
-  double log_evidence = 0.0;         ///< of the set that was chosen, over odometry alone
-  std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, where the graph is of a file
-  /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
+  double log_evidence = 0.0;         ///< of the chosen set, relative to odometry only
+  std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, for a graph from a file
+  /// Factors of the stated variances, estimated with the chosen set; 1 in large uncontested graphs.
   double odometry_factor = 1.0, closure_factor = 1.0;
-  /// Whether the poses are those of the information put right: the factors differ from each other by more than 9, and
-  /// are likelier than the variances stated by a factor of 1000. Not where the set has a rival.
+  /// Whether the poses were relaxed with these factors: they differ from each other by more than 9 and are more likely
+  /// than the stated variances by a factor of 1000. False if the set has a rival.
   bool rescaled = false;
 };
 
@@ -65,45 +66,50 @@ template <int D>
 struct RobustSolution {
   Solution<D> solution;
   std::vector<EdgeAssessment> edges;
-  /// By how much the squares of the residuals differ from what the edges' information promises: below 1 it is too
-  /// modest. Above 1 it boasts, and many loops of near closures say so; where there are none, it is taken at its word.
+  /// Ratio of observed to stated variance of the residuals. Below 1: information is too low. Above 1: information is
+  /// overconfident, as estimated from many short loops; never above 1 without such loops.
   double variance_factor = 1.0;
   SelectionReport selection;  ///< of relaxSelected()
 };
 
-/// Relaxes a graph some of whose closures are false, without any setting. `roles`: one for each edge. Derivation:
+/// Relaxes a graph that contains false closures; there are no parameters. `roles`: one per edge. Derivation:
 /// docs/derivations/pose_graph.md.
 ///
-/// What the information is worth is read off loops of two near closures first. Where next to nothing speaks against
-/// odometry all closures are taken at once, and that is the answer if they fit. Else they grow into the graph by
-/// evidence: against what is accepted so far each one is tested by its innovation, with the covariance that the
-/// accepted graph gives; evidence is the logarithm of how much likelier its residual is from a true closure than from
-/// one anywhere in the map. The better half of those that pass enters, the graph is relaxed, and everything is judged
-/// anew: what entered wrongly leaves again by Baarda's test of one observation, or of one common bias of a group (A
-/// testing procedure for use in geodetic networks, 1968). At the end all are judged once more where the graph is
-/// settled, so that a group which bends a long way until it fits shows too. Where information is too modest, a closure
-/// that fits by what it states and is far likelier true than anywhere stays. Covariances are those of random
-/// disturbances of all edges carried through the factor, some dozens of right-hand sides; so a thousand closures cost
-/// what one costs. Where odometry promises more than it keeps and closures are left out because of that, a second
-/// minimisation with truncated squares starts from there (Yang, Antonante, Tzoumas, Carlone, Graduated non-convexity,
-/// RA-L 2020) and is taken if its truncated cost is lower and more closures fit.
+/// First, a common scale of the information matrices is estimated from loops of two near closures. If few candidates
+/// contradict odometry, all closures are accepted at once, and the result is final if they are consistent. Otherwise
+/// closures are admitted in rounds. Each candidate is tested by its innovation, with the covariance predicted from the
+/// accepted graph. Its evidence is the log likelihood ratio of the residual for a true closure and for a uniformly
+/// distributed one in the map. The better half of the candidates that pass is admitted, the graph is relaxed, and all
+/// closures are tested again; wrong ones are removed by Baarda's test of one observation, or of a common bias of a
+/// group (A testing procedure for use in geodetic networks, 1968). All closures are tested once more at the converged
+/// solution, which reveals groups that only fit because they bend a long path. If the information is too low, a closure
+/// that fits with its stated covariance and is far more likely true than random is kept.
 ///
-/// Parts that no trusted edge joins are joined where at least two closures agree with each other. The result does not
-/// depend on the number of threads. The problem must be sound (check.hpp).
+/// Covariances are computed from random disturbances of all edges propagated through the factor, some dozens of
+/// right-hand sides; the cost is independent of the number of closures. If odometry is overconfident and closures are
+/// rejected because of that, a second minimisation with truncated squares starts from the result (Yang, Antonante,
+/// Tzoumas, Carlone, Graduated non-convexity, RA-L 2020) and is used if its truncated cost is lower and more closures
+/// fit.
+///
+/// Parts that are not joined by trusted edges are joined if at least two closures between them are consistent.
+/// The result does not depend on the number of threads.
+/// Requires: a well-formed problem (problem.hpp).
 template <int D>
 RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                               const SolveOptions& options);
 
-/// relaxRobust() and, where that rejects many closures, finds the information far off or sees several sessions, its
-/// alternatives: the same with the information of odometry or of closures scaled, with steps of odometry that slipped
-/// taken out, and with sessions joined by closures that agree with each other, two of different rows at least and more
-/// than chance explains, or by all closures where none disagrees, which is a rival if they are only two. The set with
-/// the largest evidence wins (robust/decision/score.hpp), and odometry alone competes with all of them: where no set is
-/// likelier by a factor of 1000, no closure is accepted. Of a set that another one comes near by that factor, what both
-/// have is accepted. Edges that are the same to the last bit count once. Where the variances of odometry and closures
-/// are off by more than a factor of 9 against each other, by evidence, the poses are those of the information put
-/// right. Of graphs beyond 200 000 poses the selection of relaxRobust() alone is weighed against odometry, by the core
-/// that their chains leave, or not at all where it is as large (SelectionReport::unweighed).
+/// Runs relaxRobust(). If it rejects many closures, finds the information far off or joins several sessions,
+/// alternatives are computed: the information of odometry or closures scaled; slipped steps of odometry removed;
+/// sessions joined by consistent closures (at least two from different rows and more than chance explains) or by all
+/// closures if none contradicts, which counts as a rival if there are only two. The set with the largest evidence is
+/// chosen (robust/decision/score.hpp). Odometry only is one of the alternatives: if no set is more likely by a factor
+/// of 1000, no closure is accepted. If another set is within that factor of the best one, the closures common to both
+/// are accepted.
+///
+/// Bit-identical edges count once. If the variances of odometry and closures are off by more than a factor of 9 against
+/// each other, by evidence, the poses are relaxed with corrected information. For more than 200 000 poses only the
+/// result of relaxRobust() is compared with odometry, using the reduced graph of the chains, or no comparison is made
+/// if that is too large (SelectionReport::unweighed).
 template <int D>
 RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const SolveOptions& options);

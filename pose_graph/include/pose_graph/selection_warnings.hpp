@@ -10,14 +10,14 @@
 
 namespace pose_graph {
 
-/// Warnings about a selection among closures, `rejected` of `closures`, a sentence each: nothing could be decided,
-/// another set is nearly as likely, or the graph was too large to weigh any.
+/// Returns warnings about a selection among `closures` closures, of which `rejected` were rejected, one sentence each:
+/// no decision, a rival set, or a graph too large to compare sets.
 std::vector<std::string> selectionWarnings(const SelectionReport& selection, std::size_t rejected,
                                            std::size_t closures);
 
-/// Warnings about a selection in a file, a sentence each: nothing could be decided, more than half of a kind of edge is
-/// rejected, parts that odometry does not join stay apart, odometry slipped, errors are more than 3 times the
-/// deviations that the information states, or odometry's and the closures' differ by more than that.
+/// Returns warnings about a selection in a file, one sentence each: no decision, more than half of a kind of edge
+/// rejected, parts not joined, odometry slips, errors of more than 3 times the stated deviations, or odometry and
+/// closures differing by more than that.
 template <int D>
 std::vector<std::string> selectionWarnings(const FileProblem<D>& file, const RobustSolution<D>& robust,
                                            const DeviationScales& scales);

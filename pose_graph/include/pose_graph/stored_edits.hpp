@@ -9,9 +9,8 @@
 
 namespace pose_graph {
 
-/// Returns the edits of a store that are in force, for a graph that calls the sessions `ids` by these names; those that
-/// concern other sessions are left out. `names`: one per id. Throws DataError if the store is damaged or an edit is of
-/// an unknown kind.
+/// Reads the edits of a store that are in force for the sessions `ids`, which the graph calls `names` (one per id).
+/// Edits of other sessions are left out. Throws DataError if the store is damaged or an edit has an unknown kind.
 std::vector<Edit> readEdits(urban_nav_store::Store& store, const std::vector<SessionId>& ids,
                             const std::vector<std::string>& names);
 

@@ -10,36 +10,36 @@
 
 namespace pose_graph {
 
-/// What a store holds of a pose graph: the measurements as edits have it, from which relax() makes the same map again
-/// (but for origins of edits).
+/// The measurements of a pose graph in a store, with edits applied. Relaxing them reproduces the same map, except for
+/// origins set by edits.
 struct StoredGraph {
   struct Chain {
     urban_nav_store::Session session;
     std::vector<urban_nav_core::RelativePose>
-        steps;                          ///< in order of time; one that does not begin where the last ended: a gap
-    std::vector<SpecificForce> forces;  ///< at its poses
-    std::vector<GroundNormal> ground;   ///< at its poses
+        steps;  ///< in order of time; a step that does not begin at the end of the previous one marks a gap
+    std::vector<SpecificForce> forces;  ///< at poses of the session
+    std::vector<GroundNormal> ground;   ///< at poses of the session
     std::vector<PositionFix> fixes;
   };
   std::vector<Chain> chains;      ///< in the order in which the sessions began
-  std::vector<Closure> closures;  ///< in the order of the later of their two poses; as offered, not judged
-  std::int64_t revision = 0;      ///< the highest that a pose in it is of
+  std::vector<Closure> closures;  ///< in the order of their later pose; without verdicts
+  std::int64_t revision = 0;      ///< highest revision of a stored pose
 };
 
-/// Reads it. Closures without any information are evidence alone and are left out; so are those of sessions that are
-/// not there. DataError where the store is damaged.
+/// Reads the graph of a store. Closures without information, stored as evidence only, and closures of missing sessions
+/// are left out. Throws DataError if the store is damaged.
 StoredGraph readGraph(urban_nav_store::Store& store);
 
-/// How a store keeps what a stage says of a closure: lines for a person, of which passedOdometryGate() finds its own
-/// again.
+/// Formats the evidence that a stage reports for a closure as text lines for the store; passedOdometryGate() parses
+/// them.
 std::string toEvidence(const urban_nav_core::MetricClosure& closure);
 std::string toEvidence(bool odometry_gate);
 bool passedOdometryGate(const std::string& evidence);
 
-/// The rows of a session that say with which parameters it is relaxed.
+/// Returns the parameters used for relaxation as rows of a session in the store.
 std::vector<urban_nav_store::StoredParameter> listParameters(const Parameters& parameters);
 
-/// The edge of the store that a closure is, but for its verdict.
+/// Converts a closure to an edge of the store, without its verdict.
 urban_nav_store::Edge toEdge(const Closure& closure);
 
 }  // namespace pose_graph

@@ -6,15 +6,15 @@
 
 namespace pose_graph {
 
-/// solve() by Ceres (Agarwal, Mierle and others; SPARSE_NORMAL_CHOLESKY on SuiteSparse, one thread, other settings at
-/// their defaults): an independent minimiser of the same residuals, with the derivatives of this package. Slower; every
-/// objective and start. Poses are increments (rotation vector, translation) to the start, so that none may turn by a
-/// full round during the minimisation.
+/// solve() by Ceres (Agarwal, Mierle and others; SPARSE_NORMAL_CHOLESKY on SuiteSparse, one thread, other options at
+/// their defaults): an independent minimiser of the same residuals, with the Jacobians of this package. Slower.
+/// Supports all objectives and starts. Poses are parametrised as increments (rotation vector, translation) to the
+/// initial guess, hence no pose may rotate by a full turn during minimisation.
 template <int D>
 Solution<D> solveByCeres(const Problem<D>& problem, const SolveOptions& options,
                          const std::vector<double>& weights = {});
 
-/// solveByCeres() as pose_graph.solver = ceres selects it.
+/// Returns solveByCeres() as selected by pose_graph.solver = ceres.
 ReferenceSolver ceresSolver();
 
 extern template Solution<2> solveByCeres(const Problem<2>&, const SolveOptions&, const std::vector<double>&);

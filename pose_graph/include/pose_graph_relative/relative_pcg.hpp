@@ -8,41 +8,42 @@
 
 namespace pose_graph {
 
-/// The relaxation of Newman et al. 2009, section 5 (eq. 8-19): the state is the chain of transforms v_r from pose r - 1
-/// to pose r, and conjugate gradients solve for its increments without H ever being stored. It minimises the geodesic
-/// cost of problem.hpp and is the reference that the default solver is held against; it is not the fast way.
+/// The relaxation of Newman et al. 2009, section 5 (eq. 8-19). The state is the chain of transforms v_r from pose r - 1
+/// to pose r; conjugate gradients solve for its increments without forming H. Minimises the geodesic cost of
+/// problem.hpp. Serves as a reference for tests of the default solver, which is faster.
 ///
-/// What the print leaves open, and what is done here:
-/// - (9) has no weights; here every edge has its information, which may be singular but for the chain's.
-/// - The blocks of (16) are those with m < k <= q; a closure may also run backwards (m > q).
-/// - (19) is solved for increments, so that its lower right-hand side is vo - v, not vo.
-/// - Jacobians are those of the residuals where they are, not of small ones.
+/// Details not specified by the paper:
+/// - (9) is unweighted; here each edge has its information, which may be singular except in the chain.
+/// - The blocks of (16) are those with m < k <= q; closures with m > q are supported too.
+/// - (19) is solved for increments, so its lower right-hand side is vo - v, not vo.
+/// - Jacobians are exact at any residual; the paper assumes small ones.
 struct RelativePcgOptions {
-  int iterations = 100;     ///< steps at most, refused ones included
-  double tolerance = 1e-9;  ///< ends where a step promises less than this share of the cost
-  int products = 2000;      ///< with H in one step, at most
-  /// Closures whose coupling the preconditioner knows exactly (a dense matrix of this many blocks is factorised at each
-  /// step). 300 in space: 0.4 s a step and 26 MB. With all closures among them a step takes one or two products.
+  int iterations = 100;     ///< limit, including rejected steps
+  double tolerance = 1e-9;  ///< converged if the predicted decrease is below this share of the cost
+  int products = 2000;      ///< limit of products with H per step
+  /// Number of closures whose coupling the preconditioner includes exactly; a dense matrix of as many blocks is
+  /// factorised in each step. 300 in space: 0.4 s per step and 26 MB. If all closures are included, a step takes one or
+  /// two products.
   int coupled_closures = 300;
-  /// Called after each accepted step; return false to end there. May be empty.
+  /// Called after each accepted step; return false to stop. May be empty.
   std::function<bool(int iteration, double cost)> progress;
 };
 
-/// As the default solver's; the cost never rises from one of its iterations to the next. cost_start is cost_before.
+/// As the default solver's solution; the cost decreases monotonically. cost_start equals cost_before.
 template <int D>
 struct RelativeSolution : Solution<D> {
-  int products = 0;  ///< with H, over all steps: the iterations of conjugate gradients
+  int products = 0;  ///< products with H over all steps: conjugate-gradient iterations
 };
 
-/// Relaxes from problem.poses; pose 0 stays. Throws UserError, naming the edge or the pose, for: a number that is not
-/// finite, an edge to a pose that does not exist or to itself, information that is indefinite, and where the edges
-/// between two consecutive poses together are missing or have no information in some direction. The same input gives
-/// the same bits.
+/// Relaxes from problem.poses; pose 0 is held. The same input gives bit-identical results.
+/// Throws UserError, naming the edge or the pose, if a number is not finite, an edge refers to a missing pose or joins
+/// a pose to itself, an information is indefinite, or the edges between two consecutive poses are missing or leave a
+/// direction without information.
 template <int D>
 RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOptions& options = {});
 
-/// relaxRelative() as pose_graph.solver = relative_pcg selects it: from problem.poses, whatever SolveOptions::start;
-/// geodesic only.
+/// Returns relaxRelative() as selected by pose_graph.solver = relative_pcg. It starts from problem.poses, ignores
+/// SolveOptions::start and supports the geodesic objective only.
 ReferenceSolver relativeSolver();
 
 extern template RelativeSolution<2> relaxRelative(const Problem<2>&, const RelativePcgOptions&);

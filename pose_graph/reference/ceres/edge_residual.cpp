@@ -7,7 +7,7 @@ namespace pose_graph {
 
 namespace {
 
-/// sqrt(kappa) (R_E - I), column by column, and how it changes when R_E is turned from the left.
+/// Writes sqrt(kappa) (R_E - I), column by column, and its derivative with respect to a left rotation of R_E.
 template <int D>
 void putChord(const Rotation<D>& R_E, double root_kappa, Eigen::Ref<Eigen::Matrix<double, D * D, 1>> r,
               Eigen::Ref<Eigen::Matrix<double, D * D, kRotationSize<D>>, 0, Eigen::OuterStride<>> J) {
@@ -27,7 +27,7 @@ EdgeResidual<objective, D> edgeResidual(const EdgeTerm<D>& term, const TangentMa
   const Eigen::Matrix<double, D, 1> arm = term.measured(to).t - to.t, d = to.t + arm - from.t,
                                     e_t = A.transpose() * d - term.t_Z;
   EdgeResidual<objective, D> made;
-  auto& J = made.J_to;  // in the axes of A at first
+  auto& J = made.J_to;  // in the axes of A until rotated below
   J.setZero();
   if constexpr (objective == Objective::Chordal) {
     putChord<D>(R_E, std::sqrt(term.kappa), made.r.template head<D * D>(), J.template topRightCorner<D * D, kR>());

@@ -5,18 +5,18 @@
 
 namespace pose_graph {
 
-/// Rows of an edge's residual: of a chordal one all entries of a matrix and a vector.
+/// Number of residual rows of an edge; a chordal one has all entries of a matrix and a vector.
 template <Objective objective, int D>
 constexpr int kResidualSize = objective == Objective::Chordal ? D* D + D : kTangentSize<D>;
 
-/// An edge's cost as a sum of squares, and its derivatives when the poses are moved as EdgeQuadratic has it.
+/// An edge's cost as a sum of squares, and its derivatives with respect to moves of the poses as in EdgeQuadratic.
 template <Objective objective, int D>
 struct EdgeResidual {
   Eigen::Matrix<double, kResidualSize<objective, D>, 1> r;
   Eigen::Matrix<double, kResidualSize<objective, D>, kTangentSize<D>> J_from, J_to;
 };
 
-/// `root`: of the edge's information, root^T root; the chordal objective takes its weights from `term`.
+/// `root`: of the edge's information, root^T root; the chordal objective uses the weights in `term`.
 template <Objective objective, int D>
 EdgeResidual<objective, D> edgeResidual(const EdgeTerm<D>& term, const TangentMatrix<D>& root, const Rigid<D>& from,
                                         const Rigid<D>& to);

@@ -18,7 +18,7 @@ namespace pose_graph {
 
 namespace {
 
-// Where the increment x takes a pose, and how a further small turn in the map's axes follows from a change of x.
+// Returns the pose at increment x; toTurn() is the derivative of its rotation in the map's axes with respect to x.
 template <int D>
 Rigid<D> at(const Rigid<D>& base, const double* x) {
   return moved<D>(base, Eigen::Map<const Tangent<D>>(x));
@@ -58,7 +58,7 @@ class EdgeCost final : public ceres::SizedCostFunction<kResidualSize<objective, 
   Rigid<D> from_, to_;
 };
 
-// root^T root = information, which may be singular.
+// Returns the root of an information: root^T root = information, which may be singular.
 template <int D>
 TangentMatrix<D> informationRoot(const TangentMatrix<D>& information) {
   const auto eigen = urban_nav_core::symmetricEigen(information);

@@ -26,11 +26,10 @@ bool isFinite(const Rigid<D>& T) {
   return T.R.allFinite() && T.t.allFinite();
 }
 
-// The eigenvalues of a matrix that was computed or printed with six digits may come out below zero by so much of the
-// largest.
+// Round-off of the smallest eigenvalue, relative to the largest one, of a matrix computed or printed with six digits.
 constexpr double kRounding = 1e-6;
 
-// root^T root = information; empty rows where there is none.
+// Returns root^T root = information; rows without information are zero.
 template <int D>
 TangentMatrix<D> chainRoot(const Problem<D>& problem, std::size_t i) {
   const TangentMatrix<D>& information = problem.edges[i].information;
@@ -44,8 +43,8 @@ TangentMatrix<D> chainRoot(const Problem<D>& problem, std::size_t i) {
   return eigen->values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen->vectors.transpose();
 }
 
-// An edge's information about the link from its lower pose, at no error: enough to know whether the link is held in
-// every direction.
+// Returns an edge's information about the link from its lower pose, at zero error: sufficient to test whether the link
+// is constrained in all directions.
 template <int D>
 TangentMatrix<D> informationOnLink(const Edge<D>& edge) {
   const bool forwards = edge.from < edge.to;
@@ -65,8 +64,8 @@ void checkNumbers(const Problem<D>& problem) {
     const Edge<D>& edge = problem.edges[i];
     for (const int pose : {edge.from, edge.to}) {
       if (pose < 0 || pose >= count) {
-        throw UserError("", makeName(problem, i) + " names a pose that is not there",
-                        count == 0 ? "there are none" : "0..." + std::to_string(count - 1));
+        throw UserError("", makeName(problem, i) + " refers to a missing pose",
+                        count == 0 ? "a graph with poses" : "0..." + std::to_string(count - 1));
       }
     }
     if (edge.from == edge.to) throw UserError("", makeName(problem, i) + " goes from a pose to itself", "");
@@ -102,8 +101,8 @@ Chain<D> makeChain(const Problem<D>& problem) {
     throw UserError("",
                     "the chain " + std::string(none ? "is broken" : "leaves a direction free") + " between poses " +
                         std::to_string(link) + " and " + std::to_string(link + 1),
-                    "edges between consecutive poses whose information is positive definite; the other solvers do "
-                    "without");
+                    "edges between consecutive poses with positive definite information; other solvers do not "
+                    "require them");
   }
   return chain;
 }

@@ -8,8 +8,8 @@
 
 namespace pose_graph {
 
-/// The edges of a problem sorted by what they see of the chain. Edges between consecutive poses, either way and any
-/// number of them, see one link alone: the lower rows of (19). All others are closures: the rows of H.
+/// The edges of a problem, grouped by their relation to the chain. Edges between consecutive poses, in either direction
+/// and any number, depend on one link only: the lower rows of (19). All others are closures: the rows of H.
 template <int D>
 struct Chain {
   struct LinkEdge {
@@ -21,11 +21,11 @@ struct Chain {
     TangentMatrix<D> root;  ///< root^T root = information; of any rank
   };
   int links = 0;
-  std::vector<LinkEdge> link_edges;  ///< by link, then in the order of the problem; at least one for each link
+  std::vector<LinkEdge> link_edges;  ///< sorted by link, then in the order of the problem; at least one per link
   std::vector<Closure> closures;     ///< in the order of the problem
 };
 
-/// Throws UserError as relaxRelative does.
+/// Throws UserError as relaxRelative() does.
 template <int D>
 Chain<D> makeChain(const Problem<D>& problem);
 

@@ -16,7 +16,7 @@ PcgResult<D> conjugateGradients(const LinearSystem<D>& system, const Preconditio
   while (rz > goal && result.iterations < max_iterations) {
     system.apply(damping, direction, product, scratch);
     const double curvature = direction.cwiseProduct(product).sum();
-    if (!(curvature > 0.0)) break;  // rounding: the residual is all noise
+    if (!(curvature > 0.0)) break;  // round-off: the residual is only noise
     const double length = rz / curvature;
     result.step += length * direction;
     residual -= length * product;

@@ -51,7 +51,7 @@ LinearSystem<D>::LinearSystem(const Problem<D>& problem, const Chain<D>& chain, 
   blocks_.assign(static_cast<std::size_t>(links), TangentMatrix<D>::Zero());
   b_ = Increments<D>::Zero(kTangentSize<D>, links);
   for (const auto& [link, i] : chain.link_edges) {
-    // In the frame of the link's first pose, where nothing is lost to rounding.
+    // In the frame of the link's first pose, where round-off is smallest.
     const Edge<D>& edge = problem.edges[i];
     const Rigid<D> first, second = state.links[static_cast<std::size_t>(link)];
     const bool forwards = edge.from < edge.to;
@@ -104,7 +104,7 @@ template <int D>
 void LinearSystem<D>::apply(double damping, const Increments<D>& step, Increments<D>& result,
                             Increments<D>& scratch) const {
   sweep(step, scratch);
-  // The closures read x before any of them writes what it pulls with.
+  // All closures read x before it is overwritten by their forces.
   std::vector<Tangent<D>> pulls;
   pulls.reserve(rows_.size());
   for (const Row& row : rows_)

@@ -62,7 +62,8 @@ void Preconditioner<D>::factorise() {
     }
     factor_.block<kD, kD>(kD * column, kD * column) += TangentMatrix<D>::Identity();
   }
-  // The identity keeps it positive definite but for rounding in the prefix sums; then the chain alone has to do.
+  // The identity keeps it positive definite except for round-off in the prefix sums; in that case only the chain is
+  // used.
   if (!urban_nav_core::choleskyInPlace(factor_)) chosen_.clear();
 }
 

@@ -5,22 +5,21 @@
 
 namespace pose_graph {
 
-/// Approximates the inverse of (1 + damping) M + H^T W H: the chain exactly, and of the closures up to `coupled` of
-/// them, by Woodbury's identity
+/// Approximates the inverse of (1 + damping) M + H^T W H. The chain is inverted exactly, and up to `coupled` closures
+/// are included by Woodbury's identity
 ///
 ///     (N + G^T G)^-1 = N^-1 - N^-1 G^T (I + G N^-1 G^T)^-1 G N^-1
 ///
-/// in which no information is inverted, so that it may be singular. G N^-1 G^T is the covariance that odometry alone
-/// gives two closures in common: a difference of prefix sums over the part of the chain that both span. Where there are
-/// more closures, the ones about which odometry says least against their own information are coupled, and conjugate
-/// gradients have the rest to do.
+/// in which no information is inverted, so that it may be singular. G N^-1 G^T is the covariance of two closures due to
+/// odometry, a difference of prefix sums over the section of the chain that both span. If there are more closures,
+/// those whose information is largest relative to that of odometry are included; conjugate gradients handle the others.
 template <int D>
 class Preconditioner {
  public:
   /// Keeps a reference to `system`, which must outlive it.
   Preconditioner(const LinearSystem<D>& system, double damping, int coupled);
 
-  /// result = P step, P symmetric and positive definite. `scratch`: overwritten.
+  /// Computes result = P step; P is symmetric and positive definite. `scratch`: overwritten.
   void apply(const Increments<D>& step, Increments<D>& result, Increments<D>& scratch) const;
 
  private:
@@ -28,10 +27,10 @@ class Preconditioner {
   void factorise();
 
   const LinearSystem<D>& system_;
-  std::vector<TangentMatrix<D>> inverses_;  // of the chain's blocks
-  std::vector<TangentMatrix<D>> spread_;    // covariance of x_k by odometry alone
-  std::vector<std::size_t> chosen_;         // closures, into system_.rows()
-  Eigen::MatrixXd factor_;                  // of I + G N^-1 G^T, lower triangle
+  std::vector<TangentMatrix<D>> inverses_;  // inverses of the chain's blocks
+  std::vector<TangentMatrix<D>> spread_;    // covariance of x_k due to odometry only
+  std::vector<std::size_t> chosen_;         // indices of closures in system_.rows()
+  Eigen::MatrixXd factor_;                  // factor of I + G N^-1 G^T, lower triangle
 };
 
 }  // namespace pose_graph

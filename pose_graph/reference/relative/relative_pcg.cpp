@@ -11,24 +11,23 @@
 namespace pose_graph {
 namespace {
 
-// A step that does not lower the cost is halved so often before it is solved again with damping. A cost is had for a
-// hundredth of what a factorisation takes, and bold steps undo knots that small ones run into: on manhattan from its
-// odometry damping as soon as a gain is poor stops at 3 753, this at the optimum, 3 549.
+// Number of times a step that does not lower the cost is halved before it is recomputed with damping. Evaluating the
+// cost takes a hundredth of the time of a factorisation, and large steps escape rotation wrap-arounds that small ones
+// do not: on manhattan from odometry, damping at every small gain ends at a cost of 3 753, this at the optimum, 3 549.
 constexpr int kHalvings = 3;
-// Levenberg's damping in units of what odometry itself knows of each link. None until a step fails; then from here,
-// four times as much at each failure and a tenth at each success, gone below the least.
+// Levenberg damping in units of odometry's information of each link. Zero until a step fails; then this value,
+// multiplied by 4 at each failure and by 0.1 at each success, and zero below the minimum.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-4;
 constexpr double kMore = 4.0, kLess = 0.1;
-// Beyond it a step is a millionth of what odometry allows: nothing is to be gained.
+// Above it a step is a millionth of what odometry permits, and no decrease is possible.
 constexpr double kMostDamping = 1e12;
-// A sum of weighted squares below it has no meaning in double precision: a billionth of one residual's share of a
-// sigma.
+// Cost per edge below which double precision has no meaning: a residual of 1e-9 standard deviations.
 constexpr double kNothing = 1e-18;
 
-// How exactly a step is solved: roughly at first, where it is far off anyhow, and better as the promises fall.
+// Returns the accuracy of a step's solution: coarse at first, finer as the predicted decrease falls.
 double toleranceFor(double last_share) { return std::clamp(1e-2 * std::sqrt(last_share), 1e-8, 1e-2); }
 
-// The state a step away, or half a step and so on; empty where the cost falls at none of them.
+// Returns the state after the step or after its first halving that lowers the cost; nullopt if none does.
 template <int D>
 std::optional<ChainState<D>> lowered(const Problem<D>& problem, const ChainState<D>& state, double cost,
                                      Increments<D> step) {
@@ -68,7 +67,7 @@ RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOp
     solution.products += solved.iterations;
     const double promise = 2.0 * solved.promise;
     share = std::clamp(promise / system.cost(), 0.0, 1.0);
-    // A damped step promises less than there is, by about this factor.
+    // A damped step predicts less than the possible decrease, by about this factor.
     if (promise * (1.0 + damping) <= options.tolerance * system.cost()) {
       solution.ending = Ending::Converged;
       break;

@@ -4,7 +4,7 @@
 namespace pose_graph {
 namespace {
 
-// A product of two rotations is off by rounding alone, where this is as good as the nearest rotation and cheap.
+// A product of two rotations deviates by round-off only, for which this equals the nearest rotation and is fast.
 Rotation<2> proper(const Rotation<2>& R) { return nearestRotation(R); }
 Rotation<3> proper(const Rotation<3>& R) { return Eigen::Quaterniond(R).normalized().toRotationMatrix(); }
 
@@ -34,7 +34,7 @@ EdgeRow<D> edgeRow(const Edge<D>& edge, const Rigid<D>& T_map_from, const Rigid<
   const RotationVector<D> phi = row.e.template tail<kTurn>();
   const Rotation<D> R_Z_map = (T_map_from.R * edge.Z.R).transpose();
   const auto J = leftJacobianInverse(phi);
-  // Of x_to - x_from = (A, B), `to` sees itself move by A - p_to x B and turn by B, in the axes of the map.
+  // For x_to - x_from = (A, B), pose `to` moves by A - p_to x B and rotates by B, in the axes of the map.
   row.K.setZero();
   row.K.template topLeftCorner<D, D>() = R_Z_map;
   for (int i = 0; i < kTurn; ++i) {

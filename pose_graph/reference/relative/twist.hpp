@@ -7,17 +7,18 @@
 
 namespace pose_graph {
 
-/// How poses move with the links of the chain, in one common frame.
+/// Motion of poses due to increments of the chain's links, in one common frame.
 ///
-/// A link v_r moves by boxPlus, (rho, phi) in the frame of pose r - 1: v = [Exp(phi) R, t + rho]. With a = R_{r-1} rho
-/// and b = R_{r-1} phi, pose k > r - 1 moves by a + b x (p_k - p_r) and turns by b. So the sums over the links up to k
+/// The increment (rho, phi) of link v_r is in the frame of pose r - 1: v = [Exp(phi) R, t + rho]. With a = R_{r-1} rho
+/// and b = R_{r-1} phi, pose k > r - 1 moves by a + b x (p_k - p_r) and rotates by b. The sums over the links up to k
 ///
 ///     A_k = sum (a_r + p_r x b_r),   B_k = sum b_r
 ///
-/// say all of pose k, delta p_k = A_k - p_k x B_k, and a closure from m to q sees the difference x_q - x_m of x = (A,
-/// B) alone, whichever of the two comes first. That is eq. 10-16 of Newman et al. 2009 with the products of Jacobians
-/// of eq. 13 taken apart into a factor of the link and a factor of the closure: H times a vector costs one sweep of the
-/// chain instead of one of each loop. In the plane the cross products are those of vectors with z = 0.
+/// determine the motion of pose k, delta p_k = A_k - p_k x B_k. A closure between m and q depends only on the
+/// difference x_q - x_m of x = (A, B), in either direction. This is eq. 10-16 of Newman et al. 2009, with the products
+/// of Jacobians of eq. 13 separated into a factor of the link and a factor of the closure: a product with H takes one
+/// sweep along the chain instead of one along each loop. In the plane the cross products are those of vectors with z =
+/// 0.
 
 template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;
@@ -47,7 +48,7 @@ RotationVector<D> rotateTurnBack(const Rotation<D>& R, const RotationVector<D>& 
   else return R.transpose() * phi;
 }
 
-/// What link r adds to x: (a + p_r x b, b), for the increment d of the link.
+/// Returns the contribution of link r to x: (a + p_r x b, b), for the increment d of the link.
 template <int D>
 Tangent<D> linkTwist(const Rigid<D>& previous, const Vector<D>& p, const Tangent<D>& d) {
   constexpr int kTurn = kRotationSize<D>;
@@ -58,7 +59,7 @@ Tangent<D> linkTwist(const Rigid<D>& previous, const Vector<D>& p, const Tangent
   return x;
 }
 
-/// The transposed map: the force and moment on the link where x is pulled by `z`.
+/// Transposed map: returns the force and moment on the link for a force `z` on x.
 template <int D>
 Tangent<D> linkForce(const Rigid<D>& previous, const Vector<D>& p, const Tangent<D>& z) {
   constexpr int kTurn = kRotationSize<D>;
@@ -70,7 +71,7 @@ Tangent<D> linkForce(const Rigid<D>& previous, const Vector<D>& p, const Tangent
   return d;
 }
 
-/// linkTwist as a matrix.
+/// Returns linkTwist() as a matrix.
 template <int D>
 TangentMatrix<D> linkMatrix(const Rigid<D>& previous, const Vector<D>& p) {
   TangentMatrix<D> U;
@@ -78,7 +79,7 @@ TangentMatrix<D> linkMatrix(const Rigid<D>& previous, const Vector<D>& p) {
   return U;
 }
 
-/// The residual of an edge, e as in Edge, and K with de = K (x_to - x_from).
+/// The residual e of an edge, as in Edge, and K with de = K (x_to - x_from).
 template <int D>
 struct EdgeRow {
   Tangent<D> e;
@@ -89,7 +90,7 @@ EdgeRow<D> edgeRow(const Edge<D>& edge, const Rigid<D>& T_map_from, const Rigid<
 template <int D>
 Tangent<D> edgeResidual(const Edge<D>& edge, const Rigid<D>& T_map_from, const Rigid<D>& T_map_to);
 
-/// A product whose rotation is made proper again: thousands are taken along a chain.
+/// Returns the product with its rotation renormalised, since products along a chain have thousands of factors.
 template <int D>
 Rigid<D> chained(const Rigid<D>& T_a_b, const Rigid<D>& T_b_c);
 

@@ -13,7 +13,7 @@ namespace {
 template <int D>
 using Turn = Eigen::Matrix<double, D, kRotationSize<D>>;
 
-// A twist w about the origin moves a pose at t by (rho, phi) = (w_rho + phi x t, w_phi), and back.
+// A twist w about the origin moves a pose at t by (rho, phi) = (w_rho + phi x t, w_phi); also the inverse conversion.
 template <int D>
 Tangent<D> boxFromTwist(const Tangent<D>& w, const Eigen::Matrix<double, D, 1>& t) {
   Tangent<D> x = w;
@@ -26,7 +26,7 @@ Tangent<D> twistFromBox(const Tangent<D>& x, const Eigen::Matrix<double, D, 1>& 
   w.template head<D>() -= turned(t) * x.template tail<kRotationSize<D>>();
   return w;
 }
-// The covariance of what is shifted by v turns: J P J^T with J = [I, sign turned(t); 0, I].
+// Returns the covariance after a shift of the reference point: J P J^T with J = [I, sign turned(t); 0, I].
 template <int D>
 TangentMatrix<D> shifted(TangentMatrix<D> P, const Eigen::Matrix<double, D, 1>& t, double sign) {
   constexpr int kR = kRotationSize<D>;
@@ -35,7 +35,7 @@ TangentMatrix<D> shifted(TangentMatrix<D> P, const Eigen::Matrix<double, D, 1>& 
   P.template leftCols<D>() += P.template rightCols<kR>() * turn.transpose();
   return P;
 }
-// Both blocks seen from axes that are turned by A.
+// Rotates both blocks by A.
 template <int D>
 TangentMatrix<D> turnedBy(const Rotation<D>& A, const TangentMatrix<D>& P) {
   TangentMatrix<D> made;
@@ -60,7 +60,7 @@ Tangent<D> turnedBy(const Rotation<D>& A, const Tangent<D>& x) {
   return made;
 }
 
-// [R, t] as boxPlus of `base` would have it: (t - t_base, Log(R R_base^T)).
+// Returns [R, t] relative to `base`: (t - t_base, Log(R R_base^T)).
 template <int D>
 Tangent<D> boxBetween(const Rigid<D>& T, const Rigid<D>& base) {
   Tangent<D> x;
@@ -69,7 +69,7 @@ Tangent<D> boxBetween(const Rigid<D>& T, const Rigid<D>& base) {
   return x;
 }
 
-// A chain may hold edges whose information, scaled to ones on its diagonal, is far from singular.
+// Chains contain only edges whose information, scaled to a unit diagonal, is far from singular.
 constexpr double kLeastPivot = 1e-10;
 
 }  // namespace
@@ -84,7 +84,7 @@ ChainSum<D> linkSum(const Edge<D>& edge, bool against, const TangentMatrix<D>& c
   e.template head<D>() = A.transpose() * (to.t - from.t) - edge.Z.R.transpose() * edge.Z.t;
   e.template tail<kR>() = logRotation(Rotation<D>(A.transpose() * to.R));
   *cost += e.dot(edge.information * e);
-  // e changes by (A^T rho, J_l^-1 A^T phi) when `to` moves by (rho, phi), and J_l(e) e = e.
+  // e changes by (A^T rho, J_l^-1 A^T phi) if `to` moves by (rho, phi), and J_l(e) e = e.
   TangentMatrix<D> P = covariance;
   if constexpr (D == 3) {
     if (e.template tail<3>().squaredNorm() > 0.0) {
@@ -96,7 +96,7 @@ ChainSum<D> linkSum(const Edge<D>& edge, bool against, const TangentMatrix<D>& c
   ChainSum<D> sum;
   sum.covariance = shifted<D>(turnedBy<D>(A, P), to.t, -1.0);
   sum.shift = twistFromBox<D>(turnedBy<D>(A, Tangent<D>(-e)), to.t);
-  if (against) sum.shift = -sum.shift;  // the twist of what follows against what comes before
+  if (against) sum.shift = -sum.shift;  // twist of the later pose relative to the earlier one
   return sum;
 }
 
@@ -106,8 +106,8 @@ Edge<D> composedEdge(const ChainSum<D>& sum, const Rigid<D>& end) {
   const Tangent<D> shift = boxFromTwist<D>(sum.shift, end.t);
   edge.Z = moved<D>(end, shift);
   TangentMatrix<D> P = turnedBy<D>(Rotation<D>(edge.Z.R.transpose()), shifted<D>(sum.covariance, end.t, 1.0));
-  // The error of the edge at `end` is -shift, and its derivative there has J_l^-1: with it in the covariance too, the
-  // edge has the chain's gradient and second derivative there, and so the same optimum.
+  // The error of the edge at `end` is -shift, and its derivative there contains J_l^-1. With J_l^-1 in the covariance,
+  // the edge has the chain's gradient and second derivative there, and hence the same optimum.
   if constexpr (D == 3) {
     const Eigen::Vector3d e_r = -(end.R.transpose() * shift.template tail<3>());
     const Eigen::Matrix3d J = urban_nav_core::leftJacobianInverseSo3(e_r);

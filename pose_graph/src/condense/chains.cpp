@@ -7,7 +7,7 @@ namespace pose_graph {
 
 namespace {
 
-/// The edges of each pose, and which of them still count.
+/// Finds chains; keeps the edges of each pose and marks those already assigned.
 template <int D>
 class Finder {
  public:
@@ -58,8 +58,8 @@ class Finder {
     return -1;
   }
 
-  // A tree is stripped down to its last pose: degrees never fall below zero, and who has none left stays. A fixed pose
-  // is no twig: what lies between two of them is held at both ends.
+  // A tree is stripped down to its last pose; degrees never become negative, and a pose without edges remains. A fixed
+  // pose is never stripped, because a path between two fixed poses is constrained at both ends.
   void stripTwigs() {
     for (std::size_t i = 0; i < degree_.size(); ++i) {
       for (int pose = static_cast<int>(i); degree_[sz(pose)] == 1 && !fixed_[sz(pose)];) {
@@ -77,7 +77,7 @@ class Finder {
     made_.twigs = {made_.twigs.rbegin(), made_.twigs.rend()};
   }
 
-  // A pose on the way has two edges to two neighbours. A ring without any other pose gets one.
+  // An intermediate pose has two edges to two neighbours. An isolated ring gets one core pose.
   void findCore() {
     in_core_.assign(degree_.size(), 0);
     for (std::size_t i = 0; i < degree_.size(); ++i) {
@@ -113,8 +113,8 @@ class Finder {
     }
   }
 
-  // Ways of one edge are no chains. One that comes back to where it began is cut at its last pose, one that has company
-  // between the same two poses stays: the core may have several edges between two poses.
+  // A path of one edge is not a chain. A path that returns to its begin is cut at its last pose. Parallel paths between
+  // two poses are kept: the core may have several edges between two poses.
   void followFrom(int pose) {
     for (int k = first_[sz(pose)]; k < first_[sz(pose) + 1]; ++k) {
       const int e = incident_[sz(k)];

@@ -9,7 +9,7 @@ namespace pose_graph {
 
 namespace {
 
-constexpr std::size_t kChainGrain = 16;  // chains to a thread at a time
+constexpr std::size_t kChainGrain = 16;  // chains per task of a thread
 
 }  // namespace
 
@@ -122,7 +122,7 @@ void Condensed<D>::expand(const std::vector<Rigid<D>>& core_poses) {
     const std::size_t last = sz(chains_.first[s + 1]) - 1;
     const Tangent<D> move = twistBetween(wanted, at_[last]);
     const Tangent<D> pull = solvedWith<D>(chain_sums_[s].covariance, move - chain_sums_[s].shift);
-    // Each link turns by its share, and takes along what follows it.
+    // Each link moves by its share and carries the following poses along.
     Rigid<D> before, old_before;
     for (std::size_t l = sz(chains_.first[s]); l <= last; ++l) {
       before = before * pulledStep(link_sums_[l], pull, old_before, at_[l]);

@@ -9,40 +9,40 @@
 
 namespace pose_graph {
 
-/// A pose graph whose chains are each replaced by one edge, and brought back again. Geodesic objective. Derivation:
+/// A pose graph with each chain reduced to one edge, and its expansion to all poses. Geodesic objective. Derivation:
 /// docs/derivations/pose_graph.md.
 ///
-/// The poses between the ends of a chain see nothing but the chain: for given ends they are where the chain's cost is
-/// least, and that cost, as a function of the ends, is to second order an edge with the chain's composed transform and
+/// The poses between the ends of a chain are constrained by the chain only. For given ends they minimise the chain's
+/// cost, and the minimum as a function of the ends is, to second order, an edge with the chain's composed transform and
 /// the sum of its covariances (Newman et al. 2009, eq. 8-13: the composition and its Jacobians; here summed as twists
-/// about the chain's begin, so that a chain costs as many operations as it has links). The second order is exact at a
-/// point only, so relinearise() and expand() alternate until nothing moves: each round is a Gauss-Newton step for the
-/// poses in between and a full minimisation for the core.
+/// about the begin of the chain, so that a chain takes as many operations as it has links). The approximation holds at
+/// the present poses, therefore relinearise() and expand() alternate until convergence: each round is a Gauss-Newton
+/// step for the intermediate poses and a full minimisation for the core.
 template <int D>
 class Condensed {
  public:
-  /// `problem` must outlive it. Edges with a weight other than one stay as they are; `weights` may be empty.
+  /// `problem` must outlive this object. Edges with a weight other than one are not condensed. `weights` may be empty.
   Condensed(const Problem<D>& problem, const std::vector<double>& weights);
 
   const Chains& chains() const { return chains_; }
 
-  /// The core as a problem of its own: poses in the order of chains().core; its edges are those of chains().core_edges
-  /// and after them one for each chain. `poses` are where the core poses stand now.
+  /// Returns the core as a problem: poses in the order of chains().core; edges of chains().core_edges, followed by one
+  /// per chain. `poses`: present poses of the whole problem.
   Problem<D> core(const std::vector<Rigid<D>>& poses) const;
-  /// The same edges renewed, of the chains alone.
+  /// Updates the edges of chains in a problem returned by core().
   void renew(Problem<D>& core) const;
 
-  /// Chains lie as odometry measured them, or as these poses have them.
+  /// Sets the poses of chains from odometry or from `poses`.
   void layByOdometry();
   void layBy(const std::vector<Rigid<D>>& poses);
-  /// Sums each chain's links where it lies now. Returns the cost of all chains there.
+  /// Sums the links of each chain at its present poses. Returns the cost of all chains.
   double relinearise();
-  /// Moves the poses of each chain to where they fit its ends, given by core poses.
+  /// Moves the poses of each chain to fit its ends, given by core poses.
   void expand(const std::vector<Rigid<D>>& core_poses);
-  /// What the ends of chains are still away from the poses they end at: the sum of weighted squares.
+  /// Returns the weighted squared distances between the ends of chains and the core poses they should reach.
   double mismatch(const std::vector<Rigid<D>>& core_poses) const;
 
-  /// All poses of the problem: the core's, the chains', and the twigs' by their edges.
+  /// Returns all poses of the problem: of the core, the chains, and the attached trees by their edges.
   std::vector<Rigid<D>> assemble(const std::vector<Rigid<D>>& core_poses) const;
 
  private:
@@ -50,8 +50,8 @@ class Condensed {
 
   const Problem<D>* problem_;
   Chains chains_;
-  std::vector<int> core_of_;                  ///< of each pose, its number in the core or -1
-  std::vector<TangentMatrix<D>> covariance_;  ///< of each link's edge: the inverse of its information
+  std::vector<int> core_of_;                  ///< of each pose: its index in the core, or -1
+  std::vector<TangentMatrix<D>> covariance_;  ///< of each link's edge: inverse of its information
   std::vector<Rigid<D>> at_;                  ///< T_begin_pose of each link's end
   std::vector<ChainSum<D>> link_sums_;
   std::vector<ChainSum<D>> chain_sums_;

@@ -7,14 +7,14 @@ namespace pose_graph {
 
 namespace {
 
-// As in solve_condensed.cpp.
+// Same value as in solve_condensed.cpp.
 constexpr double kLeastCoreShare = 0.5;
 
 }  // namespace
 
 template <int D>
 std::optional<CoreGraph<D>> CoreGraph<D>::of(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
-  // An edge whose weight is not one belongs to no chain.
+  // An edge with a weight other than one is not part of a chain.
   std::vector<double> weights(roles.size(), 1.0);
   std::size_t asked = 0;
   for (std::size_t e = 0; e < roles.size(); ++e) {

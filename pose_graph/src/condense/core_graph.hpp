@@ -9,29 +9,28 @@
 
 namespace pose_graph {
 
-/// A graph whose trusted chains are each one edge, with composed transform and covariance as odometry lays them: what
-/// to think of its closures can be asked of the core alone, which is small where a robot drives far and comes back
-/// seldom.
+/// A graph with each trusted chain reduced to one edge of composed transform and covariance. Closures are evaluated in
+/// the core graph only, which is small if a robot drives far and seldom revisits places.
 template <int D>
 class CoreGraph {
  public:
-  /// Empty where too few poses lie on chains for that to pay, or where a closure ends where nothing else does.
-  /// `problem` must outlive it.
+  /// Returns nullopt if too few poses are on chains, or if a closure ends at a pose without other edges. `problem` must
+  /// outlive the result.
   static std::optional<CoreGraph> of(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
   const Problem<D>& problem() const { return core_; }
   const std::vector<EdgeRole>& roles() const { return roles_; }
-  /// The pose of the whole graph that one of the core is.
+  /// Returns the pose of the whole graph for a core pose.
   int pose(int core_pose) const { return condensed_.chains().core[static_cast<std::size_t>(core_pose)]; }
-  /// The same of an edge; -1 for one that stands for a chain.
+  /// Returns the edge of the whole graph for a core edge; -1 for an edge that represents a chain.
   int edge(int core_edge) const;
-  /// All poses of the graph, chains laid to fit these of the core.
+  /// Returns all poses of the graph, with chains fitted to these core poses.
   std::vector<Rigid<D>> expanded(const std::vector<Rigid<D>>& core_poses);
-  /// Chains lie as these poses of the whole graph have them.
+  /// Sets the poses of chains from poses of the whole graph.
   void placeChains(const std::vector<Rigid<D>>& poses) { condensed_.layBy(poses); }
-  /// Distance, in weighted squares, of the ends of chains from the poses they end at.
+  /// Returns the weighted squared distance between the ends of chains and the core poses they should reach.
   double mismatch(const std::vector<Rigid<D>>& core_poses) const { return condensed_.mismatch(core_poses); }
-  /// The chains' edges as they are where expanded() or placeChains() put them last.
+  /// Updates the chains' edges at the poses set by expanded() or placeChains().
   void relinearise();
 
  private:

@@ -15,21 +15,21 @@ namespace pose_graph {
 
 namespace {
 
-// Below this share of poses on chains the elimination order takes care of them as well (bench/size).
+// Minimum share of poses on chains; below it the elimination order handles them equally well (bench/size).
 constexpr double kLeastChainShare = 0.5;
 constexpr int kCondensedRounds = 30;
-// The edge that stands for a long chain bends more than any of its links. Where the core takes more steps than this, or
-// rounds no longer halve what the ends are off, the whole graph is the easier one (ais2klinik: 70 steps a round and no
-// end, the whole graph 6).
+// Limits of steps in the core and of rounds. The edge of a long chain is more nonlinear than any of its links. If the
+// core takes more steps, or a round does not halve the mismatch of the ends, the full graph converges faster
+// (ais2klinik: 70 steps per round without convergence; 6 for the full graph).
 constexpr int kCoreSteps = 12, kFreeRounds = 3;
 constexpr double kContraction = 0.5;
-// What the ends of chains may be off, in weighted squares, as a share of the cost: its root is the share by which the
-// cost may then be wrong.
+// Limit of the mismatch of chain ends, in weighted squares, as a share of the cost: the relative error of the cost is
+// its root.
 constexpr double kClosed = 1e-12;
-// A change of the cost from round to round ends them, as a share of what ends a minimisation; and a cost, in squares of
-// standard deviations, that is negligible.
+// Convergence between rounds: change of the cost relative to the tolerance of a minimisation, and negligible cost in
+// squared standard deviations.
 constexpr double kSettledShare = 1e-3, kSettledLeast = 1e-12, kNothing = 1e-9;
-// By how much round-off may make the end seem worse than the begin.
+// Round-off by which the final cost may exceed the initial one.
 constexpr double kCostRoundOff = 1e-9;
 
 template <int D>
@@ -40,7 +40,7 @@ std::vector<Rigid<D>> collectPlaces(const Chains& chains, const std::vector<Rigi
   return made;
 }
 
-/// Each component as a whole to where its first pose was given. Fixed poses hold theirs.
+/// Moves each component rigidly so that its first pose has its given value. Fixed poses keep theirs.
 template <int D>
 void moveToFirst(const Problem<D>& problem, const Unknowns& unknowns, std::vector<Rigid<D>>& poses) {
   const int held = problem.fixed.empty() ? -1 : unknowns.component[sz(problem.fixed.front())];
@@ -79,7 +79,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
   BlockCholesky<kTangentSize<D>> cholesky(equations.symbolic());
   std::vector<Rigid<D>> poses = firstGuess(equations, core, options, core_weights);
   made.cost_start = chain_cost + equations.cost(options.objective, poses, core_weights);
-  // A chain as odometry laid it costs nothing in itself, so that the given poses have to be good to be worth more.
+  // A chain at its odometry poses has zero cost, so the given poses are used only if their cost is lower.
   if (options.start != Start::Odometry && made.cost_before <= made.cost_start) {
     condensed.layBy(problem.poses);
     chain_cost = condensed.relinearise();

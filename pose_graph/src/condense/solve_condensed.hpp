@@ -8,8 +8,8 @@
 
 namespace pose_graph {
 
-/// solve() by way of the core, for the geodesic objective: empty where too few poses lie on chains for that to pay, or
-/// where it did not come to its end (the caller then takes the whole graph at once).
+/// Solves the geodesic objective by way of the core graph. Returns nullopt if too few poses are on chains, or if it did
+/// not converge (the caller then solves the full graph).
 template <int D>
 std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const SolveOptions& options,
                                           const std::vector<double>& weights);

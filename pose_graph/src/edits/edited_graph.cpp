@@ -14,8 +14,8 @@ using urban_nav_core::Matrix6d;
 
 namespace {
 
-constexpr int kPinRounds = 5;     // relaxations with pins at most: the first one is within mm as a rule
-constexpr double kPlaced = 1e-6;  // m: pins do not move by more
+constexpr int kPinRounds = 5;     // limit of relaxations with pins; the first one is usually accurate to millimetres
+constexpr double kPlaced = 1e-6;  // m: convergence of pins
 
 using Name = std::tuple<SessionId, StampNs, SessionId, StampNs, EdgeKind, std::string>;
 
@@ -29,8 +29,7 @@ bool names(const Edit& edit, const Closure& closure) {
 
 bool isVerdict(const Edit& edit) { return edit.action == Edit::Action::Reject || edit.action == Edit::Action::Accept; }
 
-/// Sorts edits by number, and leaves out closures that are removed again, and all but the last verdict on a closure and
-/// the last origin.
+/// Sorts edits by number. Leaves out closures that are removed later, and all but the last verdict on a closure.
 std::vector<Edit> standing(std::vector<Edit> edits) {
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.number < b.number; });
   std::vector<Edit> result;
@@ -50,8 +49,8 @@ std::vector<Edit> standing(std::vector<Edit> edits) {
   return result;
 }
 
-/// Returns the information of T_a_b that a measured point of b in a has, J^T J / sigma^2 with the point's displacement
-/// J (rho, phi).
+/// Returns the information on T_a_b of a point of b measured in a: J^T J / sigma^2 with the displacement J (rho, phi)
+/// of the point.
 Matrix6d pointInformation(const Eigen::Vector3d& p_turned, double sigma) {
   Eigen::Matrix<double, 3, 6> J;
   J.leftCols<3>().setIdentity();
@@ -108,7 +107,7 @@ void EditedGraph::addOwnClosures() {
       without_effect_.erase(edit.number);
     if (there && edit.action == Edit::Action::Add) own.push_back(&edit);
   }
-  // In an order of their content alone, whatever the order of the edits.
+  // In an order that depends on their content only, not on the order of the edits.
   std::stable_sort(own.begin(), own.end(), [&](const Edit* a, const Edit* b) {
     return std::make_tuple(place(a->a.session), a->a.stamp, place(a->b.session), a->b.stamp, a->kind, a->source) <
            std::make_tuple(place(b->a.session), b->a.stamp, place(b->b.session), b->b.stamp, b->kind, b->source);

@@ -60,7 +60,7 @@ class ConstraintAdder {
     std::vector<G2oGraph::Id> fixed = graph_.fixed;
     std::sort(fixed.begin(), fixed.end());
     fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
-    // A single one that is held anyway needs nothing.
+    // A single fixed vertex that is held anyway needs no constraint.
     if (graph_.priors.empty() && fixed.size() == 1 && fixed.front() == file_.ids.front()) return;
     for (const G2oGraph::Id id : fixed) {
       const int pose = poseOrLandmark(id);
@@ -93,7 +93,7 @@ class ConstraintAdder {
     return file_.frame;
   }
 
-  // A fixed landmark has a place, but no rotation that a pose could be measured by.
+  // A fixed landmark has a position, but no rotation relative to which a pose could be measured.
   void releaseRotation(int landmark) {
     for (const int e : file_.point_edges) {
       Edge<D>& edge = file_.problem.edges[sz(e)];
@@ -103,7 +103,8 @@ class ConstraintAdder {
     }
   }
 
-  // E = Z^-1 T M of the sensor at M is, but for the lever arm, a measurement of T: turned by M, it has the same error.
+  // E = Z^-1 T M of the sensor at M is, except for the lever arm, a measurement of T: rotated by M it has the same
+  // error.
   static void mount(Edge<D>& edge, const Rigid<D>& M) {
     edge.lever = M.t;
     edge.Z.R = edge.Z.R * M.R.transpose();

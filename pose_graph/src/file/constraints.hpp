@@ -7,16 +7,15 @@
 
 namespace pose_graph {
 
-/// Adds what a file holds besides poses and edges between them, as poses, edges and fixed poses, so that every solver
-/// and every objective knows it:
+/// Adds the remaining contents of a file as poses, edges and fixed poses, which all solvers and objectives support.
 ///
-/// A landmark is a pose, and a measurement of it an edge without information on its rotation; the first measurement of
-/// each ties the rotation to the observing pose, which costs nothing at the optimum and leaves nothing free. A prior is
-/// an edge from a fixed pose at the origin, which is the frame of the file; a sensor away from its vertex is the lever
-/// arm of that edge. Fixed vertices are fixed poses.
+/// A landmark becomes a pose, and a measurement of it an edge without rotation information. The first measurement of
+/// each landmark also constrains its rotation to that of the observing pose, which adds no cost at the optimum and
+/// leaves no free direction. A prior becomes an edge from a fixed pose at the origin, the reference frame of the file;
+/// the offset of its sensor is the lever arm of that edge. Fixed vertices become fixed poses.
 ///
-/// Requires `file.ids`, the poses and the edges of the vertices in `file`.
-/// Throws UserError with `name` where a parameter or a landmark is missing, or information is indefinite.
+/// Requires: `file.ids`, and the poses and edges of the vertices in `file`.
+/// Throws UserError with `name` if a parameter or a landmark is missing, or information is indefinite.
 template <int D>
 void addConstraints(const urban_nav_core::G2oGraph& graph, const std::string& name, Semidefinite demanded,
                     FileProblem<D>& file);

@@ -54,7 +54,8 @@ namespace {
 void refuseEdgesToLandmarks(const G2oGraph& graph, const std::vector<G2oGraph::Id>& ids, const std::string& name) {
   const auto refuse = [&](G2oGraph::Id id) {
     if (std::binary_search(ids.begin(), ids.end(), id))
-      throw UserError(name, "vertex " + std::to_string(id) + " is a landmark and a pose", "one of them");
+      throw UserError(name, "vertex " + std::to_string(id) + " is both a landmark and a pose",
+                      "different ids for landmarks and poses");
   };
   for (const G2oGraph::Point& point : graph.points) refuse(point.id);
   for (const G2oGraph::PointEdge& edge : graph.point_edges) refuse(edge.to);
@@ -78,10 +79,10 @@ void readEdges(const G2oGraph& graph, const std::string& name, Semidefinite dema
         {findNumber(made.ids, edge.from), findNumber(made.ids, edge.to), toRigid<D>(graph.pose(edge)), information});
   }
   if (indefinite > 0)
-    made.notes.push_back(std::to_string(indefinite) +
-                         " edges have information with a negative eigenvalue: only its blocks are read");
-  if (to_itself > 0)
-    made.notes.push_back(std::to_string(to_itself) + " edges from a vertex to itself: they say nothing of it");
+    made.notes.push_back(
+        std::to_string(indefinite) +
+        " edges have information with a negative eigenvalue: only its translation and rotation blocks are used");
+  if (to_itself > 0) made.notes.push_back(std::to_string(to_itself) + " edges from a vertex to itself are ignored");
 }
 
 template <int D>
@@ -96,13 +97,13 @@ void placeVertices(const G2oGraph& graph, FileProblem<D>& made) {
   const auto missing = static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 0));
   if (missing == 0) return;
   if (missing == listed.size()) {
-    made.notes.push_back("no VERTEX lines: the first guess follows the edges");
+    made.notes.push_back("no VERTEX lines: the initial guess follows the edges");
     made.problem.poses = posesAlongEdges(made.problem);
     return;
   }
   const std::size_t first = static_cast<std::size_t>(std::find(listed.begin(), listed.end(), 0) - listed.begin());
   made.notes.push_back(std::to_string(missing) + " vertices have no VERTEX line, the first is " +
-                       std::to_string(made.ids[first]) + ": their first guess follows the edges");
+                       std::to_string(made.ids[first]) + ": their initial guess follows the edges");
   const std::vector<Rigid<D>> along = posesAlongEdges(made.problem, listed);
   for (std::size_t i = 0; i < listed.size(); ++i)
     if (!listed[i]) made.problem.poses[i] = along[i];

@@ -11,17 +11,17 @@ namespace pose_graph {
 
 namespace {
 
-// Of the largest eigenvalue. A number of six digits is off by 5e-6 of itself at most, a matrix of six rows by six times
-// that of its largest number.
+// Tolerance relative to the largest eigenvalue. A number of six digits has a relative error of at most 5e-6, a matrix
+// of six rows up to six times that of its largest entry.
 constexpr double kSixDigits = 3e-5;
-constexpr double kDoubleRoundOff = 1e-9;  // less need not be put right: nothing takes a root of it
+constexpr double kDoubleRoundOff = 1e-9;  // below it no correction is needed: no square root is taken
 
 template <int N>
 bool isSemidefinite(const Eigen::Matrix<double, N, N>& information) {
   if constexpr (N == 1) {
     return information(0, 0) >= 0.0;
   } else {
-    // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
+    // Most matrices pass the Cholesky test, which takes a tenth of the time of eigenvalues.
     if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return true;
     const auto values = urban_nav_core::symmetricEigenvalues(information);
     return values && (*values)[0] >= -kSixDigits * std::max(0.0, values->maxCoeff());

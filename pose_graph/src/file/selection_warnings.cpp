@@ -21,7 +21,7 @@ struct Rejections {
   std::size_t rejected = 0, all = 0;
 };
 
-// Of edges, without those of odometry.
+// Counts rejected edges, without those of odometry.
 template <int D>
 Rejections count(const std::vector<int>& edges, const FileProblem<D>& file, const RobustSolution<D>& robust) {
   Rejections made;
@@ -33,7 +33,7 @@ Rejections count(const std::vector<int>& edges, const FileProblem<D>& file, cons
   return made;
 }
 
-// Parts that only closures could have joined, and whose closures are all rejected.
+// Adds a warning about parts that only closures could have joined and whose closures are all rejected.
 template <int D>
 void addUnjoined(const FileProblem<D>& file, const RobustSolution<D>& robust, std::vector<std::string>& warnings) {
   const std::vector<int> parts = sessionParts(file.problem, file.roles);
@@ -59,7 +59,8 @@ void addUnjoined(const FileProblem<D>& file, const RobustSolution<D>& robust, st
                        " closures between them are rejected");
 }
 
-// The poses around a slip up to the next ends of accepted closures: in between nothing tells which step it was.
+// Describes a slip by the nearest ends of accepted closures on both sides: the closures do not determine which step
+// between them slipped.
 template <int D>
 std::string describeSlip(const FileProblem<D>& file, const RobustSolution<D>& robust, std::size_t edge) {
   const int from = std::min(file.problem.edges[edge].from, file.problem.edges[edge].to);
@@ -83,7 +84,7 @@ std::string twoDigits(double value) {
   return text;
 }
 
-// Errors that are smaller than stated are reported only where odometry and closures are weighed wrongly for it.
+// Errors smaller than stated are reported only if odometry and closures are weighted inconsistently because of them.
 void addScales(const std::string& kind, const std::optional<double>& odometry, const std::optional<double>& closures,
                std::vector<std::string>& warnings) {
   const bool larger_odometry = odometry && *odometry > kStatedWithin;
@@ -98,9 +99,8 @@ void addScales(const std::string& kind, const std::optional<double>& odometry, c
   if (larger_odometry || larger_closures || !odometry || !closures) return;
   const double ratio = *odometry / *closures;
   if (ratio > kStatedWithin || ratio < 1.0 / kStatedWithin)
-    warnings.push_back("odometry and closures are weighed wrongly against each other: the errors of odometry's " +
-                       kind + " are " + twoDigits(*odometry) + stated + ", those of the closures' " +
-                       twoDigits(*closures) + " times");
+    warnings.push_back("odometry and closures are weighted inconsistently: the errors of odometry's " + kind + " are " +
+                       twoDigits(*odometry) + stated + ", those of the closures' " + twoDigits(*closures) + " times");
 }
 
 }  // namespace
@@ -110,15 +110,15 @@ std::vector<std::string> selectionWarnings(const SelectionReport& selection, std
   std::vector<std::string> warnings;
   if (selection.undecided)
     warnings.push_back("nothing could be decided: no set of the " + std::to_string(closures) +
-                       " closures agrees with odometry and itself better than chance explains; the answer is odometry");
+                       " closures is more likely than chance; the result is odometry only");
   if (selection.unweighed)
-    warnings.push_back("the graph is too large for sets of closures to be weighed against odometry alone: " +
-                       std::to_string(rejected) + " of " + std::to_string(closures) +
-                       " are rejected, and the others may agree by chance");
+    warnings.push_back(
+        "the graph is too large to compare sets of closures against odometry: " + std::to_string(rejected) + " of " +
+        std::to_string(closures) + " are rejected, and the others may fit by chance");
   if (selection.has_rival)
     warnings.push_back(
         "another set of closures, a rival, is nearly as likely as the accepted one: closures that are not in both are "
-        "left out where many others remain, and a guess where few do");
+        "left out if many others remain; otherwise the accepted set is a guess");
   return warnings;
 }
 

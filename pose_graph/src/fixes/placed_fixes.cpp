@@ -19,7 +19,8 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr StampNs kLongestFixGap = 500'000'000;
-constexpr double kMountedUpright = 0.17;  // rad: a robot whose direction of gravity is not known stands like this
+// Rad: standard deviation of the tilt of a robot without known direction of gravity.
+constexpr double kMountedUpright = 0.17;
 
 bool isSound(const PositionFix& fix) {
   const urban_nav_core::GpsReading& reading = fix.reading;
@@ -27,7 +28,7 @@ bool isSound(const PositionFix& fix) {
          reading.sigma.allFinite() && reading.sigma.minCoeff() > 0.0 && fix.p_base.allFinite();
 }
 
-/// A track's place in the graph.
+/// The poses of a track in the graph.
 struct TrackPoses {
   int first = 0;  ///< number of its first pose
   Trajectory trajectory;
@@ -42,7 +43,7 @@ std::optional<PlacedFix> placeFix(const PositionFix& fix, const TrackPoses& trac
   placed.pose = track.first + static_cast<int>(nearest);
   Pose T_pose_then;
   if (at != stamp) {
-    const std::size_t other = stamp > at ? nearest + 1 : nearest - 1;  // wraps around where there is none
+    const std::size_t other = stamp > at ? nearest + 1 : nearest - 1;  // unsigned wrap-around if there is none
     if (other >= track.trajectory.size()) return std::nullopt;
     const int other_pose = track.first + static_cast<int>(other);
     const auto then = track.trajectory.at(stamp, kLongestFixGap);

@@ -15,16 +15,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kCauchyWidth = 2.4;    // standard deviations: 95 % efficient on normal errors
+constexpr double kCauchyWidth = 2.4;    // standard deviations: 95 % efficiency for normal errors
 constexpr double kNarrowerFixes = 0.7;  // per round, from the width that keeps all fixes
-constexpr int kMostRounds = 60;         // enough for an error of 10^8 standard deviations
+constexpr int kMostRounds = 60;         // sufficient for an error of 1e8 standard deviations
 constexpr int kFinalRounds = 4;         // with the narrowest kernel
-constexpr double kMedianChi2 = 2.366;   // of three numbers
-constexpr double kRejected = 3.37;      // standard deviations: 99 % of three numbers
+constexpr double kMedianChi2 = 2.366;   // median of chi-square with three degrees of freedom
+constexpr double kRejected = 3.37;      // standard deviations: 99 % for three degrees of freedom
 
 std::size_t poseIndex(int number) { return static_cast<std::size_t>(number); }
 
-/// The graph with the frame of each part's datum as a pose more, and its fixes as edges.
+/// The graph with one more pose per part, its datum frame, and the fixes as edges.
 class FixGraph {
  public:
   FixGraph(const Problem<3>& problem, const std::vector<double>& weights, const std::vector<FixedPart>& parts,
@@ -40,7 +40,7 @@ class FixGraph {
     }
   }
 
-  /// Errors of all fixes in stated standard deviations, at the present poses.
+  /// Returns the errors of all fixes at the present poses, in stated standard deviations.
   std::vector<double> errors() const {
     std::vector<double> made;
     forEachFix([&](std::size_t, const Rigid<3>& frame, const PlacedFix& fix) {
@@ -51,7 +51,7 @@ class FixGraph {
     return made;
   }
 
-  /// Weighs the fixes by their errors, and their information by a factor of their standard deviations.
+  /// Weights the fixes by their errors, and scales their standard deviations by `sigma_factor`.
   void weigh(const std::vector<double>& errors, double width, double sigma_factor) {
     std::size_t i = 0;
     forEachFix([&](std::size_t edge, const Rigid<3>&, const PlacedFix& fix) {
@@ -64,12 +64,12 @@ class FixGraph {
 
   void relax(const SolveOptions& options) { take(solve(graph_, options, weights_)); }
 
-  /// Returns the factor by which the variances of the chains were enlarged.
+  /// Returns the factor applied to the variances of the chains.
   double enlargeVariance(std::size_t chains, const SolveOptions& options) {
     Solution<3> solution;
     solution.poses = graph_.poses;
-    const double factor = takeOdometryVariance(graph_, chains, weights_, options, solution,
-                                               std::numeric_limits<double>::infinity());
+    const double factor =
+        takeOdometryVariance(graph_, chains, weights_, options, solution, std::numeric_limits<double>::infinity());
     take(std::move(solution));
     return factor;
   }
@@ -85,14 +85,14 @@ class FixGraph {
     std::size_t edge = first_edge_, part_number = 0;
     for (const FixedPart& part : parts_) {
       const Rigid<3>& frame = graph_.poses[frames_ + part_number++];
-      ++edge;  // that of the vertical
+      ++edge;  // the edge of the vertical
       for (const PlacedFix& fix : part.fixes) visit(edge++, frame, fix);
     }
   }
 
   void take(Solution<3> solution) { graph_.poses = std::move(solution.poses); }
 
-  /// Where the fixes as they are have the datum's frame.
+  /// Returns the pose of the datum frame that fits the fixes at these poses.
   static Rigid<3> firstFrame(const FixedPart& part, const std::vector<Rigid<3>>& poses) {
     const Rigid<3>& first = poses[poseIndex(part.first_pose)];
     const Matrix3d R_level_map =
@@ -110,7 +110,7 @@ class FixGraph {
     return T_local_map.inverse();
   }
 
-  /// The first pose of the part stands upright, as surely as is known.
+  /// Adds an edge that keeps the vertical of the part's first pose, with its uncertainty.
   void addUpEdge(const FixedPart& part) {
     const Rigid<3>& frame = graph_.poses.back();
     Edge<3> edge;
@@ -130,13 +130,13 @@ class FixGraph {
     edge.to = fix.pose;
     edge.Z.t = fix.measured;
     edge.lever = fix.lever;
-    edge.information.setZero();  // weigh() gives it
+    edge.information.setZero();  // set by weigh()
     graph_.edges.push_back(edge);
     weights_.push_back(1.0);
   }
 
   const std::vector<FixedPart>& parts_;
-  const std::size_t first_edge_, frames_;  // numbers of the first edge and the first pose that are added
+  const std::size_t first_edge_, frames_;  // numbers of the first added edge and pose
   Problem<3> graph_;
   std::vector<double> weights_;
 };

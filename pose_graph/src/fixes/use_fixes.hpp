@@ -8,15 +8,14 @@
 
 namespace pose_graph {
 
-/// Relaxes a graph once more together with fixes, each a measurement of a position in a frame (east, north, up) whose
-/// place in the map is estimated with the poses. A fix loses its weight by what it is off (Cauchy 1853; the width
-/// begins at the largest error and narrows, Black and Rangarajan 1996), standard deviations that are too small are
-/// enlarged by the median error, and odometry's variance is enlarged where the fixes show that it promises too much, as
-/// by takeOdometryVariance().
+/// Relaxes a graph with position fixes. Each is a position in a frame (east, north, up) whose pose in the map is
+/// estimated too. Fixes are weighted by Cauchy's kernel, whose width decreases from the largest error (Black and
+/// Rangarajan 1996). Standard deviations that are too small are increased by the median error, and the variance of
+/// odometry is increased if the fixes show it to be overconfident, as in takeOdometryVariance().
 ///
-/// `problem`: the graph, whose first `chains` edges are odometry, `weights` those of its edges, `solution` its relaxed
-/// poses: takes the new ones. `odometry_variance` is multiplied by the factor by which the information of the chains
-/// was divided. Without fixes nothing changes.
+/// `problem`: the graph; its first `chains` edges are odometry. `weights`: of its edges. `solution`: relaxed poses,
+/// which are updated. `odometry_variance`: multiplied by the divisor of the chains' information. Without fixes nothing
+/// changes.
 FixUse useFixes(Problem<3>& problem, std::size_t chains, const std::vector<double>& weights,
                 const std::vector<FixedPart>& parts, const SolveOptions& options, Solution<3>& solution,
                 double& odometry_variance);

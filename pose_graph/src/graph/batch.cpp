@@ -14,10 +14,10 @@ namespace pose_graph {
 
 namespace {
 
-// Largest factor of odometry's variance: 3 of its deviations.
+// Upper bound of the variance factor of odometry: 3 of its deviations.
 constexpr double kLargestVariance = 9.0;
 
-/// The same two poses measured to the same, bit by bit.
+/// Whether two closures between the same poses are bit-identical measurements.
 bool isSame(const Closure& a, const Closure& b) {
   return a.measured.T_a_b.t() == b.measured.T_a_b.t() &&
          a.measured.T_a_b.q().coeffs() == b.measured.T_a_b.q().coeffs() &&
@@ -25,7 +25,7 @@ bool isSame(const Closure& a, const Closure& b) {
          a.by_hand == b.by_hand;
 }
 
-/// The graph with the edges that are believed.
+/// Returns the graph with the accepted edges.
 Problem<3> acceptedGraph(const Problem<3>& problem, const std::vector<double>& weights) {
   Problem<3> accepted = problem.withoutEdges();
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
@@ -33,8 +33,8 @@ Problem<3> acceptedGraph(const Problem<3>& problem, const std::vector<double>& w
   return accepted;
 }
 
-/// Relaxes with the fixes too. The steps of odometry take over by how much that moves their ends against each other, as
-/// they do what the accelerometer says: what is relaxed later without fixes stays where these have it.
+/// Relaxes with the position fixes too. The displacements are transferred to the odometry steps, as the tilt correction
+/// is, so that later relaxations without fixes keep the result.
 void takeFixes(Batch& batch, std::size_t chains, const std::vector<double>& weights, const SolveOptions& options) {
   std::size_t unplaced = 0;
   const std::vector<FixedPart> parts =
@@ -95,7 +95,7 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
     closure.judged = true;
     weights.push_back(closure.weight);
   }
-  // More than odometry is trusted to be wrong by makes false closures fit too: that is for the selection to weigh.
+  // A larger variance of odometry would also fit false closures; only the selection may choose one.
   const double begin = batch.selection.rescaled ? batch.selection.odometry_factor : 1.0;
   const double largest =
       batch.parameters.robust ? std::max(kLargestVariance, begin) : std::numeric_limits<double>::infinity();
@@ -109,13 +109,13 @@ void run(Batch& batch, const SolveOptions& options, const ReferenceSolvers& refe
 Relaxed PoseGraph::take(const Batch& batch) {
   if (batch.solution.poses.empty()) return {};
   const Before before = this->before();
-  takeVerdicts(batch);
+  applyVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
   selection_ = batch.selection;
-  takeClosureVariance(batch.selection.rescaled ? batch.selection.closure_factor : 1.0);
+  applyClosureVariance(batch.selection.rescaled ? batch.selection.closure_factor : 1.0);
   odometry_lean_ = batch.odometry_lean;
   fix_use_ = batch.fix_use;
-  takeSteps(batch);
+  applySteps(batch);
   live_.reset();
   Relaxed made;
   made.cost_before = batch.solution.cost_before;
@@ -124,19 +124,19 @@ Relaxed PoseGraph::take(const Batch& batch) {
   made.ending = batch.solution.ending;
   made.gradient = batch.solution.gradient;
   std::vector<Relaxed::Run> moved = numberParts();
-  Laid laid = laidBy(batch);
-  const bool levelled = isOfRunning(level(laid, false));
-  append(moved, lay(laid));
+  PoseTable pose_table = posesAfter(batch);
+  const bool levelled = isOfRunning(level(pose_table, false));
+  append(moved, applyPoses(pose_table));
   if (std::any_of(closures_.begin(), closures_.end(), [](const auto& each) { return !each.second.judged; })) {
-    append(moved, judgeNew(made));
+    append(moved, evaluateNew(made));
     append(moved, numberParts());
   }
   ending_warning_ = endingWarning(made.ending, made.iterations.size(), made.gradient);
-  tell(made, std::move(moved), before, levelled);
+  reportCorrection(made, std::move(moved), before, levelled);
   return made;
 }
 
-void PoseGraph::takeVerdicts(const Batch& batch) {
+void PoseGraph::applyVerdicts(const Batch& batch) {
   for (auto& [id, closure] : closures_) {
     const auto judged = batch.closures.find(id);
     if (judged != batch.closures.end() && isSame(judged->second, closure)) {
@@ -146,11 +146,11 @@ void PoseGraph::takeVerdicts(const Batch& batch) {
     closure.judged = false;
     closure.weight = 0.0;
     closure.verdict = ClosureVerdict::Waiting;
-    closure.reason = "not judged yet";
+    closure.reason = "not evaluated yet";
   }
 }
 
-void PoseGraph::takeSteps(const Batch& batch) {
+void PoseGraph::applySteps(const Batch& batch) {
   slips_.clear();
   auto slipped = batch.slipped.begin();
   int edge = 0;
@@ -173,27 +173,27 @@ void PoseGraph::takeSteps(const Batch& batch) {
     }
 }
 
-void PoseGraph::takeClosureVariance(double variance) {
+void PoseGraph::applyClosureVariance(double variance) {
   if (variance == closure_variance_) return;
   closure_variance_ = variance;
   for (auto& [id, closure_edge] : closure_edges_)
     closure_edge.edge = toEdge(closures_.at(id), closure_edge.a, closure_edge.b, variance);
 }
 
-PoseGraph::Laid PoseGraph::laidBy(const Batch& batch) const {
-  Laid laid;
+PoseGraph::PoseTable PoseGraph::posesAfter(const Batch& batch) const {
+  PoseTable pose_table;
   std::size_t number = 0;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
     const std::size_t known = t < batch.stamps.size() ? batch.stamps[t].size() : 0;
-    laid.emplace_back();
+    pose_table.emplace_back();
     for (std::size_t i = 0; i < track.map.size(); ++i) {
-      if (i < known) laid[t].push_back(toPose(batch.solution.poses[number++]));
-      else if (i == 0) laid[t].push_back(track.map[0]);
-      else laid[t].push_back(laid[t][i - 1] * (track.odom[i - 1].inverse() * track.odom[i]));
+      if (i < known) pose_table[t].push_back(toPose(batch.solution.poses[number++]));
+      else if (i == 0) pose_table[t].push_back(track.map[0]);
+      else pose_table[t].push_back(pose_table[t][i - 1] * (track.odom[i - 1].inverse() * track.odom[i]));
     }
   }
-  return laid;
+  return pose_table;
 }
 
 }  // namespace pose_graph

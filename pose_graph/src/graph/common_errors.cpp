@@ -13,9 +13,9 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr const char* kScale = "scale";  // of all lengths that a rig measures, closures included
+constexpr const char* kScale = "scale";  // scale of all lengths that a rig measures, closures included
 
-/// A constant of a rig: the rig, and the name.
+/// A constant of a rig: rig and constant name.
 using ConstantKey = std::pair<std::string, std::string>;
 
 const ConsideredConstant* findConstant(const RelativePose& step, const std::string& name) {
@@ -24,7 +24,7 @@ const ConsideredConstant* findConstant(const RelativePose& step, const std::stri
   return nullptr;
 }
 
-/// Returns each constant as the newest step of the session with the most precise estimate has it.
+/// Returns each constant from the newest step of the session with the most precise estimate.
 std::map<ConstantKey, ConsideredConstant> findEstimates(const std::vector<std::vector<RelativePose>>& steps,
                                                         const std::vector<std::string>& rigs) {
   std::map<ConstantKey, ConsideredConstant> best;

@@ -43,15 +43,15 @@ void explain(Relaxed::Correction& correction, const std::vector<ClosureId>& acce
   } else if (!accepted.empty()) {
     because(asserted ? CorrectionReason::ClosureAsserted : CorrectionReason::ClosuresAccepted, std::move(accepted),
             "is newly accepted", "are newly accepted");
-    if (asserted) correction.sentence += ", an asserted one among them";
+    if (asserted) correction.sentence += ", including an asserted one";
   } else if (!rejected.empty()) {
     because(CorrectionReason::ClosuresRejected, std::move(rejected), "is no longer accepted", "are no longer accepted");
   } else if (levelled) {
     correction.reason = CorrectionReason::Levelled;
-    correction.sentence = "which way is up is known now: the map is level";
+    correction.sentence = "map aligned with gravity";
   } else {
     correction.reason = CorrectionReason::Refined;
-    correction.sentence = "relaxed from the measurements alone, the same closures place it here";
+    correction.sentence = "refined by a batch relaxation with the same closures";
   }
 }
 

@@ -8,9 +8,9 @@
 
 namespace pose_graph {
 
-/// Fills in a correction's reason, sentence and causing_edges. `accepted_before`: closures accepted before the
-/// relaxation, ascending; `removed`: those of them that were removed by hand since; `closures`: as they are judged now;
-/// `levelled`: the map was turned too.
+/// Sets a correction's reason, sentence and causing_edges. `accepted_before`: closures accepted before the relaxation,
+/// ascending. `removed`: those of them removed manually since then. `closures`: present verdicts. `levelled`: the map
+/// was also rotated.
 void explain(Relaxed::Correction& correction, const std::vector<ClosureId>& accepted_before,
              const std::vector<Closure>& removed, const std::map<ClosureId, Closure>& closures, bool levelled);
 

@@ -11,7 +11,7 @@ using urban_nav_core::Matrix6d;
 
 namespace {
 
-// From (rho, phi) in the parent's axes to the error's axes, those of the child: both halves turn.
+// Rotates both blocks of (rho, phi) from the parent's axes to those of the child, which are the error's axes.
 Matrix6d seenFromChild(const Matrix6d& matrix, const Pose& T_parent_child) {
   const Eigen::Matrix3d R = T_parent_child.R();
   Matrix6d turned;
@@ -29,7 +29,7 @@ TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step) {
   return 0.5 * (information + information.transpose());
 }
 
-// The error of b, in b's own axes, turns into a's; the lever arm of a's turn moves b.
+// The error of b is rotated from its own axes to those of a; a rotation error of a displaces b by its lever arm.
 Matrix6d relativeNoise(const Pose& T_a_b, const Matrix6d& noise_a, const Matrix6d& noise_b) {
   Matrix6d at_b = Matrix6d::Zero(), at_a = Matrix6d::Identity();
   at_b.topLeftCorner<3, 3>() = at_b.bottomRightCorner<3, 3>() = T_a_b.R();
@@ -37,7 +37,7 @@ Matrix6d relativeNoise(const Pose& T_a_b, const Matrix6d& noise_a, const Matrix6
   return at_a * noise_a * at_a.transpose() + at_b * noise_b * at_b.transpose();
 }
 
-// (W^-1 + N)^-1 = W - W (W + N^-1)^-1 W, which needs no inverse of W: what it leaves free stays free.
+// (W^-1 + N)^-1 = W - W (W + N^-1)^-1 W needs no inverse of W: its free directions remain free.
 TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured, const Matrix6d& noise_a,
                                     const Matrix6d& noise_b) {
   const Matrix6d W = 0.5 * (measured.information + measured.information.transpose());

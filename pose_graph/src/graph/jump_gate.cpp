@@ -12,13 +12,13 @@ namespace pose_graph {
 
 namespace {
 
-/// An accepted closure and where its ends are.
-struct Way {
+/// An accepted closure and the nodes that it joins.
+struct AcceptedSpan {
   Closure* closure;
   NodeIndex a, b;
 };
-/// What is known of T_a_b without it.
-using Known = std::function<Pose(const Way&)>;
+/// Returns T_a_b as estimated without the closure.
+using RelativePoseEstimate = std::function<Pose(const AcceptedSpan&)>;
 
 bool isLarge(const Closure& closure, const Pose& T_a_b, const Parameters& parameters) {
   return distanceBetween(T_a_b, closure.measured.T_a_b) > parameters.confirmation_distance ||
@@ -36,7 +36,7 @@ void admitAll(std::map<ClosureId, Closure>& closures) {
   for (auto& [id, closure] : closures) {
     closure.verdict = ClosureVerdict::Accepted;
     closure.weight = 1.0;
-    closure.reason = "taken as it is";
+    closure.reason = "accepted without selection";
   }
 }
 
@@ -59,7 +59,7 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   }
 }
 
-// A step that slipped takes over the motion that the closures give.
+// Replaces slipped steps by the motion that closures imply.
 std::vector<int> takeSlips(const RobustSolution<3>& selected, std::size_t chains, Problem<3>& problem) {
   std::vector<int> slipped;
   for (std::size_t e = 0; e < chains; ++e) {
@@ -80,69 +80,71 @@ void rescale(const SelectionReport& selection, const std::vector<EdgeRole>& role
   }
 }
 
-// Chi-square of six degrees of freedom at 99.9 %; of fewer where the information leaves directions free, which errs
-// towards keeping.
+// Chi-square of six degrees of freedom at 99.9 %. With free directions there are fewer degrees of freedom, and the test
+// is more tolerant.
 constexpr double kInnovationLimit = 22.458;
 
-// Beyond this many times the limit, ten in standard deviations, the linear prediction of an innovation is enough: what
-// relaxation finds is within a few times of it, even where a large loop is bent.
-constexpr double kHopeless = 100.0;
+// Factor of the limit (ten in standard deviations) above which the linear prediction of an innovation suffices: the
+// relaxed innovation is within a few times of it, even for a bent large loop.
+constexpr double kPredictionLimit = 100.0;
 
-/// Whether a part of the way is the same.
-bool meet(const Way& a, const Way& b) {
+/// Whether two closures span a common part of the path.
+bool overlap(const AcceptedSpan& a, const AcceptedSpan& b) {
   return std::min(a.a, a.b) < std::max(b.a, b.b) && std::min(b.a, b.b) < std::max(a.a, a.b);
 }
 
-// Of closures that wait, so many are tried beside a new one, the likeliest first: each costs what the new one costs.
-// Those beyond are for the batch.
+// Limit of waiting closures tried together with a new one, the most likely first; each takes as long as the new one.
+// Further ones are left to the batch.
 constexpr std::size_t kTried = 3;
 
-/// Those of the accepted closures that have to wait, and do.
-std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b, const Parameters& parameters) {
+/// Sets unconfirmed closures with large corrections to waiting. Returns their ids.
+std::vector<ClosureId> holdUnconfirmed(const std::vector<AcceptedSpan>& spans, const RelativePoseEstimate& T_a_b,
+                                       const Parameters& parameters) {
   std::vector<ClosureId> made;
-  for (const Way& way : ways) {
-    Closure& closure = *way.closure;
+  for (const AcceptedSpan& span : spans) {
+    Closure& closure = *span.closure;
     const bool may_act_alone = isVouchedFor(closure) || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
-    if (may_act_alone || closure.a.session != closure.b.session || !isLarge(closure, T_a_b(way), parameters)) continue;
-    const bool supported = std::any_of(
-        ways.begin(), ways.end(), [&](const Way& other) { return other.closure != way.closure && meet(other, way); });
+    if (may_act_alone || closure.a.session != closure.b.session || !isLarge(closure, T_a_b(span), parameters)) continue;
+    const bool supported = std::any_of(spans.begin(), spans.end(), [&](const AcceptedSpan& other) {
+      return other.closure != span.closure && overlap(other, span);
+    });
     if (supported) continue;
     closure.verdict = ClosureVerdict::Waiting;
     closure.weight = 0.0;
-    closure.reason = "a large correction, and no second closure that agrees yet";
+    closure.reason = "large correction, not confirmed by a second closure yet";
     made.push_back(closure.id);
   }
   return made;
 }
 
-bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& parameters,
-              std::map<ClosureId, Closure>& closures) {
-  std::vector<Way> ways;
+bool holdUnconfirmed(const Problem<3>& problem, std::size_t chains, const Parameters& parameters,
+                     std::map<ClosureId, Closure>& closures) {
+  std::vector<AcceptedSpan> spans;
   std::size_t e = chains;
   for (auto& [id, closure] : closures) {
     const Edge<3>& edge = problem.edges[e++];
     if (closure.verdict == ClosureVerdict::Accepted)
-      ways.push_back({&closure, {0, static_cast<std::size_t>(edge.from)}, {0, static_cast<std::size_t>(edge.to)}});
+      spans.push_back({&closure, {0, static_cast<std::size_t>(edge.from)}, {0, static_cast<std::size_t>(edge.to)}});
   }
-  const Known by_poses = [&problem](const Way& way) {
-    return toPose(problem.poses[way.a.second]).inverse() * toPose(problem.poses[way.b.second]);
+  const RelativePoseEstimate by_poses = [&problem](const AcceptedSpan& span) {
+    return toPose(problem.poses[span.a.second]).inverse() * toPose(problem.poses[span.b.second]);
   };
-  return !makeWait(ways, by_poses, parameters).empty();
+  return !holdUnconfirmed(spans, by_poses, parameters).empty();
 }
 
-std::vector<ClosureId> makeWait(const GraphView& view, const std::map<ClosureId, ClosureEdge>& closure_edges,
-                                const Parameters& parameters, std::map<ClosureId, Closure>& closures) {
-  std::vector<Way> ways;
+std::vector<ClosureId> holdUnconfirmed(const GraphView& view, const std::map<ClosureId, ClosureEdge>& closure_edges,
+                                       const Parameters& parameters, std::map<ClosureId, Closure>& closures) {
+  std::vector<AcceptedSpan> spans;
   auto closure_edge = closure_edges.begin();
   for (auto& [id, closure] : closures) {
     if (closure.verdict == ClosureVerdict::Accepted)
-      ways.push_back({&closure, closure_edge->second.a, closure_edge->second.b});
+      spans.push_back({&closure, closure_edge->second.a, closure_edge->second.b});
     ++closure_edge;
   }
-  const Known by_map = [&view](const Way& way) {
-    return toPose(view.pose(way.a)).inverse() * toPose(view.pose(way.b));
+  const RelativePoseEstimate by_map = [&view](const AcceptedSpan& span) {
+    return toPose(view.pose(span.a)).inverse() * toPose(view.pose(span.b));
   };
-  return makeWait(ways, by_map, parameters);
+  return holdUnconfirmed(spans, by_map, parameters);
 }
 
 }  // namespace
@@ -161,7 +163,7 @@ Assessment assess(Problem<3>& problem, const Parameters& parameters, const Solve
   } else {
     admitAll(closures);
   }
-  const bool waiting = makeWait(problem, chains, parameters, closures);
+  const bool waiting = holdUnconfirmed(problem, chains, parameters, closures);
   const bool is_rescaled = result.selection.rescaled;
   if (is_rescaled) rescale(result.selection, roles, problem);
   if (parameters.robust && !waiting && !is_rescaled && reference == nullptr) return result;
@@ -175,82 +177,83 @@ Assessment assess(Problem<3>& problem, const Parameters& parameters, const Solve
 
 namespace {
 
-/// A closure beside what is in the core: does it fit? It is on trial there.
+/// Tests a closure against the core graph, in which it remains on trial. Returns whether it fits.
 bool fits(IncrementalSolver& core, const GraphView& view, const Parameters& parameters, const ClosureEdge& closure_edge,
           Closure& closure, double& cost_before) {
-  const bool doubted = !isVouchedFor(closure) && parameters.robust;
+  const bool is_tested = !isVouchedFor(closure) && parameters.robust;
   const IncrementalSolver::Offer offer =
-      core.offer(view, closure_edge, doubted ? kHopeless * kInnovationLimit : INFINITY);
-  // What one measurement more costs is the square of its innovation.
+      core.offer(view, closure_edge, is_tested ? kPredictionLimit * kInnovationLimit : INFINITY);
+  // The cost of one additional measurement is its squared innovation.
   closure.chi2 = std::max(offer.innovation, 0.0);
   cost_before = offer.before;
-  return !doubted || closure.chi2 <= kInnovationLimit;
+  return !is_tested || closure.chi2 <= kInnovationLimit;
 }
 
 void accept(Closure& closure) {
   closure.verdict = ClosureVerdict::Accepted;
   closure.weight = 1.0;
-  closure.reason = "agrees with what is accepted";
+  closure.reason = "consistent with the accepted edges";
 }
 
-/// Closures that wait and could be the second witness of one that is on trial, those first that it leaves least off.
-std::vector<Way> findPartners(const Way& tried, const IncrementalSolver& core, const GraphView& view,
-                              const std::map<ClosureId, ClosureEdge>& closure_edges,
-                              std::map<ClosureId, Closure>& closures) {
-  std::vector<std::pair<double, Way>> found;
+/// Returns waiting closures that may confirm one on trial, in ascending order of their residuals with it.
+std::vector<AcceptedSpan> findPartners(const AcceptedSpan& tried, const IncrementalSolver& core, const GraphView& view,
+                                       const std::map<ClosureId, ClosureEdge>& closure_edges,
+                                       std::map<ClosureId, Closure>& closures) {
+  std::vector<std::pair<double, AcceptedSpan>> found;
   auto closure_edge = closure_edges.begin();
   for (auto& [id, closure] : closures) {
     const auto& [a, b, edge] = (closure_edge++)->second;
-    const Way way{&closure, a, b};
-    if (!closure.judged || closure.verdict != ClosureVerdict::Waiting || !meet(way, tried)) continue;
+    const AcceptedSpan span{&closure, a, b};
+    if (!closure.judged || closure.verdict != ClosureVerdict::Waiting || !overlap(span, tried)) continue;
     Problem<3> alone;
     alone.poses = {core.pose(view, a), core.pose(view, b)};
     alone.edges = {edge};
     alone.edges.back().from = 0;
     alone.edges.back().to = 1;
-    found.emplace_back(cost(alone, alone.poses, Objective::Geodesic), way);
+    found.emplace_back(cost(alone, alone.poses, Objective::Geodesic), span);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Way> partners;
-  for (const auto& [off, way] : found) partners.push_back(way);
+  std::vector<AcceptedSpan> partners;
+  for (const auto& [off, span] : found) partners.push_back(span);
   return partners;
 }
 
 }  // namespace
 
-Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
-                       const std::map<ClosureId, ClosureEdge>& closure_edges, std::map<ClosureId, Closure>& closures) {
+Addition evaluateAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
+                          const std::map<ClosureId, ClosureEdge>& closure_edges,
+                          std::map<ClosureId, Closure>& closures) {
   Addition made;
   made.cost_before = core.cost();
   for (auto& [id, closure] : closures) {
     if (closure.judged) continue;
     double cost_before = 0.0;
     if (!fits(core, view, parameters, closure_edges.at(id), closure, cost_before)) {
-      core.readmitByTruncatedSquares();
+      core.withdraw();
       closure.verdict = ClosureVerdict::Rejected;
       closure.weight = 0.0;
-      closure.reason = "disagrees with what is accepted";
+      closure.reason = "inconsistent with the accepted edges";
       made.disagreement = true;
       continue;
     }
     accept(closure);
-    const std::vector<Way> partners =
+    const std::vector<AcceptedSpan> partners =
         findPartners({&closure, closure_edges.at(id).a, closure_edges.at(id).b}, core, view, closure_edges, closures);
     for (std::size_t p = 0; p < std::min(partners.size(), kTried); ++p) {
       Closure& partner = *partners[p].closure;
       double ignored = 0.0;
       if (fits(core, view, parameters, closure_edges.at(partner.id), partner, ignored)) accept(partner);
-      else core.readmitByTruncatedSquares();
+      else core.withdraw();
     }
-    for (const ClosureId waiting : makeWait(view, closure_edges, parameters, closures))
+    for (const ClosureId waiting : holdUnconfirmed(view, closure_edges, parameters, closures))
       if (waiting != id) made.others_wait = true;
     if (closure.weight > 0.0) {
       made.cost_before = cost_before;
       made.provisional = made.provisional || parameters.robust;
       core.keep();
     } else {
-      core.readmitByTruncatedSquares();
-      // Others that wait, and were not tried, may be its witnesses.
+      core.withdraw();
+      // Waiting closures that were not tried may confirm it.
       made.disagreement = made.disagreement || partners.size() > kTried;
     }
   }

@@ -11,37 +11,40 @@
 
 namespace pose_graph {
 
-/// Share of its information that a step that slipped keeps: it holds a chain together where its closures are removed.
+/// Factor of the information of a slipped step; it keeps the chain connected if its closures are removed.
 constexpr double kSlippedShare = 1e-6;
 
-/// A graph relaxed with the closures that are accepted.
+/// A graph relaxed with the accepted closures.
 struct Assessment {
   Solution<3> solution;
   SelectionReport selection;
-  std::vector<int> slipped;  ///< edges of the problem, ascending: steps of odometry that closures contradict
+  std::vector<int> slipped;  ///< ascending edges of the problem: steps of odometry that closures contradict
 };
 
-/// Accepted closures, and the poses that follow: the selection of `relax` (relaxSelected()), then the rule that a large
-/// correction needs two witnesses (docs/derivations/pose_graph.md).
-/// A closure waits where odometry alone led from a to b so far,
-/// it says something further off than parameters.confirmation_distance or confirmation_angle, it is no stereo closure
-/// that odometry allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts,
-/// weights and reasons; those that wait or are rejected have weight 0 in the solution. `reference`: relaxes what is
-/// accepted in place of solve(), if not null. A step that slipped measures in `problem` from then on what the solution
-/// has in its place, with next to no information; the information of chains and closures is divided by the factors of
-/// the selection where SelectionReport::rescaled.
+/// Selects closures and relaxes. The selection is that of `relax` (relaxSelected()), followed by the rule that a large
+/// correction requires two consistent closures (docs/derivations/pose_graph.md). A closure waits if so far only
+/// odometry connects a to b, if it deviates from that by more than parameters.confirmation_distance or
+/// confirmation_angle, if it is not a stereo closure within the odometry gate, and if no other accepted closure spans
+/// part of the same path.
+///
+/// Sets verdicts, weights and reasons of `closures`; waiting and rejected ones have weight 0 in the solution.
+/// `reference`: solver used instead of solve(), if not null. In `problem`, a slipped step is replaced by the motion of
+/// the solution with almost no information, and the information of chains and closures is divided by the factors of the
+/// selection if SelectionReport::rescaled.
 Assessment assess(Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   const ReferenceSolver* reference, std::map<ClosureId, Closure>& closures);
 
-/// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it;
-/// those that are let in stay in `core`.
+/// Result of evaluateAddition().
 struct Addition {
-  double cost_before = 0.0;   ///< where the poses stood, with what was let in last
-  bool disagreement = false;  ///< one of them was left out, or more wait than were tried beside it
-  bool provisional = false;   ///< one of them was let in: no other set of closures was weighed
-  bool others_wait = false;   ///< one that was accepted before waits now: `core` is no longer that of the accepted ones
+  double cost_before = 0.0;   ///< cost of the initial poses, with the closures accepted last
+  bool disagreement = false;  ///< a closure was rejected, or more closures wait than were tried with it
+  bool provisional = false;   ///< a closure was accepted without a comparison of sets
+  bool others_wait = false;   ///< a closure accepted earlier waits now: `core` no longer matches the accepted closures
 };
-Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
-                       const std::map<ClosureId, ClosureEdge>& closure_edges, std::map<ClosureId, Closure>& closures);
+/// Tests the closures without a verdict one by one against the accepted ones, together with waiting closures that may
+/// confirm them. Accepted ones stay in `core`.
+Addition evaluateAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
+                          const std::map<ClosureId, ClosureEdge>& closure_edges,
+                          std::map<ClosureId, Closure>& closures);
 
 }  // namespace pose_graph

@@ -12,9 +12,9 @@ using urban_nav_core::UserError;
 
 namespace {
 
-Trajectory makeTrajectory(const Track& track, const std::vector<Pose>& laid) {
+Trajectory makeTrajectory(const Track& track, const std::vector<Pose>& pose_table) {
   Trajectory made;
-  for (std::size_t i = 0; i < laid.size(); ++i) made.append(track.stamps[i], laid[i]);
+  for (std::size_t i = 0; i < pose_table.size(); ++i) made.append(track.stamps[i], pose_table[i]);
   return made;
 }
 
@@ -56,15 +56,15 @@ bool PoseGraph::isLevel(const SessionId& session) const {
   return found != track_of_.end() && level_[findMap(tracks_, found->second)];
 }
 
-std::vector<std::size_t> PoseGraph::level(Laid& laid, bool stay) {
+std::vector<std::size_t> PoseGraph::level(PoseTable& pose_table, bool stay) {
   std::vector<Level> levels(tracks_.size());
   std::vector<std::size_t> maps;
   for (std::size_t t = 0; t < tracks_.size(); ++t) maps.push_back(findMap(tracks_, t));
   const auto estimate = [&](const auto& measured) {
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       const std::size_t map = maps[t];
-      if (levels[map].known() || measured[t].empty() || laid[map].empty() || (stay && level_[map])) continue;
-      levels[map] = estimateLevel(makeTrajectory(tracks_[t], laid[t]), measured[t], laid[map].front());
+      if (levels[map].known() || measured[t].empty() || pose_table[map].empty() || (stay && level_[map])) continue;
+      levels[map] = estimateLevel(makeTrajectory(tracks_[t], pose_table[t]), measured[t], pose_table[map].front());
     }
   };
   estimate(forces_);
@@ -72,13 +72,13 @@ std::vector<std::size_t> PoseGraph::level(Laid& laid, bool stay) {
   std::vector<std::size_t> first_time;
   std::vector<Pose> turns;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    turns.push_back(levels[t].known() ? levelling(levels[t], laid[t].front()) : Pose());
+    turns.push_back(levels[t].known() ? levelling(levels[t], pose_table[t].front()) : Pose());
     if (levels[t].known() && !level_[t]) first_time.push_back(t);
     if (!stay || levels[t].known()) level_[t] = levels[t].known();
   }
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (levels[maps[t]].known())
-      for (Pose& pose : laid[t]) pose = turns[maps[t]] * pose;
+      for (Pose& pose : pose_table[t]) pose = turns[maps[t]] * pose;
   return first_time;
 }
 
@@ -87,14 +87,14 @@ bool PoseGraph::isOfRunning(const std::vector<std::size_t>& maps) const {
 }
 
 std::optional<Relaxed> PoseGraph::level() {
-  Laid laid;
-  for (const Track& track : tracks_) laid.push_back(track.map);
+  PoseTable pose_table;
+  for (const Track& track : tracks_) pose_table.push_back(track.map);
   const Before before = this->before();
-  const std::vector<std::size_t> levelled = level(laid, true);
+  const std::vector<std::size_t> levelled = level(pose_table, true);
   if (levelled.empty()) return std::nullopt;
   live_.reset();
   Relaxed made;
-  tell(made, lay(laid), before, isOfRunning(levelled));
+  reportCorrection(made, applyPoses(pose_table), before, isOfRunning(levelled));
   return made;
 }
 

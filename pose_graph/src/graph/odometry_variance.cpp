@@ -13,11 +13,11 @@ namespace pose_graph {
 
 namespace {
 
-constexpr int kVarianceRounds = 5;         // at the fifth it moves by a hundredth
-constexpr double kVarianceSettled = 0.02;  // of the factor
-constexpr double kVariancePrior = 6.0;     // numbers that odometry's own word weighs
+constexpr int kVarianceRounds = 5;         // in the fifth round the factor changes by 1 %
+constexpr double kVarianceSettled = 0.02;  // relative change of the factor
+constexpr double kVariancePrior = 6.0;     // weight of the stated variance, in degrees of freedom
 
-// Parts that the chains alone leave, less those that are left with the closures: each one that was joined took a pose.
+// Returns the number of parts joined by closures; each join determines one pose.
 int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector<double>& weights) {
   Problem<3> joined = problem.withoutEdges();
   joined.edges.assign(problem.edges.begin(), problem.edges.begin() + static_cast<std::ptrdiff_t>(chains));
@@ -27,8 +27,7 @@ int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector
   return apart - makeUnknowns(joined).components;
 }
 
-// How much of the chains' errors shows in their residuals, in numbers: what the closures take up of theirs is the
-// chains'.
+// Returns the redundancy of the chains: the share of the closures' residuals absorbed by the chains.
 std::optional<double> redundancyOfChains(const Problem<3>& problem, std::size_t chains,
                                          const std::vector<double>& weights, const std::vector<Rigid<3>>& poses) {
   const Marginals<3> marginals(problem, poses, weights);

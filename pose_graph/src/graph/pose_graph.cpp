@@ -25,8 +25,8 @@ bool isProper(const Matrix6d& covariance) {
   return covariance.allFinite() && urban_nav_core::SmallCholesky<6>(covariance).succeeded();
 }
 
-// Round-off can make the least eigenvalues of a good covariance negative: the step counts, with those raised to what
-// the largest one's last digits are. Empty where there is nothing to raise.
+// Raises the smallest eigenvalues to the round-off of the largest one, since round-off can make eigenvalues of a valid
+// covariance negative. Returns nullopt if the matrix is not finite or has no positive eigenvalue.
 std::optional<Matrix6d> properCovariance(const Matrix6d& covariance) {
   if (isProper(covariance)) return covariance;
   if (!covariance.allFinite()) return std::nullopt;
@@ -63,7 +63,7 @@ PoseGraph::PoseGraph(const Parameters& parameters, std::int64_t revision)
     : parameters_(parameters), revision_(revision) {}
 
 void PoseGraph::beginSession(const SessionId& session) {
-  if (hasSession(session)) throw UserError("pose_graph", "session " + session + " has begun already", "a new one");
+  if (hasSession(session)) throw UserError("pose_graph", "session " + session + " exists already", "an unused id");
   track_of_[session] = tracks_.size();
   tracks_.emplace_back();
   tracks_.back().session = session;
@@ -114,7 +114,7 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
   if (track.stamps.empty()) append(step.from, Pose(), Pose(), true);
   if (step.to <= track.stamps.back() || step.from < track.stamps.back()) return false;
   if (step.from > track.stamps.back()) {
-    // The chain goes on where it broke, for want of a better guess, and as a part of its own.
+    // The new part begins at the pose where the chain broke, for lack of a better guess.
     ChainStep gap;
     gap.joins = gap.invertible = false;
     steps_[t].push_back(gap);
@@ -164,9 +164,10 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
                     "stamps of poses; the nearest is " + urban_nav_core::printStamp(nearest) + " s");
   }
   const NodeIndex a = *findNode(offered.a), b = *findNode(offered.b);
-  if (a == b) throw UserError("closure", "from a pose to itself: " + toText(offered.a), "");
+  if (a == b) throw UserError("closure", "both ends are " + toText(offered.a), "two different poses");
   if (!offered.measured.T_a_b.isFinite() || !offered.measured.information.allFinite())
-    throw UserError("closure", "numbers that are not finite, " + toText(offered.a) + " to " + toText(offered.b), "");
+    throw UserError("closure", "non-finite values, " + toText(offered.a) + " to " + toText(offered.b),
+                    "finite numbers");
   if (offered.kind == EdgeKind::Odometry)
     throw UserError("closure", "kind odometry", "stereo, icp, plane, session, asserted");
   const Matrix6d symmetric = 0.5 * (offered.measured.information + offered.measured.information.transpose());
@@ -181,7 +182,7 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   taken.judged = false;
   taken.weight = 0.0;
   taken.verdict = ClosureVerdict::Waiting;
-  taken.reason = "not judged yet";
+  taken.reason = "not evaluated yet";
   taken.contradicted_by.clear();
   const auto earlier = closures_.find(taken.id);
   if (earlier != closures_.end() && earlier->second.weight > 0.0) live_.reset();
@@ -227,7 +228,7 @@ Problem<3> PoseGraph::problem() const { return problem(odometry_variance_); }
 
 Problem<3> PoseGraph::problem(double odometry_variance) const {
   Problem<3> made;
-  std::vector<int> first;  // pose of each track
+  std::vector<int> first;  // first pose of each track
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     first.push_back(static_cast<int>(made.poses.size()));
     for (const Pose& pose : tracks_[t].odom) made.poses.push_back(toRigid<3>(pose));
@@ -263,7 +264,7 @@ urban_nav_core::Status PoseGraph::status() const {
   using urban_nav_core::Health;
   if (broken_)
     return {Health::Degraded, static_cast<int>(Trouble::BrokenChain),
-            "the odometry has gaps; what no closure joins is a map of its own"};
+            "odometry has gaps; sections not joined by closures are separate maps"};
   std::size_t waiting = 0, rejected = 0;
   for (const auto& [id, closure] : closures_) {
     waiting += closure.verdict == ClosureVerdict::Waiting;
@@ -276,11 +277,11 @@ urban_nav_core::Status PoseGraph::status() const {
   if (!slips_.empty()) return {Health::Degraded, static_cast<int>(Trouble::Slipped), toSentence(slips_.front())};
   if (parts_ > 1)
     return {Health::Degraded, static_cast<int>(Trouble::Separate),
-            std::to_string(parts_) + " maps that no accepted closure joins"};
+            std::to_string(parts_) + " maps not joined by an accepted closure"};
   if (!ending_warning_.empty()) return {Health::Degraded, static_cast<int>(Trouble::Unconverged), ending_warning_};
   if (waiting > 0)
     return {Health::Ok, static_cast<int>(Trouble::Waiting),
-            std::to_string(waiting) + " closures wait for a second one that agrees"};
+            std::to_string(waiting) + " closures wait for confirmation by a second closure"};
   return {};
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * kDegree;  // docs/architecture.md
 
-/// Takes poses in ascending order, and keeps the runs of those that moved.
+/// Writes poses in ascending order and collects the ranges of those that moved.
 class Moves {
  public:
   void put(std::size_t track, std::size_t index, const Pose& now, Pose& pose) {
@@ -28,7 +28,7 @@ class Moves {
   std::vector<Relaxed::Run> runs;
 };
 
-/// The same poses in runs that do not meet.
+/// Merges overlapping and adjacent ranges.
 std::vector<Relaxed::Run> merged(std::vector<Relaxed::Run> runs) {
   std::sort(runs.begin(), runs.end(), [](const Relaxed::Run& a, const Relaxed::Run& b) {
     return std::tie(a.track, a.first) < std::tie(b.track, b.first);
@@ -96,15 +96,15 @@ Relaxed PoseGraph::update() {
   const Before before = this->before();
   if (std::all_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.map.empty(); })) return {};
   Relaxed made;
-  std::vector<Relaxed::Run> moved = judgeNew(made);
+  std::vector<Relaxed::Run> moved = evaluateNew(made);
   const std::vector<Relaxed::Run> renumbered = numberParts();
   moved.insert(moved.end(), renumbered.begin(), renumbered.end());
   ending_warning_ = endingWarning(made.ending, made.iterations.size(), made.gradient);
-  tell(made, std::move(moved), before);
+  reportCorrection(made, std::move(moved), before);
   return made;
 }
 
-std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
+std::vector<Relaxed::Run> PoseGraph::evaluateNew(Relaxed& made) {
   TrackView paper(*this);
   const auto renewed = [&] {
     std::vector<ClosureEdge> closure_edges;
@@ -114,7 +114,7 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   };
   if (!live_.has_value()) live_ = renewed();
   IncrementalSolver& live = *std::any_cast<IncrementalSolver>(&live_);
-  const Addition added = judgeAddition(live, paper, parameters_, closure_edges_, closures_);
+  const Addition added = evaluateAddition(live, paper, parameters_, closure_edges_, closures_);
   if (added.others_wait) live = renewed();
   for (auto& [id, closure] : closures_) closure.judged = true;
   live.write(paper);
@@ -127,10 +127,10 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   return std::move(paper.moves.runs);
 }
 
-std::vector<Relaxed::Run> PoseGraph::lay(const Laid& laid) {
+std::vector<Relaxed::Run> PoseGraph::applyPoses(const PoseTable& pose_table) {
   Moves moves;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (std::size_t i = 0; i < laid[t].size(); ++i) moves.put(t, i, laid[t][i], tracks_[t].map[i]);
+    for (std::size_t i = 0; i < pose_table[t].size(); ++i) moves.put(t, i, pose_table[t][i], tracks_[t].map[i]);
   return std::move(moves.runs);
 }
 
@@ -152,7 +152,7 @@ std::vector<Relaxed::Run> PoseGraph::numberParts() {
   return changed;
 }
 
-void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled) {
+void PoseGraph::reportCorrection(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled) {
   made.revision = ++revision_;
   made.closures = closures_.size();
   made.selection = selection_;
@@ -190,7 +190,7 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Befor
 }
 
 std::vector<int> PoseGraph::partNumbers() const {
-  Problem<3> joined;  // of runs
+  Problem<3> joined;  // one pose per run
   std::vector<std::size_t> first;
   for (const std::vector<Run>& runs : runs_) {
     first.push_back(joined.poses.size());

@@ -15,15 +15,15 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// What is wrong with an accelerometer, m/s2: across gravity 1 deg of its place on the robot, along it the bias of a
-// calibrated one (XSens MTi).
+// Standard deviation of accelerometer bias, m/s2: across gravity 1 deg of mounting error, along gravity the bias of a
+// calibrated sensor (XSens MTi).
 constexpr double kFaultAcross = 9.81 * 0.01745, kFaultAlong = 0.02;
-constexpr double kGravityHuber = 1.345;  // Huber 1964: 95 % as good as least squares where nothing is wrong
-constexpr double kMadToSigma = 1.4826;   // of a Gaussian
-constexpr double kLeastScatter = 0.002;  // m/s2: a span's mean is not better than its velocities
+constexpr double kGravityHuber = 1.345;  // Huber 1964: 95 % efficiency for normal errors
+constexpr double kMadToSigma = 1.4826;   // for a normal distribution
+constexpr double kLeastScatter = 0.002;  // m/s2: limited by the velocities of the trajectory
 constexpr int kGravityRounds = 20;
 
-/// What is known of the fault beforehand.
+/// Returns the prior information of the bias.
 Matrix3d faultInformation(const std::vector<Span>& spans) {
   Vector3d along = Vector3d::Zero();
   for (const Span& span : spans) along += span.rotation.transpose() * span.force;

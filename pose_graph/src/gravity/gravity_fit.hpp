@@ -9,18 +9,19 @@
 
 namespace pose_graph {
 
-/// Gravity in the axes of the first pose, and the accelerometer's fault in base_link's, m/s2.
+/// Gravity in the axes of the first pose, and accelerometer bias in the axes of base_link, m/s2.
 struct GravityFit {
   urban_nav_core::Vector6d x = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
-  double scatter = 0.0;  ///< of a number of a span's force about it, m/s2: from the median, so shocks are not in it
+  /// Standard deviation of a component of a span's force, m/s2; from the median, hence without shocks.
+  double scatter = 0.0;
 
   Eigen::Vector3d gravity() const { return x.head<3>(); }
   Eigen::Vector3d residual(const Span& span) const { return span.force - x.head<3>() - span.rotation * x.tail<3>(); }
 };
 
-/// Least squares, reweighted (Huber 1964), from the medians of the forces. `spans` must not be empty; nothing where
-/// they are not finite.
+/// Fits by iteratively reweighted least squares (Huber 1964), starting from the medians of the forces. Requires:
+/// `spans` is not empty. Returns nullopt if the values are not finite.
 std::optional<GravityFit> fitGravity(const std::vector<Span>& spans);
 
 }  // namespace pose_graph

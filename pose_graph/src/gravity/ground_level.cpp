@@ -16,14 +16,15 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kLeastNormals = 5;
-constexpr double kSlope = 0.01745, kSlopeLength = 50.0;  // rad, m: standard deviation and extent of a street's slopes
-constexpr double kBumpLength = 10.0;                     // m, over which normals share their errors
-constexpr double kLeastNormalScatter = 0.0035;           // rad
-constexpr double kTukey = 4.685;                         // 95 % as good as least squares on Gaussian errors
-constexpr double kMedianToSigma = 1.0 / 1.1774;          // of the length of a two-dimensional Gaussian error
+// Rad, m: standard deviation and correlation length of street slopes.
+constexpr double kSlope = 0.01745, kSlopeLength = 50.0;
+constexpr double kBumpLength = 10.0;             // m: correlation length of the errors of normals
+constexpr double kLeastNormalScatter = 0.0035;   // rad
+constexpr double kTukey = 4.685;                 // 95 % efficiency for normal errors
+constexpr double kMedianToSigma = 1.0 / 1.1774;  // of the norm of a two-dimensional normal error
 constexpr int kNormalRounds = 20;
 
-/// Normals in the axes of the first pose, and the path between the first and the last of them.
+/// Normals in the axes of the first pose, and the path length between the first and the last of them.
 struct SeenGround {
   std::vector<Vector3d> normals;
   double path = 0.0;  ///< m
@@ -50,7 +51,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The direction of the componentwise medians.
+/// Returns the direction of the componentwise medians.
 Vector3d medianDirection(const std::vector<Vector3d>& normals) {
   Vector3d direction;
   for (int axis = 0; axis < 3; ++axis) {
@@ -73,7 +74,7 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<GroundNormal
   const SeenGround seen = toFirst(trajectory, normals, T_world_first);
   if (seen.normals.size() < kLeastNormals)
     return unknownLevel(LevelTrouble::TooShort,
-                        "the ground was seen at " + std::to_string(seen.normals.size()) + " keyframes only");
+                        "only " + std::to_string(seen.normals.size()) + " keyframes with a ground normal");
   Vector3d up = medianDirection(seen.normals);
   double scatter = findScatter(seen.normals, up);
   for (int round = 0; round < kNormalRounds; ++round) {

@@ -18,10 +18,10 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kLeastLevelSpans = 3;
-// Spans for a session too short for three of 2 s: the longest length that gives enough of them.
+// Lengths of spans for a session too short for three spans of 2 s: the longest that yields enough spans is used.
 constexpr double kShortSpans[] = {1.0, 0.5, 0.25};  // s
 constexpr std::size_t kLeastShortSpans = 5;
-// Gravity is 9.78...9.83 on the ground; a scale of 2 % and that fault are allowed for.
+// Gravity is 9.78...9.83 m/s2 on the ground; the limits include a scale error of 2 % and the bias.
 constexpr double kLeastGravity = 9.4, kMostGravity = 10.2;
 
 struct LevelSpans {
@@ -40,8 +40,8 @@ LevelSpans chooseSpans(const Trajectory& trajectory, const std::vector<SpecificF
   return {};
 }
 
-/// Returns the factor by which the covariance grows, since few residuals state their own scatter: all over those that
-/// are left after three numbers were fitted, times the variance of Student's t with as many degrees of freedom.
+/// Returns the factor of the covariance for few spans: ratio of residuals to degrees of freedom after fitting three
+/// parameters, times the variance of Student's t distribution with as many degrees of freedom.
 double fewSpansFactor(std::size_t spans) {
   const double residuals = 3.0 * static_cast<double>(spans);
   return residuals / (residuals - 5.0);
@@ -72,7 +72,7 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForc
   const std::optional<GravityFit> fit = fitGravity(spans);
   const double gravity = fit ? fit->gravity().norm() : 0.0;
   if (!(gravity > kLeastGravity && gravity < kMostGravity))
-    return unknownLevel(LevelTrouble::NotGravity, "the measured specific force has not the size of gravity");
+    return unknownLevel(LevelTrouble::NotGravity, "the norm of the specific force is not that of gravity");
   Level level;
   level.trouble = LevelTrouble::None;
   level.gravity = gravity;
@@ -88,7 +88,8 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForc
 Level withRotations(Level level, const Matrix3d& covariance) {
   if (!level.known() || !covariance.allFinite()) return level;
   Matrix3d turned;
-  for (int i = 0; i < 3; ++i) turned.col(i) = Vector3d::Unit(i).cross(level.up);  // of a small turn about axis i
+  // Derivative of `up` by a small rotation about axis i.
+  for (int i = 0; i < 3; ++i) turned.col(i) = Vector3d::Unit(i).cross(level.up);
   level.covariance += turned * covariance * turned.transpose();
   level.sigma = largestSigma(level.covariance);
   return level;

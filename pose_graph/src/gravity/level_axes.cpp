@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 Matrix3d levelAxes(const Vector3d& up) {
   Matrix3d rows;
   Vector3d ahead = Vector3d::UnitX() - up.x() * up;
-  if (ahead.norm() < 1e-3) ahead = up.unitOrthogonal();  // it points up or down: no heading to keep
+  if (ahead.norm() < 1e-3) ahead = up.unitOrthogonal();  // x points up or down: the heading is undefined
   ahead.normalize();
   rows << ahead.transpose(), up.cross(ahead).transpose(), up.transpose();
   return rows;

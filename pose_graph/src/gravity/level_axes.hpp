@@ -11,7 +11,7 @@ namespace pose_graph {
 Eigen::Matrix3d levelAxes(const Eigen::Vector3d& up);
 /// Returns the square root of the largest eigenvalue.
 double largestSigma(const Eigen::Matrix3d& covariance);
-/// Returns a level that is not known, for this reason.
+/// Returns a Level of unknown direction with this reason.
 Level unknownLevel(LevelTrouble trouble, const std::string& sentence);
 
 }  // namespace pose_graph

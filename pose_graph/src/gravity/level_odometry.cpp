@@ -14,8 +14,8 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-/// Of an unbroken run. Its steps are edges [first_edge, first_edge + stamps.size() - 1), its poses begin with
-/// first_pose.
+/// Corrects an unbroken run. Its steps are edges [first_edge, first_edge + stamps.size() - 1), its first pose is
+/// first_pose. Returns its largest tilt, rad.
 double levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_pose, const std::vector<StampNs>& stamps,
                 const std::vector<SpecificForce>& forces) {
   Trajectory odometry;

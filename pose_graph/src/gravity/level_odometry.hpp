@@ -9,10 +9,10 @@
 
 namespace pose_graph {
 
-/// Takes out of odometry what the accelerometer knows better: the drift of roll and pitch (tiltDrift). Of each unbroken
-/// run of a track the steps turn a little, and its poses are laid anew from its first one; translations of steps,
-/// headings and information stay as they are. The poses of the tracks stand one after another in `problem`, and its
-/// first `chains` edges are their steps. `stamps`, `forces`: of each track. The most that a pose leant, rad.
+/// Corrects the drift of roll and pitch of odometry by the accelerometer (tiltDrift()). In each unbroken run of a track
+/// the steps are rotated slightly, and the poses are recomputed from the first one; translations of steps, headings and
+/// information are unchanged. The tracks' poses are consecutive in `problem`; its first `chains` edges are their steps.
+/// `stamps`, `forces`: per track. Returns the largest tilt of a pose, rad.
 double levelOdometry(Problem<3>& problem, std::size_t chains,
                      const std::vector<std::vector<urban_nav_core::StampNs>>& stamps,
                      const std::vector<std::vector<SpecificForce>>& forces);

@@ -17,12 +17,12 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr double kLongestGap = 0.3;      // s
-constexpr StampNs kReach = 100'000'000;  // ns around a stamp
-constexpr double kMost = 1000.0;         // m/s2: a hundred times gravity is no drive
+constexpr StampNs kReach = 100'000'000;  // ns on each side of a stamp
+constexpr double kMost = 1000.0;         // m/s2: a hundred times gravity is invalid
 
 bool isUsable(const SpecificForce& sample) { return sample.force.allFinite() && sample.force.norm() < kMost; }
 
-/// A pose at which specific force was measured, in the axes of the first pose.
+/// A pose with a measured specific force, in the axes of the first pose.
 struct SpanPlace {
   StampNs stamp;
   Vector3d velocity, force;
@@ -35,7 +35,7 @@ std::vector<SpanPlace> collectPlaces(const Trajectory& trajectory, const std::ve
   for (const SpecificForce& sample : forces) {
     if (!isUsable(sample)) continue;
     const std::size_t i = trajectory.nearest(sample.stamp);
-    // The velocity from the neighbours, which the first and the last pose do not have.
+    // The velocity requires both neighbours, which the first and the last pose do not have.
     if (trajectory[i].stamp != sample.stamp || i == 0 || i + 1 == trajectory.size()) continue;
     const StampedPose &before = trajectory[i - 1], &after = trajectory[i + 1];
     const double seconds = secondsBetween(before.stamp, after.stamp);
@@ -48,7 +48,7 @@ std::vector<SpanPlace> collectPlaces(const Trajectory& trajectory, const std::ve
   return places;
 }
 
-/// Means over places first...last by the trapezoidal rule.
+/// Averages over places first...last by the trapezoidal rule.
 Span makeSpan(const std::vector<SpanPlace>& places, std::size_t first, std::size_t last) {
   Span span;
   span.begin = places[first].stamp;

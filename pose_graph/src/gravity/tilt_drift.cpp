@@ -19,56 +19,56 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-// What is sought: gravity's error and the accelerometer's fault (m/s2), its lever arm (m), the tilt about two axes
-// across gravity (rad).
+// State: error of gravity and accelerometer bias (m/s2), lever arm (m), tilt about two axes across gravity (rad).
 constexpr int kStates = 11, kFault = 3, kTilt = 9;
 using State = Eigen::Matrix<double, kStates, 1>;
 using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
-using Seen = Eigen::Matrix<double, 3, kStates>;
+using MeasurementMatrix = Eigen::Matrix<double, 3, kStates>;
 
 constexpr std::size_t kLeastTiltSpans = 5;
-constexpr double kUnknown = 1e3;    // in noises of a force: as good as unknown
-constexpr double kTiltPrior = 6.0;  // numbers that what is known beforehand weighs
-// m/s2 in the root of a second: a bias that keeps within 0.02 m/s2 over ten minutes (XSens MTi).
+constexpr double kUnknown = 1e3;    // in units of force noise: an uninformative prior
+constexpr double kTiltPrior = 6.0;  // weight of the prior of a variance, in observations
+// m/s2 per square root of a second: a bias within 0.02 m/s2 over ten minutes (XSens MTi).
 constexpr double kFaultWalk = 1e-3;
 constexpr double kTiltHuber = 1.345;  // Huber 1964
-constexpr double kShock = 6.0;        // scatters: no drift within them
-constexpr double kMiddle = 0.888;     // median of the root of a mean of three squares, of normal numbers
-constexpr int kTiltRounds = 3;        // of weights
-constexpr double kMostTurn = 0.3;     // rad: sines are theirs to 1.5 %
+constexpr double kShock = 6.0;        // in standard deviations: above the range of drift
+constexpr double kMiddle = 0.888;     // median of the root mean square of three standard normal variables
+constexpr int kTiltRounds = 3;        // iterations of the weights
+constexpr double kMostTurn = 0.3;     // rad: small-angle approximation valid to 1.5 %
 
-/// A span as the filter sees it.
-struct Sight {
+/// Measurement of a span for the filter.
+struct Measurement {
   StampNs stamp = 0;
-  double seconds = 0.0;  ///< since the one before
-  double growth = 0.0;   ///< of odometry's variance since then, rad2
-  Vector3d force;        ///< less gravity, m/s2
-  Seen H;
+  double seconds = 0.0;  ///< since the previous one
+  double growth = 0.0;   ///< increase of odometry's variance since the previous one, rad2
+  Vector3d force;        ///< minus gravity, m/s2
+  MeasurementMatrix H;
 };
 
-/// How the tilt and the fault walk, in noises of a force, as squares: the factor on odometry's variance, and the
-/// variance a second. Logarithms.
+/// Variances of the random walks in units of the force noise, as logarithms: factor of odometry's variance, and bias
+/// variance per second.
 struct Walks {
   double tilt = 0.0, fault = 0.0;
 };
 
-struct Passed {
+struct FilterState {
   State x, x_predicted;
   StateMatrix P, P_predicted;
 };
 
 struct Filtered {
-  std::vector<Passed> states;
-  std::vector<double> innovations;  ///< in their standard deviations, of one number
-  double noise2 = 1.0;              ///< of a force, (m/s2)^2
-  double cost = 0.0;                ///< -2 log of the likelihood
+  std::vector<FilterState> states;
+  std::vector<double> innovations;  ///< normalised by their standard deviation
+  double noise2 = 1.0;              ///< variance of a force, (m/s2)^2
+  double cost = 0.0;                ///< -2 log likelihood
 };
 
-/// -2 log of a prior for a variance, `ratio` times what it should be, that weighs as many numbers seen.
+/// Returns -2 log of the prior of a variance with the weight of kTiltPrior observations; `ratio`: relative to its
+/// expected value.
 double priorCost(double ratio) { return kTiltPrior * (std::log(ratio) + 1.0 / ratio); }
 
-/// All covariances are in units of the noise of a force, which comes out at the end.
-Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& weights, const Walks& walks,
+/// Covariances are in units of the force noise, which is estimated at the end.
+Filtered filter(const std::vector<Measurement>& measurements, const std::vector<double>& weights, const Walks& walks,
                 bool cost_alone) {
   Filtered made;
   const double tilt = std::exp(walks.tilt), fault = std::exp(walks.fault);
@@ -76,15 +76,15 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
   StateMatrix P = StateMatrix::Zero();
   P.diagonal().head<kTilt>().setConstant(kUnknown * kUnknown);
   double sum = 0.0, log_volume = 0.0;
-  for (std::size_t k = 0; k < sights.size(); ++k) {
-    const Sight& sight = sights[k];
-    P.diagonal().segment<3>(kFault).array() += fault * sight.seconds;
-    P.diagonal().tail<2>().array() += tilt * sight.growth;
+  for (std::size_t k = 0; k < measurements.size(); ++k) {
+    const Measurement& measurement = measurements[k];
+    P.diagonal().segment<3>(kFault).array() += fault * measurement.seconds;
+    P.diagonal().tail<2>().array() += tilt * measurement.growth;
     if (!cost_alone) made.states.push_back({x, x, P, P});
-    const Eigen::Matrix<double, kStates, 3> PH = P * sight.H.transpose();
-    const Eigen::Matrix3d S = sight.H * PH + Eigen::Matrix3d::Identity() / weights[k];
+    const Eigen::Matrix<double, kStates, 3> PH = P * measurement.H.transpose();
+    const Eigen::Matrix3d S = measurement.H * PH + Eigen::Matrix3d::Identity() / weights[k];
     const Eigen::LLT<Eigen::Matrix3d> llt(S);
-    const Vector3d innovation = sight.force - sight.H * x, whitened = llt.matrixL().solve(innovation);
+    const Vector3d innovation = measurement.force - measurement.H * x, whitened = llt.matrixL().solve(innovation);
     x += PH * llt.solve(innovation);
     P -= PH * llt.solve(PH.transpose());
     P = (0.5 * (P + P.transpose())).eval();
@@ -95,7 +95,7 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
     made.states.back().P = P;
     made.innovations.push_back(whitened.norm() / std::sqrt(3.0));
   }
-  const double numbers = 3.0 * static_cast<double>(sights.size());
+  const double numbers = 3.0 * static_cast<double>(measurements.size());
   made.noise2 = std::max(sum / numbers, 1e-12);
   made.cost = log_volume + numbers * std::log(made.noise2) + priorCost(tilt * made.noise2) +
               priorCost(fault * made.noise2 / (kFaultWalk * kFaultWalk));
@@ -103,9 +103,10 @@ Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& wei
   return made;
 }
 
-/// The walks under which the innovations are most likely: steps along one or the other, ever smaller ones.
-Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& weights, Walks best, double step) {
-  const auto costAt = [&](const Walks& walks) { return filter(sights, weights, walks, true).cost; };
+/// Returns the most likely walks: coordinate search with decreasing steps.
+Walks likeliest(const std::vector<Measurement>& measurements, const std::vector<double>& weights, Walks best,
+                double step) {
+  const auto costAt = [&](const Walks& walks) { return filter(measurements, weights, walks, true).cost; };
   double best_cost = costAt(best);
   for (; step > 0.1; step *= 0.5)
     for (double Walks::*which : {&Walks::tilt, &Walks::fault})
@@ -125,7 +126,7 @@ Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& wei
   return best;
 }
 
-/// Shocks hardly count: one would turn the states after it.
+/// Weights down shocks, which would disturb all later states.
 std::vector<double> measureCalm(const std::vector<Span>& spans, const GravityFit& fit) {
   std::vector<double> made;
   for (const Span& span : spans) {
@@ -135,9 +136,9 @@ std::vector<double> measureCalm(const std::vector<Span>& spans, const GravityFit
   return made;
 }
 
-/// Huber's, for the innovations as they were under these weights.
+/// Returns Huber weights for innovations obtained with `weights`.
 std::vector<double> weightsFor(std::vector<double> innovations, const std::vector<double>& weights) {
-  // As unlikely as they were at full weight.
+  // Normalised to full weight.
   for (std::size_t k = 0; k < weights.size(); ++k) innovations[k] /= std::sqrt(weights[k]);
   std::vector<double> sorted = innovations;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -148,8 +149,8 @@ std::vector<double> weightsFor(std::vector<double> innovations, const std::vecto
   return made;
 }
 
-/// The states by all forces, those after them too (Rauch, Tung and Striebel 1965).
-std::vector<State> smoothed(const std::vector<Passed>& states) {
+/// Returns the smoothed states (Rauch, Tung and Striebel 1965).
+std::vector<State> smoothed(const std::vector<FilterState>& states) {
   std::vector<State> made(states.size());
   made.back() = states.back().x;
   for (std::size_t k = states.size() - 1; k-- > 0;) {
@@ -159,23 +160,23 @@ std::vector<State> smoothed(const std::vector<Passed>& states) {
   return made;
 }
 
-std::vector<Sight> collectSights(const std::vector<Span>& spans, const Trajectory& odometry,
-                                 const std::vector<double>& variance, const Vector3d& gravity,
-                                 const Eigen::Matrix<double, 3, 2>& across) {
-  std::vector<Sight> made;
+std::vector<Measurement> collectMeasurements(const std::vector<Span>& spans, const Trajectory& odometry,
+                                             const std::vector<double>& variance, const Vector3d& gravity,
+                                             const Eigen::Matrix<double, 3, 2>& across) {
+  std::vector<Measurement> made;
   double before = 0.0;
   StampNs last = odometry.front().stamp;
   for (const Span& span : spans) {
-    Sight sight;
-    sight.stamp = span.begin + (span.end - span.begin) / 2;
-    sight.seconds = secondsBetween(last, sight.stamp);
-    last = sight.stamp;
-    const double now = variance[odometry.nearest(sight.stamp)];
-    sight.growth = now - before;
+    Measurement measurement;
+    measurement.stamp = span.begin + (span.end - span.begin) / 2;
+    measurement.seconds = secondsBetween(last, measurement.stamp);
+    last = measurement.stamp;
+    const double now = variance[odometry.nearest(measurement.stamp)];
+    measurement.growth = now - before;
     before = now;
-    sight.force = span.force - gravity;
-    sight.H << Eigen::Matrix3d::Identity(), span.rotation, span.lever, urban_nav_core::skew(gravity) * across;
-    made.push_back(sight);
+    measurement.force = span.force - gravity;
+    measurement.H << Eigen::Matrix3d::Identity(), span.rotation, span.lever, urban_nav_core::skew(gravity) * across;
+    made.push_back(measurement);
   }
   return made;
 }
@@ -191,25 +192,26 @@ std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = level.up.unitOrthogonal();
   across.col(1) = level.up.cross(across.col(0));
-  const std::vector<Sight> sights = collectSights(spans, odometry, variance, level.gravity * level.up, across);
+  const std::vector<Measurement> measurements =
+      collectMeasurements(spans, odometry, variance, level.gravity * level.up, across);
   const std::optional<GravityFit> fit = fitGravity(spans);
   if (!fit) return {};
   const std::vector<double> calm = measureCalm(spans, *fit);
   std::vector<double> weights = calm;
-  // A force good to 0.01 m/s2, odometry as it promises, a fault as the data sheet has it.
+  // Initial values: force noise 0.01 m/s2, odometry as stated, bias as in the data sheet.
   Walks walks{std::log(1e4), std::log(1e4 * kFaultWalk * kFaultWalk)};
   Filtered filtered;
   for (int round = 0; round < kTiltRounds; ++round) {
-    walks = likeliest(sights, weights, walks, round == 0 ? 2.0 : 0.5);
-    filtered = filter(sights, weights, walks, false);
+    walks = likeliest(measurements, weights, walks, round == 0 ? 2.0 : 0.5);
+    filtered = filter(measurements, weights, walks, false);
     if (!std::isfinite(filtered.cost)) return {};
     weights = weightsFor(filtered.innovations, weights);
     std::transform(weights.begin(), weights.end(), calm.begin(), weights.begin(), std::multiplies<double>());
   }
   std::vector<Tilt> made;
   const std::vector<State> states = smoothed(filtered.states);
-  for (std::size_t k = 0; k < sights.size(); ++k) {
-    made.push_back({sights[k].stamp, across * states[k].tail<2>()});
+  for (std::size_t k = 0; k < measurements.size(); ++k) {
+    made.push_back({measurements[k].stamp, across * states[k].tail<2>()});
     if (!(made.back().turn.norm() < kMostTurn)) return {};
   }
   return made;

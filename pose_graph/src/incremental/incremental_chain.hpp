@@ -8,28 +8,28 @@
 
 namespace pose_graph {
 
-/// A way along a track between two poses of a core, with the poses in between as they were laid last: `at` from the
-/// begin. A single step is no chain.
+/// A chain along a track between two nodes of a core graph, with the present poses in between relative to its begin. A
+/// single step is not a chain.
 class IncrementalChain {
  public:
   IncrementalChain() = default;
-  /// `at`: T_begin_pose of each link's end; `steps` leads to the first of them.
+  /// `at`: T_begin_pose of each link's end; `steps` points to the first step.
   IncrementalChain(const ChainStep* steps, const std::vector<Rigid<3>>& at);
 
   bool empty() const { return links_.empty(); }
   std::size_t size() const { return links_.size(); }
   const Rigid<3>& at(std::size_t link) const { return links_[link].at; }
   const Edge<3>& edge() const { return edge_; }
-  /// The farthest pose from the begin, m.
+  /// Returns the largest distance of a pose from the begin, m.
   double reach() const { return reach_; }
 
-  /// In two at the end of a link, laid as they were; this one is then the first part.
+  /// Splits the chain at the end of a link, keeping the poses. This object becomes the first part; returns the second.
   IncrementalChain splitAfter(std::size_t link, const ChainStep* steps);
 
-  /// The square of what the wanted end (T_begin_end) is off the one it was laid to, in standard deviations of the
-  /// chain.
+  /// Returns the squared distance between the wanted end (T_begin_end) and the present one, in standard deviations of
+  /// the chain.
   double bend(const Rigid<3>& wanted) const;
-  /// Lays the poses so that they fit that end, and sums up anew.
+  /// Moves the poses to fit the wanted end, and updates the sums.
   void lay(const Rigid<3>& wanted, const ChainStep* steps);
 
  private:

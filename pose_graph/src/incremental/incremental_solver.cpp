@@ -12,16 +12,17 @@ namespace pose_graph {
 
 namespace {
 
-// Squares of standard deviations: what is left to gain is a hundredth of one, and the next update continues from there;
-// relax() is exact.
+// Expected further decrease, in squared standard deviations, at which an update ends (a hundredth of a deviation). The
+// next update continues from there; relax() is exact.
 constexpr double kLiveEnough = 1e-4;
-// And of a chain's, by which its end may be off before it is laid anew. At 1e-2 poses end 1.7 mm from the batch's, at
-// 1e-3 0.3 mm, at 1e-4 0.1 mm, and an update takes 5, 6 and 9 ms (20 000 poses, bench/update).
+// Squared distance of a chain's end, in standard deviations of the chain, above which the chain is updated. With 1e-2
+// the poses differ from the batch by 1.7 mm, with 1e-3 by 0.3 mm, with 1e-4 by 0.1 mm; an update takes 5, 6 and 9 ms
+// (20 000 poses, bench/update).
 constexpr double kLiveBent = 1e-3;
-// A tenth of what graph/update tells of (docs/architecture.md).
+// A tenth of the threshold of graph/update (docs/architecture.md).
 constexpr double kWrittenDistance = 1e-3, kWrittenAngle = 0.002 * 3.14159265358979323846 / 180.0;
 
-constexpr double kStillRoundOff = 1e-9;  // m, rad: a pose that moved by less has not moved
+constexpr double kStillRoundOff = 1e-9;  // m, rad: smaller motions are round-off
 
 double rotationAngle(const Eigen::Matrix3d& R) { return logRotation(R).norm(); }
 
@@ -63,7 +64,7 @@ IncrementalSolver::Offer IncrementalSolver::offer(const GraphView& view, const C
 
 void IncrementalSolver::keep() { undo_.clear(); }
 
-void IncrementalSolver::readmitByTruncatedSquares() {
+void IncrementalSolver::withdraw() {
   Undo undo = std::move(undo_.back());
   undo_.pop_back();
   closure_edges_.pop_back();
@@ -87,7 +88,7 @@ void IncrementalSolver::remember(const NodeIndex& place) {
   undo_.back().nodes.emplace(place, found == nodes.end() ? std::nullopt : std::optional<Node>(found->second));
 }
 
-// Poses before the first and after the last node of a chain hang on it as they were written.
+// Poses before the first and after the last node of a run keep their written pose relative to that node.
 Rigid<3> IncrementalSolver::hangingAt(const GraphView& view, const NodeIndex& node, const NodeIndex& place) const {
   return nodes_[node.first].at(node.second).pose * (view.pose(node).inverse() * view.pose(place));
 }
@@ -138,7 +139,7 @@ void IncrementalSolver::insert(const GraphView& view, const NodeIndex& place) {
   layChains(view, track, first, last);
 }
 
-// From a node to a later one, of poses as they are written; what cannot be a link of a chain gets nodes at its ends.
+// Builds chains between two nodes from written poses. Steps that cannot be links get nodes at both ends.
 void IncrementalSolver::layChains(const GraphView& view, std::size_t track, std::size_t first, std::size_t last) {
   Nodes& nodes = nodes_[track];
   const ChainStep* steps = view.steps(track);
@@ -172,7 +173,7 @@ void IncrementalSolver::number() {
     for (auto& [index, node] : nodes) node.number = number++;
 }
 
-// A closure that joins two parts brings the later one to where it says.
+// A closure that joins two parts moves the later part to its measured pose.
 void IncrementalSolver::bringTogether(const GraphView& view, const ClosureEdge& closure_edge) {
   number();
   Problem<3> joined;
@@ -203,15 +204,15 @@ void IncrementalSolver::bringTogether(const GraphView& view, const ClosureEdge& 
       if (part[sz(node.number)] == std::max(part[a], part[b])) node.pose = T * node.pose;
 }
 
-/// The core as a problem: closure_edges and single steps, and after them the chains.
+/// The core as a problem: closures and single steps, followed by the chains.
 struct IncrementalSolver::Core {
   Problem<3> problem;
   std::size_t first_chain = 0;
-  struct Way {
+  struct CoreChain {
     NodeIndex begin;
     Node* node;
   };
-  std::vector<Way> chains;
+  std::vector<CoreChain> chains;
 };
 
 IncrementalSolver::Core IncrementalSolver::core(const GraphView& view) {
@@ -239,16 +240,16 @@ IncrementalSolver::Core IncrementalSolver::core(const GraphView& view) {
       made.problem.edges.back().information /= variance_;
     }
   made.first_chain = made.problem.edges.size();
-  for (const Core::Way& way : made.chains) {
-    made.problem.edges.push_back(way.node->onward.edge());
-    made.problem.edges.back().from = way.node->number;
-    made.problem.edges.back().to = way.node->number + 1;
+  for (const Core::CoreChain& chain : made.chains) {
+    made.problem.edges.push_back(chain.node->onward.edge());
+    made.problem.edges.back().from = chain.node->number;
+    made.problem.edges.back().to = chain.node->number + 1;
     made.problem.edges.back().information /= variance_;
   }
   return made;
 }
 
-// Chains whose ends have moved against each other. Did any?
+// Updates chains whose ends have moved relative to each other. Returns whether any was updated.
 bool IncrementalSolver::layBent(const GraphView& view, Core& core) {
   bool any = false;
   for (std::size_t c = 0; c < core.chains.size(); ++c) {
@@ -306,7 +307,7 @@ void IncrementalSolver::relax(const GraphView& view, double hopeless) {
       poses.swap(next);
       iterations_.push_back(step);
     } else {
-      // Damped, where a plain step does not lower the cost.
+      // Damped minimisation, if a plain step does not lower the cost.
       SolveOptions options;
       options.iterations = steps_at_most_ - static_cast<int>(iterations_.size());
       options.tolerance = kLiveEnough / std::max(cost_, kLiveEnough);
@@ -319,7 +320,7 @@ void IncrementalSolver::relax(const GraphView& view, double hopeless) {
     cost_ = step.cost;
     const bool laid = layBent(view, core);
     if (laid) equations.renew(core.problem, core.first_chain);
-    // What further steps will still gain, by how much less each gains than the one before.
+    // Expected further decrease, from the ratio of successive decreases.
     const double rate = last_gain > 0.0 ? std::min(gain / last_gain, 0.999) : 0.1;
     last_gain = gain;
     if (!(gain * rate / (1.0 - rate) > kLiveEnough) || ending_ != Ending::Converged) {
@@ -342,8 +343,8 @@ void IncrementalSolver::write(GraphView& view) {
     for (auto at = nodes_[t].begin(); at != nodes_[t].end(); ++at) writeFrom(view, t, at);
 }
 
-// A node, what follows it up to the next one or to the end of its run, and what lies before it where it is the first of
-// its run.
+// Writes a node, the poses after it up to the next node or the end of its run, and the poses before it if it is the
+// first of its run.
 void IncrementalSolver::writeFrom(GraphView& view, std::size_t track, Nodes::iterator at) {
   auto& [index, node] = *at;
   const auto next = std::next(at);
@@ -351,7 +352,7 @@ void IncrementalSolver::writeFrom(GraphView& view, std::size_t track, Nodes::ite
   const Rigid<3> by = node.pose * node.written.inverse();
   const double angle = rotationAngle(by.R) + node.bent_rad;
   const double distance = (node.pose.t - node.written.t).norm() + node.bent_m + angle * node.onward.reach();
-  // The newest pose is what the robot goes by: what hangs on a last node follows it exactly.
+  // Poses after the last node follow it exactly, because the robot navigates by the newest pose.
   const bool stays = leads_on ? distance < kWrittenDistance && angle < kWrittenAngle : distance == 0.0 && angle == 0.0;
   if (node.is_written && stays) return;
   const NodeIndex here{track, index};

@@ -11,7 +11,7 @@ namespace pose_graph {
 
 namespace {
 
-// What an entry of the diagonal is measured by; one where it is zero, so that any measure would do.
+// Returns the reference size of a diagonal entry; one if it is zero, where any reference is valid.
 double toSize(double entry) { return entry > 0.0 ? entry : 1.0; }
 
 }  // namespace
@@ -34,7 +34,7 @@ BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic) : symbolic_(&symbolic)
     next_sibling_[sz(s)] = first_child_[sz(parent)];
     first_child_[sz(parent)] = s;
   }
-  // In postorder the children's complements are the last ones: their parent's takes their place.
+  // In postorder the children's complements are the last ones in pending_; their parent's complement replaces them.
   update_.assign(sz(n), 0);
   std::size_t end = 0, most = 0;
   for (int s = 0; s < n; ++s) {
@@ -82,7 +82,7 @@ void BlockCholesky<B>::addChild(int child) {
   }
   const double* source = pending_.data() + update_[sz(child)];
   const auto add = [&source](double* target, int length) {
-    if (length < 16) {  // of most runs, where preparing for long ones would take longer than adding
+    if (length < 16) {  // for short runs, a loop is faster than a mapped vector
       for (int i = 0; i < length; ++i) target[i] += source[i];
     } else {
       Eigen::Map<Eigen::VectorXd>(target, length) += Eigen::Map<const Eigen::VectorXd>(source, length);
@@ -256,8 +256,7 @@ void BlockCholesky<B>::solveEight(double* x) const {
   for (int s = symbolic_->size() - 1; s >= 0; --s) backwardEight(s, x);
 }
 
-// The columns of L^-1 of one place: B right-hand sides, one after another, which differ from zero along the way to the
-// root.
+// Computes the columns of L^-1 for one place: B right-hand sides, nonzero only along the path to the root.
 template <int B>
 void BlockCholesky<B>::halfColumns(int place, std::vector<double>& x) const {
   const std::size_t length = sz(B) * symbolic_->node.size();
@@ -274,7 +273,7 @@ typename BlockMatrix<B>::Block BlockCholesky<B>::inverseBlock(int row, int colum
   halfColumns(row, row_half_);
   halfColumns(column, column_half_);
   typename BlockMatrix<B>::Block made = BlockMatrix<B>::Block::Zero();
-  // A^-1 = L^-T L^-1, and the two columns meet where their ways do.
+  // A^-1 = L^-T L^-1; both columns are nonzero on the common part of their paths.
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, B>> left(row_half_.data(), length, B),
       right(column_half_.data(), length, B);
   for (int s = shape.supernode[sz(column)]; s >= 0; s = shape.parent[sz(s)])

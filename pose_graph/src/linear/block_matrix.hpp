@@ -9,12 +9,12 @@
 
 namespace pose_graph {
 
-/// Where the blocks of a symmetric matrix lie, column by column in the order of elimination (lower triangle without the
-/// diagonal): those of place k are first[k]...first[k + 1] - 1, with their rows (places) ascending.
+/// Positions of the blocks of a symmetric matrix, column by column in the elimination order (lower triangle without the
+/// diagonal): those of place k are first[k]...first[k + 1] - 1, with ascending rows (places).
 struct BlockPattern {
   BlockPattern(const Adjacency& graph, const Symbolic& symbolic);
 
-  /// The block of two nodes, and whether it stands there as (b, a) instead of (a, b); index -1 where they are no
+  /// Position of the block of two nodes, and whether it is stored as (b, a) instead of (a, b); index -1 if they are not
   /// neighbours.
   struct Slot {
     int index = -1;
@@ -27,11 +27,11 @@ struct BlockPattern {
   std::vector<int> row;
 };
 
-/// A symmetric matrix of BxB blocks with its diagonal by places, and the others where BlockPattern says.
+/// A symmetric matrix of BxB blocks: the diagonal by places, the other blocks as in BlockPattern.
 template <int B>
 struct BlockMatrix {
   using Block = Eigen::Matrix<double, B, B>;
-  std::vector<Block> diagonal;  ///< symmetric; both triangles count
+  std::vector<Block> diagonal;  ///< both triangles are used
   std::vector<Block> lower;     ///< (row, column)
 
   void setZero(const BlockPattern& pattern) {

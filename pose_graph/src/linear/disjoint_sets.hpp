@@ -9,7 +9,7 @@
 
 namespace pose_graph {
 
-/// Disjoint sets of 0 ... n-1, each on its own at first (Tarjan 1975, path halving). The root of a set is its smallest
+/// Disjoint sets of 0 ... n-1, initially singletons (Tarjan 1975, path halving). The root of a set is its smallest
 /// element.
 class DisjointSets {
  public:
@@ -24,20 +24,20 @@ class DisjointSets {
 
   bool areJoined(int a, int b) { return root(a) == root(b); }
 
-  /// Makes one set of two. Returns false if they were one before.
+  /// Joins the sets of two elements. Returns false if they were in one set already.
   bool join(int a, int b) {
     const auto [first, second] = std::minmax({root(a), root(b)});
     above_[sz(second)] = first;
     return first != second;
   }
 
-  /// Makes one set of the sets of all these.
+  /// Joins the sets of all these elements.
   void joinAll(const std::vector<int>& members) {
     for (const int member : members) join(members.front(), member);
   }
 
  private:
-  std::vector<int> above_;  // a root is its own
+  std::vector<int> above_;  // a root points to itself
 };
 
 }  // namespace pose_graph

@@ -14,7 +14,7 @@ namespace {
 
 using urban_nav_core::kernels::kStrip;
 
-constexpr double kZeroPivot = 1e-12;  // beside the size of a pivot: what elimination leaves of a zero
+constexpr double kZeroPivot = 1e-12;  // relative to the size of a pivot: round-off of a zero pivot
 constexpr int kPanel = 48;            // columns eliminated together: bench/linear
 
 }  // namespace
@@ -24,8 +24,8 @@ void Front::reset(int size) {
   stride_ = (size + kStrip - 1) / kStrip * kStrip + kStrip;
   const std::size_t room = sz(stride_) * sz(stride_);
   if (data_.size() < room) data_.resize(room);
-  // The lower triangle alone is read. A tile that crosses the diagonal, or the end, computes numbers that are not
-  // needed; it begins up to seven rows above the diagonal.
+  // Only the lower triangle is read. A tile that crosses the diagonal or the end computes unused numbers; it begins up
+  // to seven rows above the diagonal.
   for (int j = 0; j < stride_; ++j) {
     const int first = std::max(0, j - kStrip + 1);
     std::memset(column(j) + first, 0, sz(stride_ - first) * sizeof(double));
@@ -68,7 +68,7 @@ bool Front::eliminate(int pivots, Pins* pins) {
       for (int s = 0; s < strips; ++s)
         std::memcpy(&packed_[sz(s) * piece + sz(c) * kStrip], source + s * kStrip, kStrip * sizeof(double));
     }
-    // What stands after the last row is padding.
+    // Entries after the last row are padding.
     for (int c = 0; c < width; ++c)
       for (int r = rows; r < strips * kStrip; ++r)
         packed_[sz(strips - 1) * piece + sz(c) * kStrip + sz(r % kStrip)] = 0.0;

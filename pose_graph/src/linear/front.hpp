@@ -7,12 +7,11 @@
 
 namespace pose_graph {
 
-/// The dense piece that a multifrontal factorisation works on: a symmetric matrix (lower triangle, column-major), of
-/// which the leading columns are eliminated. Its room is rounded up so that kernels may work on whole tiles of 8x8.
-/// Keeps its buffers.
+/// The dense frontal matrix of a multifrontal factorisation: symmetric (lower triangle, column-major); its leading
+/// columns are eliminated. The storage is rounded up to whole 8x8 tiles for the kernels. Keeps its buffers.
 class Front {
  public:
-  /// All zero, of this size.
+  /// Sets the size; all entries are zero.
   void reset(int size);
   int size() const { return size_; }
   int stride() const { return stride_; }
@@ -21,16 +20,16 @@ class Front {
     return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_);
   }
 
-  /// The first `pivots` columns become those of the Cholesky factor, and what is below and right of them their Schur
-  /// complement. False where a pivot is not positive (or NaN); the front is then spoilt.
+  /// Replaces the first `pivots` columns by those of the Cholesky factor, and the remaining lower right part by its
+  /// Schur complement. Returns false, with invalid contents, if a pivot is not positive (or NaN).
   bool eliminate(int pivots);
 
-  /// For a matrix that may be singular: what its pivots are measured by, and which columns had to be pinned.
+  /// For a matrix that may be singular: reference sizes of pivots, and the columns that were pinned.
   struct Pins {
-    std::vector<double> size;  ///< of each pivot in the matrix as it was given, above zero
+    std::vector<double> size;  ///< of each pivot: its size in the given matrix, positive
     std::vector<int> columns;
   };
-  /// The same of the matrix with kPin times its size added to each pivot of which next to nothing is left.
+  /// As above; adds kPin times the reference size to each vanishing pivot.
   bool eliminate(int pivots, Pins* pins);
   static constexpr double kPin = 1e-6;
 

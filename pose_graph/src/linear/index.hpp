@@ -5,7 +5,7 @@
 
 namespace pose_graph {
 
-/// Returns a non-negative index as the containers of the standard library take it.
+/// Converts a non-negative index to the index type of standard containers.
 constexpr std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace pose_graph

@@ -18,7 +18,7 @@ std::vector<int> byNestedDissection(const Adjacency& graph) {
   cholmod_start(&common);
   common.print = 0;
   std::vector<int> rows;
-  // CHOLMOD wants one triangle of a symmetric pattern.
+  // CHOLMOD requires one triangle of a symmetric pattern.
   cholmod_sparse A{};
   std::vector<int> starts = {0};
   for (int j = 0; j < graph.size(); ++j) {
@@ -43,8 +43,8 @@ std::vector<int> byNestedDissection(const Adjacency& graph) {
   return done ? order : std::vector<int>();
 }
 
-// Nested dissection costs some microseconds a node, a block of 6x6 multiplied less than a tenth of one: from so many
-// multiplications a node on, an order that halves them pays within one factorisation.
+// Work per node above which nested dissection is tried. It takes some microseconds per node, a 6x6 block multiplication
+// less than a tenth of one, so an order with half the multiplications pays off within one factorisation.
 constexpr double kWorkWorthDissecting = 400.0;
 
 }  // namespace
@@ -87,7 +87,7 @@ EliminationTree eliminationTree(const Adjacency& graph, const std::vector<int>& 
     const std::size_t node = static_cast<std::size_t>(order[k]);
     for (int e = graph.first[node]; e < graph.first[node + 1]; ++e) {
       int i = place[static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(e)])];
-      while (i != -1 && i < static_cast<int>(k)) {  // up the tree, with the path compressed
+      while (i != -1 && i < static_cast<int>(k)) {  // up the tree, with path compression
         const int next = ancestor[static_cast<std::size_t>(i)];
         ancestor[static_cast<std::size_t>(i)] = static_cast<int>(k);
         if (next == -1) tree.parent[static_cast<std::size_t>(i)] = static_cast<int>(k);

@@ -6,8 +6,8 @@
 
 namespace pose_graph {
 
-/// Which nodes of an undirected graph are neighbours: the pattern of a symmetric matrix of blocks, without its
-/// diagonal. Neighbours of node i are neighbours[first[i]]...neighbours[first[i + 1] - 1], ascending, each once.
+/// Adjacency of an undirected graph: the pattern of a symmetric block matrix without its diagonal. The neighbours of
+/// node i are neighbours[first[i]]...neighbours[first[i + 1] - 1], ascending and unique.
 struct Adjacency {
   std::vector<int> first = {0};
   std::vector<int> neighbours;
@@ -15,7 +15,7 @@ struct Adjacency {
   int size() const { return static_cast<int>(first.size()) - 1; }
 };
 
-/// Pairs may come twice and either way round; a pair of a node with itself, or with a negative node, is left out.
+/// Builds the adjacency. Pairs may be repeated and in either order; pairs of equal or negative nodes are ignored.
 Adjacency makeAdjacency(int nodes, const std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace pose_graph

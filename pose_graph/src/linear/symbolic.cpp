@@ -14,7 +14,7 @@ using Unsigned = std::size_t;
 
 Unsigned at(int i) { return static_cast<Unsigned>(i); }
 
-// Children directly before their parents, the deepest subtree last so that a chain is one run.
+// Returns a postorder: children directly before their parents, the deepest subtree last so that a chain is consecutive.
 std::vector<int> postorder(const std::vector<int>& parent) {
   const Unsigned n = parent.size();
   std::vector<int> head(n, -1), next(n, -1), stack, order;
@@ -43,12 +43,12 @@ std::vector<int> postorder(const std::vector<int>& parent) {
 
 struct Run {
   int begin, end;  // places
-  int rows;        // below the last of them
-  double zeros;    // entries of the factor that joining made up
+  int rows;        // below the last place
+  double zeros;    // explicit zeros of the factor added by merging
 };
 
-// Joining pays where the zeros are few, and the more of them are borne the smaller the piece is: the limits are
-// CHOLMOD's (Chen, Davis, Hager, Rajamanickam, ACM TOMS 887, 2008, section 3), in nodes of six numbers.
+// Merging pays off if it adds few zeros; smaller supernodes tolerate more. Limits of CHOLMOD (Chen, Davis, Hager,
+// Rajamanickam, ACM TOMS 887, 2008, section 3), in nodes of six numbers.
 bool worthJoining(const Run& child, const Run& parent, double zeros) {
   const int columns = parent.end - child.begin;
   const double total = 0.5 * columns * (columns + 1.0) + static_cast<double>(columns) * parent.rows;

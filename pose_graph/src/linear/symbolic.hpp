@@ -7,12 +7,12 @@
 
 namespace pose_graph {
 
-/// The shape of the Cholesky factor of a symmetric matrix of blocks, by supernodes: neighbouring columns with (almost)
-/// the same rows below them, factored as one dense piece. Made once for a graph; serves blocks of every size.
+/// Structure of the Cholesky factor of a symmetric block matrix as supernodes: consecutive columns with (almost) the
+/// same rows, factored as one dense panel. Computed once per graph; valid for all block sizes.
 ///
-/// "Place" is where a node stands in the order of elimination. Supernode s holds the places begin[s]...begin[s + 1] -
-/// 1; the places of the rows below it are rows[row_begin[s]]...rows[row_begin[s + 1] - 1], ascending. Supernodes are in
-/// postorder: children come before their parent, and all of a subtree directly before its root.
+/// A place is the position of a node in the elimination order. Supernode s contains the places begin[s]...begin[s + 1]
+/// - 1; the rows below it are the places rows[row_begin[s]]...rows[row_begin[s + 1] - 1], ascending. Supernodes are in
+/// postorder: children precede their parent, and a subtree directly precedes its root.
 struct Symbolic {
   std::vector<int> place;  ///< of each node
   std::vector<int> node;   ///< at each place
@@ -30,7 +30,7 @@ struct Symbolic {
   }
 };
 
-/// Orders the nodes (ordering.hpp) and finds the supernodes, small ones joined to their parents where that adds few
+/// Orders the nodes (ordering.hpp) and finds the supernodes. Small ones are merged into their parents if that adds few
 /// zeros.
 Symbolic analyse(const Adjacency& graph);
 Symbolic analyse(const Adjacency& graph, const std::vector<int>& order);

@@ -8,13 +8,12 @@
 
 namespace pose_graph {
 
-/// Converts a measured closure. A pose without a session belongs to the running one: its session is left empty. The
-/// verdict is Rejected for a closure that its stage has rejected: it is stored for its evidence and is not part of the
-/// graph.
+/// Converts a measured closure. A pose without a session belongs to the active one; its session is left empty. The
+/// verdict is Rejected if the stage has rejected the closure: its evidence is stored, and it is not part of the graph.
 Closure toClosure(const urban_nav_core::MetricClosure& closure);
-/// Converts a constraint. Throws UserError for a kind that may not be added from outside.
+/// Converts a constraint. Throws UserError for a kind that must not be added from outside.
 Closure toClosure(const urban_nav_core::RelativeConstraint& constraint);
-/// Returns the kind of that name. Throws UserError for a kind that may not be added from outside.
+/// Returns the kind of that name. Throws UserError for a kind that must not be added from outside.
 EdgeKind toEdgeKind(const std::string& word);
 
 }  // namespace pose_graph

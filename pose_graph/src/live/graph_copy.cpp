@@ -19,7 +19,7 @@ using urban_nav_store::Store;
 std::string writeStore(const PoseGraph& graph, const std::map<SessionId, urban_nav_store::Session>& sessions,
                        const std::string& path) {
   const std::string temporary = path + ".saving";
-  urban_nav_store::removeStore(temporary);  // of a process that was killed
+  urban_nav_store::removeStore(temporary);  // left over from a killed process
   try {
     {
       GraphStoreWriter writer(

@@ -123,7 +123,7 @@ LiveGraph::Trajectory toTrajectory(const PoseGraph& graph, const std::vector<Pos
     const Track& track = graph.tracks()[i];
     const std::size_t first = from > 0 ? findPose(track, from) : 0;
     const std::size_t end = to > 0 ? findPose(track, to + 1) : track.stamps.size();
-    // Without a revision all poses are returned, those of revision 0 included.
+    // Without a revision all poses are returned, including those of revision 0.
     for (const PoseRevisions::Range& range : revisions[i].movedSince(since > 0 ? since : -1, first, end))
       trajectory.segments.push_back(toTrajectorySegment(track, range));
   }

@@ -9,24 +9,23 @@
 
 namespace pose_graph {
 
-/// References to a pose and to an edge, for outputs.
+/// Convert a node and a closure to references in outputs.
 urban_nav_core::PoseRef toPoseRef(const NodeRef& node);
 urban_nav_core::EdgeRef toEdgeRef(const Closure& closure);
 
-/// Returns the number of the first pose of a track that is not earlier than a stamp.
+/// Returns the index of the first pose of a track at or after a stamp.
 std::size_t findPose(const Track& track, StampNs stamp);
 
 /// Returns a range of a track's poses in the map.
 urban_nav_core::TrajectorySegment toTrajectorySegment(const Track& track, const PoseRevisions::Range& range);
 
-/// Converts what a relaxation did; without status.
+/// Converts the result of a relaxation; without status.
 LiveGraph::Outcome toOutcome(const Relaxed& relaxed, const PoseGraph& graph);
 
-/// Returns trajectories and closures for display. `running`: its trajectory comes last.
+/// Returns trajectories and closures for display. The trajectory of session `running` is last.
 LiveGraph::Picture toPicture(const PoseGraph& graph, const SessionId& running);
 
-/// Returns the poses from `from` to `to` (0: no bound) that moved since a revision (0: all). `revisions`: of each
-/// track.
+/// Returns the poses from `from` to `to` (0: no bound) that moved since a revision (0: all). `revisions`: per track.
 LiveGraph::Trajectory toTrajectory(const PoseGraph& graph, const std::vector<PoseRevisions>& revisions, StampNs from,
                                    StampNs to, std::int64_t since);
 

@@ -11,8 +11,8 @@ using urban_nav_core::Error;
 
 namespace {
 
-// Pause between two batches because of disagreements, in durations of a batch: they take a fifth of a processor at
-// most.
+// Minimum interval between batches due to disagreements, in durations of a batch: they use at most a fifth of a
+// processor.
 constexpr int kBatchInterval = 5;
 
 double toMilliseconds(std::chrono::steady_clock::duration duration) {
@@ -104,7 +104,7 @@ void GraphWorker::finishBatch() {
     disagreement_ = disagreement_ || outcome->needs_batch;
     const Figures figures = publish(*outcome, toMilliseconds(batch->duration));
     for (const auto& waiter : batch->waiters) waiter->set_value(figures);
-  } else if (!batch->waiters.empty()) {  // the graph was replaced: the requests are for the new one
+  } else if (!batch->waiters.empty()) {  // the graph was replaced: requests apply to the new one
     waiters_.insert(waiters_.begin(), batch->waiters.begin(), batch->waiters.end());
     batch_requested_ = true;
   }

@@ -16,8 +16,8 @@
 
 namespace pose_graph {
 
-/// Work on a live graph in the thread of its worker: adds inputs, relaxes when required, and writes to the store.
-/// Batches run in a second thread, and inputs do not wait for them. Used by one thread, unless stated otherwise.
+/// Operates a live graph in the thread of its worker: adds inputs, relaxes when required, and writes to the store.
+/// Batches run in a second thread; inputs do not wait for them. Not thread-safe unless stated otherwise.
 class GraphWorker {
  public:
   using Input =
@@ -27,8 +27,8 @@ class GraphWorker {
   struct Listener {
     std::function<void(const LiveGraph::Outcome& outcome, const LiveGraph& graph, double ms)> relaxed;
     std::function<void(const LiveGraph& graph)> idle;     ///< at the end of each step()
-    std::function<void(const std::string& why)> refused;  ///< an input that is invalid for the graph
-    std::function<void()> wake;                           ///< a batch has ended: step() is due. Called in any thread
+    std::function<void(const std::string& why)> refused;  ///< reports an input that the graph rejects
+    std::function<void()> wake;                           ///< a batch has ended and step() is due; called in any thread
   };
   struct Counts {
     std::int64_t refused = 0, relaxations = 0;
@@ -41,16 +41,16 @@ class GraphWorker {
   GraphWorker& operator=(const GraphWorker&) = delete;
 
   void add(Input& input);
-  /// Finishes and begins batches, relaxes, and writes to the store. To be called after inputs, some ten times a second.
+  /// Finishes and begins batches, relaxes, and writes to the store. Call after inputs, about ten times a second.
   void step();
-  /// Requests a batch of all that was added before. The result is available after the listener was called; an Error if
-  /// the batch failed, std::future_error if the worker ended first.
+  /// Requests a batch with all inputs added before. The result is available after the listener was called. It is an
+  /// Error if the batch failed, std::future_error if the worker was destroyed first.
   std::future<Figures> requestBatch();
 
   LiveGraph& graph() { return *graph_; }
   const LiveGraph& graph() const { return *graph_; }
   Counts counts() const { return {refused_, relaxations_}; }
-  /// Returns the state for the operator: the newest relaxation, and an error if nothing can be stored.
+  /// Returns the state for diagnostics: the last relaxation, and an error if data cannot be stored.
   urban_nav_live::StageReport report() const;
 
  private:
@@ -59,12 +59,12 @@ class GraphWorker {
   bool isBatchDue() const;
   void beginBatch();
   void finishBatch();
-  /// Calls the listener. Returns the figures with the time that the relaxation took.
+  /// Calls the listener. Returns the figures including the relaxation time.
   Figures publish(const LiveGraph::Outcome& outcome, double ms);
 
   using Clock = std::chrono::steady_clock;
   using Waiters = std::vector<std::shared_ptr<std::promise<Figures>>>;
-  /// Batch under way: its thread owns `work`, `duration` and `fault` until it sets `ended`.
+  /// A running batch. Its thread owns `work`, `duration` and `fault` until it sets `ended`.
   struct RunningBatch {
     std::unique_ptr<LiveGraph::Batch> work;
     Clock::time_point begin;
@@ -79,11 +79,11 @@ class GraphWorker {
   const Listener listener_;
   std::unique_ptr<RunningBatch> batch_;
   bool batch_requested_ = false;
-  Waiters waiters_;                 // for the batch that is requested
-  bool disagreement_ = false;       // an update found closures that only a batch can judge
-  Clock::time_point next_batch_{};  // the earliest time of a batch because of a disagreement
+  Waiters waiters_;                 // for the requested batch
+  bool disagreement_ = false;       // an update found closures that require a batch
+  Clock::time_point next_batch_{};  // earliest time of a batch due to a disagreement
   std::int64_t refused_ = 0, relaxations_ = 0;
-  // Of the newest relaxation and input, for report().
+  // State of the last relaxation and input, for report().
   Figures figures_;
   urban_nav_core::Status status_;
   std::string reason_name_ = "None", refusal_;

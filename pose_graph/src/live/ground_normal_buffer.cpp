@@ -8,8 +8,8 @@ namespace pose_graph {
 
 namespace {
 
-constexpr double kSpacing = 0.25, kTurn = 0.175;  // m, rad: as between the keyframes of `map`
-constexpr std::size_t kMostNormals = 2000;        // 100 s at 20 Hz: odometry lags by a few frames
+constexpr double kSpacing = 0.25, kTurn = 0.175;  // m, rad; as for the keyframes of `map`
+constexpr std::size_t kMostNormals = 2000;        // 100 s at 20 Hz; odometry lags by a few frames
 
 }  // namespace
 

@@ -9,16 +9,16 @@
 
 namespace pose_graph {
 
-/// Buffers normals of the ground until the poses of a session arrive, which lag them, and thins them: a robot that
-/// stands sees the same ground again. Bounded: the oldest of too many is dropped.
+/// Buffers ground normals until the delayed poses of a session arrive, and thins them, since a standing robot measures
+/// the same ground repeatedly. Bounded: the oldest normal is dropped.
 class GroundNormalBuffer {
  public:
   /// Adds a normal in the axes of base_link.
   void add(const GroundNormal& normal);
   /// Begins a session without poses.
   void beginSession() { last_.reset(); }
-  /// Returns the normals at poses of the running session, in order of time, at least 0.25 m or 10 deg after the one
-  /// before. Those of stamps that the session has passed without a pose are dropped.
+  /// Returns the normals at poses of the active session in order of time, each at least 0.25 m or 10 deg after the
+  /// previous one. Normals whose stamps have no pose are dropped once the session is past them.
   std::vector<GroundNormal> takeAt(const Track& track);
 
  private:
@@ -27,7 +27,7 @@ class GroundNormalBuffer {
     Pose T_odom_base;
   };
   std::deque<GroundNormal> waiting_;
-  std::optional<Taken> last_;  ///< of the running session
+  std::optional<Taken> last_;  ///< last normal returned in the active session
 };
 
 }  // namespace pose_graph

@@ -20,7 +20,7 @@
 
 namespace pose_graph {
 
-/// Closure as it is drawn: the present positions of its two poses.
+/// A closure for display: the current positions of its poses.
 struct ClosureMarker {
   enum class Style { Stereo, Icp, Plane, Asserted, Session, Waiting, Rejected };
   Eigen::Vector3d p_map_a, p_map_b;
@@ -32,14 +32,13 @@ struct Figures {
   std::int64_t revision = 0;
   std::int64_t sessions = 0, sessions_joined = 0, poses = 0, edges = 0;
   std::int64_t closures = 0, closures_rejected = 0, closures_waiting = 0;
-  std::int64_t closures_given_up = 0;  ///< odometry never reached their poses
+  std::int64_t closures_given_up = 0;  ///< their poses never appeared in odometry
   double cost_before = 0.0, cost_after = 0.0, relax_ms = 0.0;
 };
 /// Returns "201 poses, 2 closures, 0 rejected, 0 waiting; cost 41.5 -> 12.1 in 3.2 ms".
 std::string toSentence(const Figures& figures);
 
-/// Interface of a live graph, as its worker and the services use it. Used by one thread at a time. Throws UserError for
-/// errors of the user.
+/// Interface of a live graph for its worker and the services. Not thread-safe. Throws UserError for user errors.
 class LiveGraph {
  public:
   struct Outcome {
@@ -48,7 +47,7 @@ class LiveGraph {
     Figures figures;
     urban_nav_core::Status status;
     std::string reason_name;
-    bool needs_batch = false;  ///< closures were verified one by one: only a batch can decide which ones are wrong
+    bool needs_batch = false;  ///< closures were tested one by one: only a batch can decide which are false
   };
   struct EdgeReply {
     std::string message;
@@ -59,22 +58,22 @@ class LiveGraph {
     std::vector<urban_nav_core::TrajectorySegment> segments;
   };
   struct Picture {
-    std::vector<urban_nav_core::TrajectorySegment> segments;  ///< the running session last
+    std::vector<urban_nav_core::TrajectorySegment> segments;  ///< the active session is last
     std::vector<ClosureMarker> closures;
   };
-  /// Batch relaxation: from the edges alone, as the offline run.
+  /// Batch relaxation from the edges only, as in offline processing.
   class Batch {
    public:
     virtual ~Batch() = default;
-    /// Relaxes. To be called once, in any thread, while the graph is used. Returns early if `stop` is set.
+    /// Relaxes. Call once, in any thread; the graph may be used meanwhile. Returns early if `stop` is set.
     virtual void run(const std::atomic<bool>& stop) = 0;
   };
-  /// Work that is left of a service and needs no graph. To be called once, in any thread. Returns what was done.
+  /// Remaining work of a service that does not need the graph. Call once, in any thread. Returns a message.
   using DeferredTask = std::function<std::string()>;
 
   virtual ~LiveGraph() = default;
 
-  /// Adds an input; cheap.
+  /// Adds an input; does not relax.
   virtual void add(const urban_nav_core::SessionStep& step) = 0;
   virtual void add(const urban_nav_core::MetricClosure& closure) = 0;
   virtual void add(const urban_nav_core::RelativeConstraint& constraint) = 0;
@@ -82,45 +81,45 @@ class LiveGraph {
   virtual void add(const urban_nav_core::StampedPose& odometry) = 0;
   virtual void add(const SpecificForce& sample) = 0;
   virtual void add(const GroundNormal& normal) = 0;
-  /// Fixes of satellite navigation; used only with Parameters::gps.
+  /// Adds a position fix of satellite navigation; used only with Parameters::gps.
   virtual void add(const PositionFix& fix) = 0;
 
-  /// Returns true if inputs require a relaxation.
+  /// Returns whether inputs require a relaxation.
   virtual bool isRelaxationPending() const = 0;
-  /// Relaxes from the present poses.
+  /// Relaxes from the current poses.
   virtual Outcome relax() = 0;
 
-  /// Returns true if only a batch would do: sessions were loaded, or an edge was removed.
+  /// Returns whether a batch is required because sessions were loaded or an edge was removed.
   virtual bool isBatchPending() const = 0;
   virtual std::unique_ptr<Batch> beginBatch() = 0;
-  /// Applies a batch that has run, and places later poses relative to it. Returns nullopt if the graph of the batch
-  /// does not exist any more.
+  /// Applies a completed batch; later poses follow by odometry. Returns nullopt if the graph of the batch no longer
+  /// exists.
   virtual std::optional<Outcome> finishBatch(const Batch& batch) = 0;
 
-  /// Hands what is new to the store, if there is one. To be called some ten times a second. Never waits for the disk,
-  /// except to read a store that has just been opened.
+  /// Writes new data to the store, if any. Call about ten times a second. Does not block on the disk, except to read a
+  /// store that was just opened.
   virtual void syncStore() = 0;
   virtual urban_nav_live::StoreState storeState() const = 0;
   virtual urban_nav_core::Status status() const = 0;
 
   virtual std::int64_t revision() const = 0;
-  /// Returns the stamp of the newest pose of the running session; 0: none.
+  /// Returns the stamp of the newest pose of the active session; 0: none.
   virtual urban_nav_core::StampNs newest() const = 0;
-  /// Returns T_map_odom of the newest odometry; empty: not known yet.
+  /// Returns T_map_odom of the newest odometry; empty if unknown.
   virtual std::optional<urban_nav_core::Pose> T_map_odom() const = 0;
   virtual Picture picture() const = 0;
   /// Returns the poses from `from` to `to` (0: no bound) that moved since a revision (0: all).
   virtual Trajectory trajectory(urban_nav_core::StampNs from, urban_nav_core::StampNs to, std::int64_t since) const = 0;
 
-  /// Adds an edge by hand. Poses without a session belong to the running one.
+  /// Adds an edge manually. Poses without a session belong to the active one.
   virtual EdgeReply addEdge(const Closure& edge) = 0;
   virtual EdgeReply removeEdge(const urban_nav_core::EdgeRef& edge) = 0;
   virtual DeferredTask save(const std::string& path) = 0;
-  /// Adds the sessions that are not in the graph; a batch follows. Returns what was added.
+  /// Adds the sessions that are not in the graph yet; a batch follows. Returns a message.
   virtual std::string load(const StoredGraph& stored) = 0;
   /// Begins a session. Returns its id.
   virtual std::string newSession(const std::string& name) = 0;
-  /// Removes everything from the graph; the store keeps what it has.
+  /// Removes everything from the graph; the store is kept.
   virtual void reset() = 0;
 };
 

@@ -18,15 +18,15 @@ using urban_nav_core::UserError;
 
 namespace {
 
-// Closures that wait for odometry, which lags them by seconds at most: more of them name poses that do not exist.
+// Limit of held closures. Odometry lags closures by seconds at most; more of them refer to poses that do not exist.
 constexpr std::size_t kMaxHeld = 1000;
-// The earliest time to align a map with gravity: three spans of 2 s (level.hpp). The next attempt follows after twice
-// the drive.
+// Earliest time to align a map with gravity: three intervals of 2 s (level.hpp). Each further attempt waits until the
+// drive is twice as long.
 constexpr StampNs kFirstLevel = 6'500'000'000;
-// Longest time until specific forces and the ground reach the graph, and from there the store.
+// Maximum delay until specific forces and ground normals reach the graph and the store.
 constexpr StampNs kForcesPeriod = 10'000'000'000;
 
-// Time between batches for the sake of GPS fixes: within it odometry drifts by less than a fix is off.
+// Period of batches due to position fixes: odometry drifts less than the error of a fix within it.
 constexpr StampNs kFixesPeriod = 30'000'000'000;
 
 constexpr std::size_t kMostEarlyFixes = 1000;
@@ -61,7 +61,7 @@ LivePoseGraph::LivePoseGraph(const Parameters& parameters, const std::string& ro
               return options;
             }()),
       namer_(robot) {
-  findReference(parameters.solver, {});  // throws: this file has no solver
+  findReference(parameters.solver, {});  // throws: no reference solvers are available
 }
 
 LivePoseGraph::~LivePoseGraph() {
@@ -77,7 +77,7 @@ void LivePoseGraph::follow(const urban_nav_core::SessionStep& step) {
   announced_ = urban_nav_core::sessionId(step.session);
   const std::vector<urban_nav_store::Session> resumable = resumableSessions();
   const bool is_resumable = graph_.hasSession(announced_) && resumable_.count(announced_) > 0;
-  // An id whose poses were reset, or came from elsewhere, is not used again.
+  // An id whose poses were reset or loaded from elsewhere is not reused.
   if (step.session && (is_resumable || !namer_.isReserved(announced_)))
     return beginSession(namer_.follow(*step.session, resumable));
   beginSession(nameSession(step.session ? step.session->recording : recording_, step.from));
@@ -86,7 +86,7 @@ void LivePoseGraph::follow(const urban_nav_core::SessionStep& step) {
 void LivePoseGraph::prepareSession(StampNs start) {
   endSession();
   if (!session_.empty()) {
-    std::deque<Held> others;  // closures may name the next session before its odometry comes
+    std::deque<Held> others;  // closures may name the next session before its odometry arrives
     const auto never_comes = [this](const NodeRef& node) {
       return node.session.empty() || (node.session == session_ && node.stamp > newest());
     };
@@ -215,7 +215,7 @@ bool LivePoseGraph::isAhead(const Held& held) const {
 SessionId LivePoseGraph::findSession(const SessionId& named, StampNs stamp) const {
   if (named.empty()) return session_;
   if (named != announced_ || announced_ == session_) return named;
-  const Track* before = graph_.track(named);  // until new_session was called
+  const Track* before = graph_.track(named);  // from before new_session was called
   return before != nullptr && !before->stamps.empty() && stamp <= before->stamps.back() ? named : session_;
 }
 
@@ -239,7 +239,7 @@ void LivePoseGraph::addClosure(const Closure& closure, const std::string& eviden
   if (closure.verdict == ClosureVerdict::Rejected) {
     if (!writer_) return;
     urban_nav_store::Edge edge = toEdge(closure);
-    edge.measured.information.setZero();  // it constrains nothing, and is not read back into a graph
+    edge.measured.information.setZero();  // no constraint; not read back into a graph
     edge.weight = 0.0;
     writer_->putRejected(edge, evidence);
     return;
@@ -253,7 +253,7 @@ void LivePoseGraph::addHeldClosures() {
   std::deque<Held> held;
   std::string refusal;
   for (Held& each : std::exchange(held_, {})) {
-    nameSessions(each.closure);  // of one that arrived before the first odometry of its session
+    nameSessions(each.closure);  // for closures that arrived before the first odometry of their session
     if (isAhead(each)) {
       held.push_back(std::move(each));
       continue;
@@ -286,7 +286,7 @@ std::unique_ptr<LiveGraph::Batch> LivePoseGraph::beginBatch() {
 
 std::optional<LiveGraph::Outcome> LivePoseGraph::finishBatch(const Batch& batch) {
   const auto& done = dynamic_cast<const LiveBatch&>(batch);
-  // If another batch is due for which an update would not do, it would replace this one at once.
+  // A pending batch required for other reasons would replace this one immediately.
   if (done.generation() != generation_ || batch_due_) return std::nullopt;
   putGravity();
   changed_ = false;
@@ -309,7 +309,7 @@ std::string LivePoseGraph::load(const StoredGraph& stored) {
   return std::to_string(loaded.sessions) + " sessions with " + std::to_string(loaded.poses) + " poses and " +
          std::to_string(loaded.closures) + " closures are in the graph" +
          (loaded.refused > 0 ? "; " + std::to_string(loaded.refused) + " closures were refused" : "") +
-         (loaded.known > 0 ? "; " + std::to_string(loaded.known) + " sessions were there already" : "");
+         (loaded.known > 0 ? "; " + std::to_string(loaded.known) + " sessions were already loaded" : "");
 }
 
 LivePoseGraph::Loaded LivePoseGraph::addStored(const StoredGraph& stored, bool own) {
@@ -416,7 +416,7 @@ LiveGraph::EdgeReply LivePoseGraph::removeEdge(const EdgeRef& edge) {
   }
   if (meant.size() != 1) {
     throw UserError("", meant.empty() ? "no such edge" : "more than one edge",
-                    between.empty() ? "there is none between these poses, from a to b" : between);
+                    between.empty() ? "no edge between these poses from a to b" : between);
   }
   graph_.removeClosure(meant.front());
   changed_ = batch_due_ = true;  // its effect on the poses must be undone
@@ -430,12 +430,12 @@ LiveGraph::DeferredTask LivePoseGraph::save(const std::string& path) {
       writer->flush();
       if (const std::string fault = writer->counts().fault; !fault.empty()) throw UserError("", fault, "");
       std::error_code error;
-      if (std::filesystem::equivalent(own, path, error)) return "all of it is committed";
+      if (std::filesystem::equivalent(own, path, error)) return "already committed";
       copyStore(own, path);
       return "copied from " + own;
     };
   }
-  // Without a store of its own, a copy of the graph is written.
+  // Without a store, writes a copy of the graph.
   return [graph = graph_, sessions = sessions_, path] { return writeStore(graph, sessions, path); };
 }
 
@@ -452,12 +452,12 @@ void LivePoseGraph::reset() {
   if (writer_) {
     writer_->flush(graph_);
     writer_->reset();
-    for (const auto& [id, session] : sessions_) namer_.reserve(id);  // the store has them
+    for (const auto& [id, session] : sessions_) namer_.reserve(id);  // the store contains them
   } else {
     sessions_.clear();
     namer_.clear();
   }
-  graph_ = PoseGraph(parameters_, graph_.revision() + 1);  // must not be taken for the one before
+  graph_ = PoseGraph(parameters_, graph_.revision() + 1);  // must differ from revisions of the previous graph
   session_.clear();
   announced_.clear();
   odometry_time_.reset();

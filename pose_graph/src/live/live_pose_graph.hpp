@@ -23,12 +23,12 @@
 
 namespace pose_graph {
 
-/// Pose graph of a live robot: follows and resumes the sessions of the odometry (urban_nav_live::SessionNamer), holds
-/// closures back until odometry has reached their poses, converts what a relaxation did to outputs, and writes all of
-/// it to a store.
+/// Pose graph of a live robot. Follows and resumes the sessions of odometry (urban_nav_live::SessionNamer), holds
+/// closures until odometry has reached their poses, converts results of relaxations to outputs, and writes everything
+/// to a store.
 class LivePoseGraph : public LiveGraph {
  public:
-  /// `store`: path of the file; empty: none. Throws UserError if Parameters::solver names a reference solver.
+  /// `store`: path of the store; empty: none. Throws UserError if Parameters::solver names a reference solver.
   LivePoseGraph(const Parameters& parameters, const std::string& robot, std::string recording,
                 const std::string& store = "");
   ~LivePoseGraph() override;
@@ -68,13 +68,13 @@ class LivePoseGraph : public LiveGraph {
   struct Loaded {
     std::size_t sessions = 0, known = 0, poses = 0, closures = 0, refused = 0;
   };
-  /// Closure whose poses odometry has not reached.
+  /// A closure whose poses have not appeared in odometry yet.
   struct Held {
     Closure closure;
     std::string evidence;
-    int sessions = 0;  ///< begun when it came
+    int sessions = 0;  ///< number of sessions begun at its arrival
   };
-  /// Begins the session to which a step belongs, if it belongs to another one than the step before.
+  /// Begins a session if the step belongs to another one than the previous step.
   void follow(const urban_nav_core::SessionStep& step);
   void prepareSession(StampNs start);
   void beginSession(const urban_nav_live::SessionNamer::Named& named);
@@ -83,23 +83,23 @@ class LivePoseGraph : public LiveGraph {
   void writeSession(const urban_nav_store::Session& session);
   void endSession();
   NodeRef toNode(const urban_nav_core::PoseRef& ref) const;
-  /// Returns true if odometry has not reached the pose yet. `sessions`: number of those begun when it was named, since
-  /// a closure may name the next session before its odometry comes.
+  /// Returns whether the pose has not appeared in odometry yet. `sessions`: number of sessions begun when the pose was
+  /// named, since a closure may name the next session before its odometry arrives.
   bool isAhead(const NodeRef& node, int sessions) const;
   bool isAhead(const Held& held) const;
-  /// Returns the session of the graph in which a pose is: the running one if it names none.
+  /// Returns the session of the graph that contains a pose: the active one if `named` is empty.
   SessionId findSession(const SessionId& named, StampNs stamp) const;
   void nameSessions(Closure& closure) const;
   void addOrHold(Closure closure, const std::string& evidence);
   void addClosure(const Closure& closure, const std::string& evidence);
   void addHeldClosures();
-  /// `own`: from the store that this graph is written to.
+  /// `own`: read from the store that this graph is written to.
   Loaded addStored(const StoredGraph& stored, bool own);
   Outcome finish(const Relaxed& relaxed);
   void updateMapToOdom() { T_map_odom_ = map_to_odom_.estimate(running()); }
-  /// Hands the graph what an accelerometer, or else the ground, says of the direction of gravity.
+  /// Passes accelerometer data, or otherwise ground normals, to the graph.
   void putGravity();
-  /// Aligns the map with gravity, if that is possible.
+  /// Aligns the map with gravity if possible.
   void level();
   const Track* running() const { return graph_.track(session_); }
 
@@ -109,33 +109,34 @@ class LivePoseGraph : public LiveGraph {
   urban_nav_live::StoreWriterLink link_;
   std::unique_ptr<GraphStoreWriter> writer_;  // null: no store is open
   urban_nav_live::SessionNamer namer_;
-  SessionId session_;    // empty: no odometry yet
-  SessionId announced_;  // by the odometry; session_ is another one after new_session and reset. Empty: it does not
-                         // announce it
+  SessionId session_;  // empty: no odometry yet
+  // Announced by odometry; differs from session_ after new_session and reset; empty: odometry does not announce its
+  // session.
+  SessionId announced_;
   int sessions_begun_ = 0;
-  std::int64_t given_up_ = 0;                               // closures
-  urban_nav_live::TimeJumpDetector odometry_time_;          // of the running session
+  std::int64_t given_up_ = 0;                               // number of closures
+  urban_nav_live::TimeJumpDetector odometry_time_;          // of the active session
   std::map<SessionId, urban_nav_store::Session> sessions_;  // of the graph and of the store
   std::set<SessionId> resumable_;                           // begun by an earlier process
-  std::deque<Held> held_;                                   // until odometry reaches their poses
-  std::vector<PoseRevisions> revisions_;                    // of each track
-  std::deque<Outcome> ready_;                               // of relaxations that a service made
+  std::deque<Held> held_;                                   // until their poses appear in odometry
+  std::vector<PoseRevisions> revisions_;                    // per track
+  std::deque<Outcome> ready_;                               // results of relaxations made by services
   bool changed_ = false;                                    // since the last relaxation
-  bool batch_due_ = false;      // an update would not do: sessions were loaded, an edge was removed
-  bool is_exact_ = false;       // the last relaxation was a batch: the store gets every digit
+  bool batch_due_ = false;      // an update is insufficient: sessions were loaded or an edge was removed
+  bool is_exact_ = false;       // the last relaxation was a batch: poses are stored exactly
   bool session_ended_ = false;  // a batch follows
-  bool fixes_due_ = false;      // likewise: enough fixes have come since the last one
-  int generation_ = 0;          // of the graph: a batch of an earlier one is discarded
+  bool fixes_due_ = false;      // enough fixes since the last batch: a batch follows
+  int generation_ = 0;          // generation of the graph; batches of earlier ones are discarded
   MapToOdomEstimator map_to_odom_;
   std::optional<Pose> T_map_odom_;
   SpecificForceBuffer forces_;
   GroundNormalBuffer ground_;
-  std::deque<PositionFix> early_fixes_;  // before the first odometry
-  // Of the running session.
+  std::deque<PositionFix> early_fixes_;  // received before the first odometry
+  // Members of the active session.
   StampNs start_ = 0;
-  StampNs level_at_ = 0;   // the next attempt to align the map with gravity
-  StampNs fixes_at_ = 0;   // the next batch for the sake of GPS fixes
-  StampNs forces_at_ = 0;  // the next update of what the graph knows of gravity
+  StampNs level_at_ = 0;   // time of the next attempt to align the map with gravity
+  StampNs fixes_at_ = 0;   // time of the next batch due to position fixes
+  StampNs forces_at_ = 0;  // time of the next putGravity()
 };
 
 }  // namespace pose_graph

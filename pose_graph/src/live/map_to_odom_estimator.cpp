@@ -9,10 +9,10 @@ namespace pose_graph {
 
 namespace {
 
-// Odometry without a pose of the graph: 10 minutes at 20 Hz.
+// Limit of odometry without a matching pose of the graph: 10 minutes at 20 Hz.
 constexpr std::size_t kMaxOdometry = 12'000;
 
-constexpr double kRoundOff = 1e-9;  // m, rad; the noise of a standing robot is far above it
+constexpr double kRoundOff = 1e-9;  // m, rad; far below the noise of a standing robot
 
 bool isIdentity(const Pose& pose) { return isApprox(pose, Pose(), kRoundOff); }
 

@@ -7,7 +7,7 @@
 
 namespace pose_graph {
 
-/// Parameters of the nodelet apart from those of the graph (pose_graph/parameters.hpp): frames, session, display. One
+/// Parameters of the nodelet other than those of the graph (pose_graph/parameters.hpp): frames, session, display. One
 /// member per row of nodeletTable().
 struct NodeletParameters {
   std::string map_frame;

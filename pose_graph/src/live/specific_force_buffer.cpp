@@ -17,7 +17,7 @@ constexpr StampNs kFinal = 10 * kSecond, kKept = 600 * kSecond;
 
 void append(const SpecificForce& sample, std::vector<SpecificForce>& samples) {
   samples.push_back(sample);
-  // At twice the kept time half of the samples is erased at once.
+  // At twice the kept duration, half of the samples is erased at once.
   if (samples.front().stamp > sample.stamp - 2 * kKept) return;
   samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(), [&](const SpecificForce& each) {
                   return each.stamp > sample.stamp - kKept;
@@ -39,7 +39,7 @@ void SpecificForceBuffer::beginSession() {
 std::vector<SpecificForce> SpecificForceBuffer::meansAt(const std::vector<StampNs>& stamps) {
   if (samples_.empty() || stamps.empty()) return {};
   open_ = std::min(open_, stamps.size());
-  const std::size_t before = open_ > 0 ? open_ - 1 : 0;  // its neighbour has a part of the samples between them
+  const std::size_t before = open_ > 0 ? open_ - 1 : 0;  // the samples in between are divided among the neighbours
   const StampNs from = stamps[before] - kSecond;
   std::vector<SpecificForce> near;
   std::copy_if(samples_.begin(), samples_.end(), std::back_inserter(near),
@@ -50,7 +50,7 @@ std::vector<SpecificForce> SpecificForceBuffer::meansAt(const std::vector<StampN
   const auto first_open = std::upper_bound(stamps.begin() + static_cast<std::ptrdiff_t>(open_), stamps.end(),
                                            samples_.back().stamp - kFinal);
   open_ = static_cast<std::size_t>(first_open - stamps.begin());
-  // The last one's mean depends on when the next one will be.
+  // The mean at the last pose depends on the stamp of the next one.
   if (open_ == stamps.size()) --open_;
   return made;
 }

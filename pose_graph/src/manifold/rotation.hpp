@@ -10,7 +10,7 @@
 
 namespace pose_graph {
 
-/// Rotations of the plane and of space under one name. The tangent of the plane is one number, that of space three.
+/// Rotations of the plane and of space under common names. Their tangents have one and three components.
 template <int D>
 constexpr int kRotationSize = D == 2 ? 1 : 3;
 template <int D>
@@ -26,28 +26,29 @@ inline Rotation<2> expRotation(const RotationVector<2>& phi) {
 }
 inline Rotation<3> expRotation(const RotationVector<3>& phi) { return urban_nav_core::expSo3(phi).toRotationMatrix(); }
 
-/// |phi| <= pi.
+/// Returns the rotation vector, |phi| <= pi.
 inline RotationVector<2> logRotation(const Rotation<2>& R) {
   return RotationVector<2>(std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1)));
 }
 inline RotationVector<3> logRotation(const Rotation<3>& R) { return urban_nav_core::logSo3(Eigen::Quaterniond(R)); }
 
-/// d phi x v for a small turn d phi of v: the matrix that it is multiplied by.
+/// Returns the matrix of d phi -> d phi x v, the displacement of v by a small rotation.
 inline Eigen::Matrix<double, 2, 1> turned(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 inline Eigen::Matrix3d turned(const Eigen::Vector3d& v) { return -urban_nav_core::skew(v); }
 
-/// The rotation nearest to M in the Frobenius norm; M may be any matrix but zero.
+/// Returns the rotation nearest to M in the Frobenius norm; M must not be zero.
 Rotation<2> nearestRotation(const Eigen::Matrix2d& M);
 Rotation<3> nearestRotation(const Eigen::Matrix3d& M);
 
-/// A rotation without the round-off of a long product, which a transpose taken for an inverse would double at each
-/// step: one step of Newton's method to the nearest rotation.
+/// Returns the rotation without the accumulated round-off of a long product, by one Newton step to the nearest
+/// rotation. Otherwise, using the transpose as inverse would double the round-off in each step.
 template <int D>
 Rotation<D> renormalised(const Rotation<D>& R) {
   return 0.5 * R * (3.0 * Rotation<D>::Identity() - R.transpose() * R);
 }
 
-/// Derivative of the end of an edge's lever arm by a move (rho, phi) of T_from_to, both in the axes of `from`.
+/// Returns the derivative of the end of an edge's lever arm with respect to a move (rho, phi) of T_from_to, both in the
+/// axes of `from`.
 template <int D>
 TangentMatrix<D> leverJacobian(const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
   TangentMatrix<D> J = TangentMatrix<D>::Identity();
@@ -57,7 +58,7 @@ TangentMatrix<D> leverJacobian(const Edge<D>& edge, const Rigid<D>& from, const 
   return J;
 }
 
-/// T moved by d = (rho, phi): [Exp(phi) R, t + rho], both in the parent frame.
+/// Returns T moved by d = (rho, phi): [Exp(phi) R, t + rho], both in the parent frame.
 template <int D>
 Rigid<D> moved(const Rigid<D>& T, const Tangent<D>& d) {
   return {expRotation(RotationVector<D>(d.template tail<kRotationSize<D>>())) * T.R, T.t + d.template head<D>()};

@@ -6,19 +6,19 @@
 
 namespace pose_graph {
 
-/// Change of a relative pose by each common error, one column each.
+/// Change of a relative pose by each common error, one column per error.
 template <int D>
 using Displacements = Eigen::Matrix<double, kTangentSize<D>, Eigen::Dynamic>;
 
-/// Returns J^T W s by places, s being the displacement of the measurements by one standard deviation of a common error.
-/// H^-1 times it is the displacement of the minimum of the geodesic objective. `number`: of each edge of `equations`,
-/// its index in CommonError::of_edge.
+/// Returns J^T W s by places, with s the displacement of the measurements by one standard deviation of a common error.
+/// H^-1 times it is the displacement of the minimum of the geodesic objective. `number`: by edge of `equations`, its
+/// index in CommonError::of_edge.
 template <int D>
 std::vector<double> commonGradient(const NormalEquations<D>& equations, const std::vector<Rigid<D>>& poses,
                                    const CommonError<D>& common, const std::vector<std::size_t>& number);
 
-/// Adds the covariance of the columns of `moved`, each of unit variance. Where only a singular information is known, it
-/// is reduced as if its inverse existed: I - I U (1 + U^T I U)^-1 U^T I.
+/// Adds the covariance of the columns of `moved`, each of unit variance. A singular information is reduced as if its
+/// inverse existed: I - I U (1 + U^T I U)^-1 U^T I.
 template <int D>
 void consider(const Displacements<D>& moved, Marginal<D>& marginal);
 

@@ -8,8 +8,9 @@ namespace pose_graph {
 
 namespace {
 
-// Of the variance, in units of its own deviations. Pins are 1e-6 of the diagonal, so that what they hold varies more
-// than what edges hold, and the difference of two such covariances is right to about 1e-8.
+// Share of free variance, in units of its own deviations, above which a direction is free. Pins are 1e-6 of the
+// diagonal: pinned directions have a larger variance than constrained ones, and the difference of two such covariances
+// is accurate to about 1e-8.
 constexpr double kFree = 1e-5;
 
 }  // namespace

@@ -5,9 +5,9 @@
 
 namespace pose_graph {
 
-/// What is known of N numbers whose covariance under pins is `pinned`, and of that the part `free` is the pins' alone:
-/// twice the difference between pins and pins of double strength, since everything that edges determine does not depend
-/// on them.
+/// Converts a covariance computed with pins to a marginal. `pinned`: the covariance; `free`: its part that is due to
+/// the pins only, twice the difference between pins and pins of double strength, since everything determined by edges
+/// does not depend on the pins.
 template <int D>
 Marginal<D> withoutPins(const TangentMatrix<D>& pinned, const TangentMatrix<D>& free);
 

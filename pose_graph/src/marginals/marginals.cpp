@@ -14,7 +14,7 @@ namespace pose_graph {
 
 namespace {
 
-/// Edges with information, weighted, and their numbers among all edges.
+/// The edges with information, with weights applied, and their numbers among all edges.
 template <int D>
 struct InformativeEdges {
   Problem<D> problem;
@@ -34,7 +34,7 @@ struct InformativeEdges {
   }
 };
 
-/// A factor of the normal equations, with pins where they are singular, and the inverse on their pattern.
+/// A factor of the normal equations, with pins if they are singular, and its inverse on the pattern.
 template <int D>
 struct Inverse {
   static constexpr int kN = kTangentSize<D>;
@@ -43,7 +43,7 @@ struct Inverse {
 
   explicit Inverse(const Symbolic& symbolic) : cholesky(symbolic) {}
 
-  /// The block of two unknowns, row a and column b.
+  /// Returns the block of two unknowns, row a and column b.
   TangentMatrix<D> block(const BlockPattern& pattern, int a, int b) const {
     const Symbolic& shape = *pattern.symbolic;
     if (a == b) return selected.diagonal[sz(shape.place[sz(a)])];
@@ -55,7 +55,7 @@ struct Inverse {
   }
 };
 
-/// d_ab = J_a x_a + J_b x_b: how T_a_b changes, in a's axes, when both are moved in the map's.
+/// d_ab = J_a x_a + J_b x_b: change of T_a_b, in the axes of a, if both poses are moved in the map frame.
 template <int D>
 struct Between {
   TangentMatrix<D> J_a = TangentMatrix<D>::Zero(), J_b = TangentMatrix<D>::Zero();
@@ -93,7 +93,8 @@ struct Marginals<D>::Parts {
 
   NormalEquations<D> equations;
   std::vector<Rigid<D>> poses;
-  std::vector<Inverse<D>> inverse;  // one; of singular equations a second with pins of double strength; none: overflow
+  // One; for singular equations a second one with pins of double strength; empty: overflow.
+  std::vector<Inverse<D>> inverse;
   std::vector<std::vector<double>> displaced;  // displacement of the poses by each common error, by places
 
   Parts(const InformativeEdges<D>& edges, const std::vector<Rigid<D>>& at, const std::vector<CommonError<D>>& common)

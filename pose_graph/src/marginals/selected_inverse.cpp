@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The inverse on the columns and rows of the supernodes above the one at work, as long as one below needs it.
+/// The inverse on the columns and rows of the ancestors of the current supernode, kept while a descendant needs it.
 class Ancestors {
  public:
   Eigen::Map<const MatrixXd> last() const {
@@ -34,8 +34,8 @@ class Ancestors {
   std::vector<Index> sizes_;
 };
 
-// With L = [L_c; L_r] the columns of a supernode, W = L_c^-T L_r^T and S the inverse on the rows below, the inverse is
-// [L_c^-T L_c^-1 + W S W^T, -W S; ., S].
+// Completes the inverse on a supernode. With L = [L_c; L_r] its columns, W = L_c^-T L_r^T and S the inverse on the rows
+// below, the inverse is [L_c^-T L_c^-1 + W S W^T, -W S; ., S].
 void complete(MatrixXd& inverse, const Eigen::Map<const MatrixXd>& panel) {
   using namespace urban_nav_core;
   const Index columns = panel.cols(), rows = panel.rows() - columns;
@@ -64,7 +64,7 @@ BlockMatrix<B> selectedInverse(const BlockCholesky<B>& cholesky, const BlockPatt
   std::vector<int> first_child(sz(shape.size()), -1);
   for (int s = shape.size() - 1; s >= 0; --s)
     if (shape.parent[sz(s)] >= 0) first_child[sz(shape.parent[sz(s)])] = s;
-  // Against the postorder each supernode comes after its parent, and the last of its children to come is its first.
+  // In reverse postorder each supernode follows its parent, and the last child visited is the first one in postorder.
   Ancestors ancestors;
   std::vector<int> local(shape.node.size(), 0);
   MatrixXd inverse;
@@ -74,7 +74,7 @@ BlockMatrix<B> selectedInverse(const BlockCholesky<B>& cholesky, const BlockPatt
     inverse.resize(B * (columns + rows), B * (columns + rows));
     if (rows > 0) {
       const int parent = shape.parent[sz(s)], parent_begin = shape.begin[sz(parent)];
-      // `local` of a row still is where its own supernode or one between has it: count anew in the parent.
+      // `local` still holds positions in another supernode: compute those in the parent.
       const int* above = shape.rows.data() + shape.row_begin[sz(parent)];
       int at = 0;
       for (int r = 0; r < rows; ++r) {

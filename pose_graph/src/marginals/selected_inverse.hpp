@@ -5,9 +5,9 @@
 
 namespace pose_graph {
 
-/// The blocks of A^-1 that stand where A has blocks, from the factor of A: from the last supernode to the first, each
-/// from what is known of the rows below it (Takahashi, Fagan, Chin 1973; Erisman, Tinney, Comm. ACM 1975), dense piece
-/// by dense piece. Takes about twice the operations of the factorisation. Compiled for B = 2, 3, 6.
+/// Returns the blocks of A^-1 on the pattern of A, from the factor of A: from the last supernode to the first, each
+/// computed from the inverse on the rows below it (Takahashi, Fagan, Chin 1973; Erisman, Tinney, Comm. ACM 1975), with
+/// dense panels. Takes about twice the operations of the factorisation. Instantiated for B = 2, 3, 6.
 template <int B>
 BlockMatrix<B> selectedInverse(const BlockCholesky<B>& cholesky, const BlockPattern& pattern);
 

@@ -8,7 +8,7 @@ namespace pose_graph {
 
 namespace {
 
-// 1 / trace(M^-1) of a positive semidefinite M; 0 where M is singular, which is the limit.
+// Returns 1 / trace(M^-1) of a positive semidefinite M; 0, the limit, if M is singular.
 template <int N>
 double harmonic(const Eigen::Matrix<double, N, N>& M) {
   const double size = M.trace();
@@ -25,7 +25,7 @@ RotationError<3> geodesicError(const Rotation<3>& R_E) {
   return {e, urban_nav_core::leftJacobianInverseSo3(e)};
 }
 
-// Twice the quaternion's vector, so that it means the same as the rotation vector where it is small.
+// Twice the vector part of the quaternion, which equals the rotation vector for small angles.
 RotationError<3> quaternionError(const Rotation<3>& R_E) {
   Eigen::Quaterniond q(R_E);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -63,7 +63,7 @@ double chordSquared(const Rotation<D>& R_E) {
   return (R_E - Rotation<D>::Identity()).squaredNorm();
 }
 
-// The axis of R_E's skew part: tr([phi]x R_E) = -phi . axis.
+// Returns the axis of the skew part of R: tr([phi]x R) = -phi . axis.
 RotationVector<2> skewAxis(const Rotation<2>& R) { return RotationVector<2>(R(1, 0) - R(0, 1)); }
 RotationVector<3> skewAxis(const Rotation<3>& R) { return {R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)}; }
 
@@ -95,8 +95,8 @@ EdgeTerm<D> makeTerm(const Edge<D>& edge) {
   made.lever = edge.lever;
   made.has_lever = edge.hasLever();
   made.tau = D * harmonic<D>(edge.information.template topLeftCorner<D, D>());
-  // SE-Sync has 3 / (2 trace) of the information of the quaternion's vector, which is four times that of the rotation
-  // vector.
+  // SE-Sync uses 3 / (2 trace) of the information of the quaternion's vector part, which is four times that of the
+  // rotation vector.
   made.kappa =
       D == 2 ? edge.information(D, D) : 6.0 * harmonic<kR>(edge.information.template bottomRightCorner<kR, kR>());
   return made;

@@ -8,27 +8,26 @@
 
 namespace pose_graph {
 
-/// What an objective needs of an edge, made once: `rotation` and `translation` are kappa and tau of the chordal
-/// objective.
+/// Precomputed data of an edge. `kappa`, `tau`: weights of rotation and translation in the chordal objective.
 template <int D>
 struct EdgeTerm {
   int from = 0, to = 0;
   Rotation<D> R_Z;
-  Eigen::Matrix<double, D, 1> t_Z;  ///< of Z, in the frame of its child: R_Z^T t
+  Eigen::Matrix<double, D, 1> t_Z;  ///< translation of Z in the frame of its child: R_Z^T t
   TangentMatrix<D> information;
   double kappa = 0.0, tau = 0.0;
   Eigen::Matrix<double, D, 1> lever = Eigen::Matrix<double, D, 1>::Zero();  ///< as in Edge
   bool has_lever = false;
 
-  /// The pose that Z measures: `to`, shifted by the lever arm.
+  /// Returns the pose that Z measures: `to` displaced by the lever arm.
   Rigid<D> measured(const Rigid<D>& to) const { return has_lever ? Rigid<D>{to.R, to.t + to.R * lever} : to; }
 };
 template <int D>
 EdgeTerm<D> makeTerm(const Edge<D>& edge);
 
-/// An edge's cost around two poses. With A = R_from R_Z (how the child of Z would stand in the map) and d = t_to -
-/// t_from, every objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to alone, so that it does not
-/// change when both poses move together. Moving `to` by y, in the axes of A, changes it to
+/// Quadratic approximation of an edge's cost. With A = R_from R_Z (predicted rotation of Z's child in the map) and d =
+/// t_to - t_from, every objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to, and is invariant under a
+/// common motion of both poses. Moving `to` by y, in the axes of A, changes it to
 ///   cost + 2 g^T y + y^T H y + ...
 /// H is the Gauss-Newton matrix, positive semidefinite.
 template <int D>
@@ -41,8 +40,8 @@ template <Objective objective, int D>
 LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t,
                                  const Rotation<D>& R_E);
 
-/// The error's rotation as an objective writes it, and its derivative by a turn of R_E from the left. Not of the
-/// chordal one.
+/// The rotation error of an objective and its derivative with respect to a left rotation of R_E. Not used for the
+/// chordal objective.
 template <int D>
 struct RotationError {
   RotationVector<D> e;
@@ -53,13 +52,13 @@ RotationError<2> rotationError(const Rotation<2>& R_E);
 template <Objective objective>
 RotationError<3> rotationError(const Rotation<3>& R_E);
 
-/// The cost alone.
+/// Returns the cost without derivatives.
 template <Objective objective, int D>
 double localCost(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E);
 
-/// The same cost in the map's axes, for both poses moved by x_from and x_to (moved() of manifold/rotation.hpp):
+/// The approximation in the map's axes, for both poses moved by x_from and x_to (moved() of manifold/rotation.hpp):
 ///   cost + 2 (g_from^T x_from + g_to^T x_to) + x_to^T K x_to + ...
-/// The derivatives by `from` follow, since nothing changes when both move as one body: with T = [I, -[d]x; 0, I],
+/// Derivatives with respect to `from` follow from the invariance under a common motion. With T = [I, -[d]x; 0, I]:
 ///   g_from = -T^T g_to,  H_from_to = -T^T K,  H_from_from = T^T K T.
 template <int D>
 struct EdgeQuadratic {
@@ -69,8 +68,8 @@ struct EdgeQuadratic {
   TangentMatrix<D> K;
 };
 
-/// Converts a quadratic for the end of a lever arm to one for the pose itself: a turn phi of the pose shifts the end,
-/// which is `arm` away from it in the map's axes, by phi x arm. `d` becomes that of the pose.
+/// Converts a quadratic for the end of a lever arm to one for the pose. A rotation phi of the pose displaces the end,
+/// at `arm` in the map's axes, by phi x arm. `d` becomes that of the pose.
 template <int D>
 void moveFromLever(const Eigen::Matrix<double, D, 1>& arm, EdgeQuadratic<D>& quadratic) {
   constexpr int kR = kRotationSize<D>;

@@ -13,7 +13,7 @@ namespace {
 Eigen::Matrix3d logByLeft(const RotationVector<3>& phi) {
   const double angle = phi.norm();
   const Eigen::Matrix3d cross = -turned(phi);
-  // Near pi the second form is what (1 + cos) / sin tends to.
+  // Near pi, `second` is replaced by the limit of (1 + cos) / sin.
   const double second = angle < 1e-4 ? 1.0 / 12.0
                         : angle > 3.14
                             ? 1.0 / (angle * angle)

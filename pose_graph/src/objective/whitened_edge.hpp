@@ -9,13 +9,13 @@
 
 namespace pose_graph {
 
-/// Logarithm of a turn, and of the square of the normal distribution's constant.
+/// Log of a full turn, and of the square of the normal distribution's constant.
 const double kLogTwoPi = std::log(2.0 * M_PI);
-/// Of the largest eigenvalue of an information: less is round-off.
+/// Share of the largest eigenvalue of an information below which an eigenvalue is round-off.
 constexpr double kZeroEigenvalue = 1e-12;
 
-/// An edge with a square root of its information, W^T W = information, one row for each direction that it measures and
-/// zeros below. Nothing is inverted, so the information may be singular.
+/// An edge with a square root of its information, W^T W = information: one row per measured direction, followed by zero
+/// rows. The information may be singular.
 template <int D>
 struct WhitenedEdge {
   int from = 0, to = 0;
@@ -26,15 +26,16 @@ struct WhitenedEdge {
 };
 template <int D>
 WhitenedEdge<D> whitened(const Edge<D>& edge);
-/// All of them; the root of what successive edges have in common is taken once.
+/// Whitens all edges; equal information of successive edges is decomposed once.
 template <int D>
 std::vector<WhitenedEdge<D>> whitened(const std::vector<Edge<D>>& edges);
 
-/// W e, with e as in Edge: its square is the edge's cost.
+/// Returns W e, with e as in Edge: its square is the edge's cost.
 template <int D>
 Tangent<D> whitenedError(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to);
 
-/// Its derivatives by moves of both poses (moved() of manifold/rotation.hpp), exact at any error.
+/// The whitened error and its derivatives with respect to moves of both poses (moved() of manifold/rotation.hpp), exact
+/// at any error.
 template <int D>
 struct WhitenedJacobians {
   Tangent<D> error;

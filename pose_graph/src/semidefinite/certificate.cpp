@@ -13,18 +13,18 @@ namespace pose_graph {
 
 namespace {
 
-// The shift is tried from a gap of this share of the cost on, ten times as large each time, and then between the last
-// two, by halves of the exponent. What is less drowns in round-off.
+// Search of the shift: from a gap of this share of the cost, increased by a factor of ten, then bisected between the
+// last two values on a logarithmic scale. A smaller gap is round-off.
 constexpr double kLeastEigenvalueShare = 1e-9, kCertified = 1e-4;
 constexpr int kHalvings = 4;
-// Of the cost: what a further step may still gain.
+// Convergence: share of the cost that a further step may gain.
 constexpr double kConverged = 1e-15;
-// Of the largest entry: as much as a factorisation of some thousand poses may err.
+// Round-off of a factorisation of some thousand poses, relative to the largest entry.
 constexpr double kFactorRoundOff = 1e-13;
-// Of the same and the number of rotations' entries: the cost of residuals that are round-off.
+// Cost of residuals at round-off level, relative to the largest entry and the number of rotation entries.
 constexpr double kNoCost = 1e-20;
 
-/// Half the gradient of the cost by a pose, (X M)_i, and the multiplier that it asks for.
+/// Half the gradient of the cost with respect to a pose, (X M)_i, and the corresponding multiplier.
 template <int D>
 struct PoseGradient {
   Eigen::Matrix<double, D, 1> by_t = Eigen::Matrix<double, D, 1>::Zero();
@@ -55,7 +55,7 @@ std::vector<PoseGradient<D>> gradients(const std::vector<EdgeTerm<D>>& terms, co
   return result;
 }
 
-/// The poses whose part has a fixed one, which are not fixed themselves.
+/// Returns by pose whether it is free and its component has a fixed pose.
 template <int D>
 std::vector<char> findAnchored(const Problem<D>& problem, const Unknowns& unknowns) {
   std::vector<char> result(problem.poses.size(), 0);
@@ -65,8 +65,8 @@ std::vector<char> findAnchored(const Problem<D>& problem, const Unknowns& unknow
   return result;
 }
 
-/// Returns the depth of the minimum of a part's quadratic form, with fixed poses, below its value at these poses:
-/// tr(B S^-1 B^T), B half its gradient there. `cholesky`: of S with `eta` on its rotations.
+/// Returns how far the minimum of a component's quadratic form, given its fixed poses, is below its value at these
+/// poses: tr(B S^-1 B^T), with B half the gradient there. `cholesky`: factor of S with `eta` added to its rotations.
 template <int D>
 double depthOfAnchored(const QuadraticForm<D>& form, const BlockCholesky<D + 1>& cholesky,
                        const std::vector<PoseGradient<D>>& gradient, const std::vector<Rigid<D>>& poses,
@@ -117,8 +117,7 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
       if (form.unknowns.component[sz(term.from)] != part)
         free_cost += edgeCost<Objective::Chordal, D>(term, poses[sz(term.from)], poses[sz(term.to)]);
   }
-  // All of a free part may be shifted together at no cost: the translation of its first pose is held, which changes no
-  // sign.
+  // A free component may be shifted at no cost: holding the translation of its first pose does not change definiteness.
   form.hold(S, largest);
   const double numbers = static_cast<double>(D) * static_cast<double>(poses.size());
   BlockCholesky<D + 1> cholesky(form.symbolic);
@@ -139,7 +138,7 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
     if (free < poses.size() && isPositive(eta))
       *made.gap += depthOfAnchored(form, cholesky, gradient, poses, anchored, eta);
   }
-  // Where measurements fit to the last digit, the cost is nothing and any share of it less.
+  // If measurements fit to the last digit, the cost is zero up to round-off and has no meaningful share.
   const double scale = largest * numbers;
   const bool fits = made.cost <= kNoCost * scale && made.gap && *made.gap <= 1e3 * kFactorRoundOff * scale;
   made.certified = fits || (made.gap && *made.gap <= kCertified * made.cost);

@@ -14,14 +14,14 @@ namespace pose_graph {
 
 namespace {
 
-constexpr int kSideBySide = 8;  // dimensions, as many as BlockCholesky solves for side by side
-constexpr double kNoise =
-    0.3;  // of each number of the start: leaves the rotations what they are, and every way out open
+constexpr int kSideBySide = 8;  // dimensions; as many as BlockCholesky::solveEight() has right-hand sides
+// Noise on each number of the initial value: small enough to keep the rotations, and it excites all dimensions.
+constexpr double kNoise = 0.3;
 constexpr int kLiftedSteps = 60, kInner = 60;
-constexpr double kEnoughOfCost = 1e-5;  // of the cost, as what a step promises
-constexpr double kForcing = 0.1;        // of the gradient, where a step is exact enough
+constexpr double kEnoughOfCost = 1e-5;  // convergence: predicted decrease relative to the cost
+constexpr double kForcing = 0.1;        // relative to the gradient: accuracy of the inner solution
 
-using Numbers = std::vector<double>;  // X^T by places: D + 1 rows of kWide numbers each
+using Numbers = std::vector<double>;  // X^T by places: D + 1 rows of kSideBySide numbers each
 
 double dot(const Numbers& a, const Numbers& b) {
   double sum = 0.0;
@@ -45,7 +45,7 @@ class Lifted {
     cost_ = renew();
   }
 
-  /// By the curvature that the multipliers have on average: f = sum tr(Lambda_i).
+  /// Factors the preconditioner, with the mean curvature of the multipliers: f = sum tr(Lambda_i).
   bool prepare() {
     BlockMatrix<kB> A = form_.M;
     const double mean = cost_ / (D * static_cast<double>(A.diagonal.size()));
@@ -57,7 +57,7 @@ class Lifted {
   double cost() const { return cost_; }
   const Numbers& x() const { return x_; }
 
-  /// False where no step is left worth the name.
+  /// Makes one step. Returns false if no significant step is left.
   bool step() {
     double predicted = 0.0;
     const Numbers s = truncated(predicted);
@@ -97,7 +97,7 @@ class Lifted {
       }
   }
 
-  /// Onto the tangent space at x.
+  /// Projects v onto the tangent space at x.
   void project(Numbers& v) const {
     for (std::size_t k = 0; k < lambda_.size(); ++k) {
       if (form_.holdsTranslation(static_cast<int>(k)))
@@ -119,7 +119,7 @@ class Lifted {
     return cost_;
   }
 
-  /// Half the Hessian, as gradient_ is half the gradient.
+  /// Computes half of the Hessian times v, as gradient_ is half of the gradient.
   void hessian(const Numbers& v, Numbers& made) const {
     multiply(v, made);
     for (std::size_t k = 0; k < lambda_.size(); ++k) rows(made, k) -= lambda_[k] * rows(v, k);
@@ -143,7 +143,7 @@ class Lifted {
     }
   }
 
-  /// Steihaug's truncated conjugate gradients; lengths as the preconditioner measures them.
+  /// Steihaug's truncated conjugate gradients, with lengths in the norm of the preconditioner.
   Numbers truncated(double& predicted) {
     Numbers s(x_.size(), 0.0), r = gradient_, z = preconditioned(r), d = z, Hd;
     for (double& value : d) value = -value;
@@ -211,7 +211,7 @@ Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
   return x;
 }
 
-/// Projects each part by itself: its D dimensions are not another's. Those of a part with fixed poses are theirs.
+/// Projects each component separately, as each has its own D dimensions. A component with fixed poses has theirs.
 template <int D>
 std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, const Numbers& x,
                                               const std::vector<Rigid<D>>& start, const std::vector<int>& fixed) {

@@ -9,7 +9,7 @@ namespace pose_graph {
 
 namespace {
 
-/// The edges that count, with their weights in their information.
+/// Returns the edges with weight, with the weights in their information.
 template <int D>
 Problem<D> weighed(const Problem<D>& problem, const std::vector<double>& weights) {
   Problem<D> made;

@@ -14,13 +14,13 @@ namespace pose_graph {
 
 namespace {
 
-// Of the largest entry of the diagonal, growing until the factorisation holds.
+// Share of the largest diagonal entry, increased until the factorisation succeeds.
 constexpr double kSettleDamping = 1e-12, kMostDamping = 1e-3, kGrowth = 100.0;
 
-// Of the edges: so many fewer are left out by their weight. Finding an order anew costs as much as some factorisations.
+// Share of edges that may be excluded by zero weight: computing a new order takes as long as a few factorisations.
 constexpr double kGone = 0.05;
 
-// Multiplications of blocks.
+// Returns the number of block multiplications of a factorisation.
 double factorWork(const Symbolic& symbolic) {
   double sum = 0.0;
   for (int s = 0; s < symbolic.size(); ++s) {

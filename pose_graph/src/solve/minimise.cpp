@@ -11,13 +11,12 @@ namespace pose_graph {
 namespace {
 
 constexpr double kFirstDamping = 1e-10, kLeastDamping = 1e-16, kLargestDamping = 1e8;
-// Of the largest entry of the diagonal: what is less is round-off. Nothing is known of such a direction.
+// Share of the largest diagonal entry below which an entry is round-off and the direction has no information.
 constexpr double kZeroDiagonal = 1e-12;
-// Of the lengths that a residual is the difference of, and of a radian: some dozens of a double's last bits.
+// Round-off of a residual relative to the lengths that it is the difference of, or to one radian.
 constexpr double kLeast = 1e-14;
 
-// What damping multiplies: the diagonal, and where that is nothing its largest entry, which holds directions without
-// information where they are.
+// Scale of the damping: the diagonal, or its largest entry for directions without information, which are thereby held.
 template <int D>
 std::vector<Tangent<D>> dampingScale(const std::vector<TangentMatrix<D>>& diagonal) {
   double largest = 0.0;
@@ -38,7 +37,7 @@ void addDamping(BlockMatrix<kTangentSize<D>>& H, const std::vector<TangentMatrix
   }
 }
 
-// What the cost is where each residual is as small as the numbers allow: less is nothing.
+// Returns the cost of residuals at round-off level; a lower cost is not meaningful.
 template <int D>
 double roundOff(const NormalEquations<D>& equations, const std::vector<Rigid<D>>& poses,
                 const std::vector<double>& weights) {
@@ -73,7 +72,7 @@ double dotProduct(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-/// What further steps will still gain, by how much less each gains than the one before.
+/// Predicts the further decrease of the cost from the ratio of successive decreases.
 class Forecast {
  public:
   double remaining(double gained) {
@@ -95,7 +94,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
   Descent made;
   made.ending = Ending::Iterations;
   double damping = 0.0;
-  double least_damping = 0.0;  // the least with which the equations could be factored
+  double least_damping = 0.0;  // least damping with which the factorisation succeeded
   Forecast forecast;
   std::vector<double> x;
   std::vector<TangentMatrix<D>> undamped;
@@ -129,8 +128,8 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& 
         next = stepped(equations, x, poses);
         step.cost = equations.cost(options.objective, next, weights);
         if (std::isfinite(step.cost) && step.cost <= made.cost) break;
-        // At the minimum round-off decides: a step that promises nothing is no step. A damped one promises nothing
-        // anywhere if it is short enough: there the plain one decides.
+        // At the minimum round-off dominates, and a predicted decrease of about zero indicates convergence. Only the
+        // undamped step is conclusive, since a strongly damped one predicts little decrease anywhere.
         const bool is_nothing = step.predicted <= options.tolerance * made.cost;
         if ((is_nothing && damping <= least_damping) || made.cost <= roundOff(equations, poses, weights)) {
           made.ending = Ending::Converged;

@@ -8,17 +8,17 @@
 
 namespace pose_graph {
 
-/// What a minimisation did.
+/// Result of a minimisation.
 struct Descent {
   double cost = 0.0;
   std::vector<Iteration> iterations;
   Ending ending = Ending::Converged;
 };
 
-/// Gauss-Newton, and Levenberg-Marquardt where a plain step would raise the cost (Nocedal, Wright, Numerical
-/// Optimization, chapter 10; damping in proportion to the diagonal as Marquardt has it). Only an undamped step ends it
-/// as converged: one that is damped until it is short promises little anywhere. `poses` are moved in place; they are
-/// never worse than they were.
+/// Gauss-Newton; Levenberg-Marquardt if a plain step would raise the cost (Nocedal, Wright, Numerical Optimization,
+/// chapter 10; damping proportional to the diagonal, as in Marquardt's method). Only an undamped step can indicate
+/// convergence, since a strongly damped step predicts little decrease anywhere. Updates `poses` in place; their cost
+/// never increases.
 template <int D>
 Descent minimise(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const SolveOptions& options,
                  const std::vector<double>& weights, std::vector<Rigid<D>>& poses);

@@ -20,7 +20,7 @@ Adjacency adjacencyOfUnknowns(const Problem<D>& problem, const Unknowns& unknown
   return makeAdjacency(static_cast<int>(unknowns.pose.size()), pairs);
 }
 
-// T = [I, turned(d); 0, I] of EdgeQuadratic: K T and T^T K by their blocks alone.
+// T = [I, turned(d); 0, I] of EdgeQuadratic: K T and T^T K by blocks.
 template <int D>
 TangentMatrix<D> timesT(const TangentMatrix<D>& K, const Eigen::Matrix<double, D, kRotationSize<D>>& turn) {
   TangentMatrix<D> made = K;
@@ -34,8 +34,8 @@ TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, kRotationSize<D>
   return made;
 }
 
-constexpr double kHardlyMore = 1.25;      // times the work of a factorisation
-constexpr std::size_t kEdgeGrain = 4096;  // edges summed by one thread at a time: fewer are not worth waking one
+constexpr double kHardlyMore = 1.25;      // limit of the work relative to that of the stored order
+constexpr std::size_t kEdgeGrain = 4096;  // edges summed per thread; fewer do not justify another thread
 
 }  // namespace
 
@@ -49,7 +49,7 @@ Unknowns makeUnknowns(const Problem<D>& problem) {
   unknowns.of_pose.assign(sz(n), 0);
   unknowns.component.assign(sz(n), 0);
   for (int i = 0; i < n; ++i) {
-    const int root = components.root(i);  // the first pose of its component
+    const int root = components.root(i);  // first pose of its component
     if (root == i) {
       unknowns.component[sz(i)] = unknowns.components++;
       unknowns.origin.push_back(i);
@@ -71,7 +71,7 @@ Unknowns makeUnknowns(const Problem<D>& problem) {
 
 template <int D>
 Symbolic NormalEquations<D>::analyseAfter(const NormalEquations* before) {
-  // What was left out may be what made the factor of the graph before expensive.
+  // Without the removed edges another order may be much cheaper.
   if (before && before->unknowns_.pose == unknowns_.pose && graph_.neighbours.size() >= before->ordered_.neighbours) {
     ordered_ = before->ordered_;
     Symbolic made = analyse(graph_, before->symbolic_.node);
@@ -137,7 +137,7 @@ double NormalEquations<D>::lineariseAs(const std::vector<Rigid<D>>& poses, const
       Eigen::Map<Tangent<D>>(g_.data() + sz(place.from) * kN) -= g;
       if (place.to >= 0) {
         auto& block = H_.lower[sz(place.slot.index)];
-        // The block of row `from` and column `to` is -T^T K; slot.turned: it stands as (to, from).
+        // The block of row `from` and column `to` is -T^T K; with slot.turned it is stored as (to, from).
         if (place.slot.turned) block -= TK.transpose();
         else block -= TK;
       }

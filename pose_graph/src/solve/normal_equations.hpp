@@ -8,27 +8,28 @@
 
 namespace pose_graph {
 
-/// Which poses of a graph are unknown: all but the fixed ones and, of each connected component without any, the first.
-/// All fixed poses, and what is connected to one of them, are one component: they lie in one frame.
+/// Unknown poses of a graph: all except the fixed ones and the first pose of each connected component without fixed
+/// poses. All fixed poses and the poses connected to them form one component, since they share a frame.
 struct Unknowns {
-  std::vector<int> of_pose;    ///< name of the unknown, -1 for a pose that is held
-  std::vector<int> pose;       ///< of each unknown
-  std::vector<int> component;  ///< of each pose, by their first poses
-  std::vector<int> origin;     ///< of each component: the first of its poses that is held
+  std::vector<int> of_pose;    ///< index of the unknown; -1 for a held pose
+  std::vector<int> pose;       ///< pose of each unknown
+  std::vector<int> component;  ///< of each pose, numbered in the order of first poses
+  std::vector<int> origin;     ///< of each component: its first held pose
   int components = 0;
 };
-/// Edges with weight zero count as edges: the pattern does not depend on weights.
+/// Edges with weight zero count as edges: the pattern is independent of weights.
 template <int D>
 Unknowns makeUnknowns(const Problem<D>& problem);
 
-/// The sparse linear system of a pose graph: its shape once, its numbers as often as wanted.
+/// The sparse linear system of a pose graph, with constant structure and variable values.
 template <int D>
 class NormalEquations {
  public:
   static constexpr int kN = kTangentSize<D>;
 
-  /// In the order of elimination of `before` where the same poses are free, no edges are gone, and a factorisation
-  /// takes hardly longer than the one that order was found for: finding it anew costs as much as several of them.
+  /// Reuses the elimination order of `before` if the same poses are unknown, no edges were removed, and the
+  /// factorisation takes little more work than the one the order was computed for; computing an order takes as long as
+  /// several factorisations.
   explicit NormalEquations(const Problem<D>& problem, const NormalEquations* before = nullptr);
   NormalEquations(const NormalEquations&) = delete;
   NormalEquations& operator=(const NormalEquations&) = delete;
@@ -38,19 +39,19 @@ class NormalEquations {
   const BlockPattern& pattern() const { return pattern_; }
   const std::vector<EdgeTerm<D>>& terms() const { return terms_; }
 
-  /// Takes the measurements of the edges from `first` on anew; what they connect must be the same.
+  /// Reloads the measurements of edge `first` and all later ones. Requires: edges connect the same poses as before.
   void renew(const Problem<D>& problem, std::size_t first);
 
   /// Linearises all edges at these poses; `weights` as in cost(). Returns the cost.
   double linearise(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights);
   double cost(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const;
 
-  /// H x = -g by places, after linearise: H, and g.
+  /// H and g of H x = -g, in order of places, after linearise().
   const BlockMatrix<kN>& H() const { return H_; }
   BlockMatrix<kN>& H() { return H_; }
   const std::vector<double>& g() const { return g_; }
 
-  /// Where the blocks of an edge lie; places are -1 for poses that are held.
+  /// Places of an edge's blocks; -1 for held poses.
   struct EdgePlace {
     int from = -1, to = -1;
     BlockPattern::Slot slot;
@@ -70,7 +71,7 @@ class NormalEquations {
   struct {
     std::size_t neighbours = 0;
     double work = 0.0;
-  } ordered_;  // the graph that the order was found for
+  } ordered_;  // size and work of the graph that the order was computed for
   Symbolic symbolic_;
   BlockPattern pattern_;
   std::vector<EdgeTerm<D>> terms_;

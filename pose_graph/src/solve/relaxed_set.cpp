@@ -14,10 +14,10 @@ namespace pose_graph {
 
 namespace {
 
-constexpr int kCoreRounds = 10;      // as many as it takes on public graphs are four
-constexpr double kNoSquares = 1e-9;  // in squares of deviations
+constexpr int kCoreRounds = 10;      // public graphs take at most four
+constexpr double kNoSquares = 1e-9;  // chi-square
 
-// Logarithm of the determinant of what an information has, and its rank.
+// Returns the log pseudo-determinant of an information matrix and its rank.
 template <int D>
 std::pair<double, int> logDeterminant(const TangentMatrix<D>& information) {
   const auto eigen = urban_nav_core::smallEigen<kTangentSize<D>>(information);
@@ -42,7 +42,8 @@ RelaxedSet<D>::RelaxedSet(const Problem<D>& problem, const std::vector<EdgeRole>
       whole_graph_(std::make_unique<AcceptedGraph<D>>(problem)) {
   std::pair<double, int> determinant;
   for (std::size_t e = 0; e < roles.size(); ++e) {
-    const TangentMatrix<D>& information = problem.edges[e].information;  // many edges state the same
+    // Consecutive edges often have equal information.
+    const TangentMatrix<D>& information = problem.edges[e].information;
     if (e == 0 || information != problem.edges[e - 1].information) determinant = logDeterminant<D>(information);
     log_information_.push_back(determinant.first);
     rank_.push_back(determinant.second);

@@ -10,39 +10,39 @@
 
 namespace pose_graph {
 
-/// A set of edges of one graph, relaxed with factors of their variances, and its density. Where the chains of odometry
-/// leave a small core, all of that is done in the core: integrating the poses of a chain out leaves the density what it
-/// is. A set that has hardly fewer edges than the one before shares its symbolic analysis.
+/// A set of edges of one graph, relaxed with variance factors, and its probability density. If chains of odometry
+/// reduce to a small core graph, the set is relaxed and evaluated there: integrating out the poses of a chain leaves
+/// the density unchanged. A set with only slightly fewer edges than the previous one reuses its symbolic analysis.
 template <int D>
 class RelaxedSet {
  public:
   static constexpr int kN = kTangentSize<D>;
 
-  /// Both must outlive it.
+  /// Both arguments must outlive this object.
   RelaxedSet(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
-  /// Relaxes the edges that are in (by edge) from `poses`, which become those of the minimum, with these factors of the
-  /// variances of candidates and of all others.
+  /// Relaxes the edges with nonzero `in` from `poses`, which are set to the minimum. `candidates`, `others`: variance
+  /// factors of candidates and of all other edges.
   void relax(const std::vector<char>& in, double candidates, double others, std::vector<Rigid<D>>& poses);
-  /// Factors where relax() led. False where that fails.
+  /// Factors at the result of relax(). Returns false if that fails.
   bool factor() { return graph().factor(poses_); }
 
-  /// Directions that an edge of the whole graph measures, and the logarithm of the determinant of its information.
+  /// Rank of an edge of the whole graph, and log pseudo-determinant of its information.
   int rank(std::size_t e) const { return rank_[e]; }
   double logInformation(std::size_t e) const { return log_information_[e]; }
-  /// Free poses of the whole graph.
+  /// Number of unknown poses of the whole graph.
   int unknowns() const;
 
-  /// After factor(): the cost, and what candidates have of it and of the unknowns.
+  /// After factor(): the cost, and the candidates' share of the cost and of the unknowns.
   double cost() const { return graph().cost(poses_); }
   typename AcceptedGraph<D>::Share candidates();
 
-  /// Logarithm of the density of the measurements inside, the free poses integrated out about the minimum (Laplace's
-  /// approximation), each a priori anywhere with unit density. After factor().
+  /// Returns the log density of the measurements inside, with the free poses integrated out about the minimum
+  /// (Laplace's approximation) and a uniform prior of unit density on each. Requires: factor().
   double logDensity() const;
 
-  /// Logarithm of the density of a candidate inside given all others, linearised at the minimum; minus infinity where
-  /// no others hold its ends together. After factor().
+  /// Returns the log density of an accepted candidate given all other measurements, linearised at the minimum; minus
+  /// infinity if the others do not connect its ends. Requires: factor().
   double logDensityGivenOthers(int candidate) const;
 
  private:
@@ -58,12 +58,12 @@ class RelaxedSet {
   std::vector<int> rank_;
   std::vector<double> log_information_;
   std::optional<CoreGraph<D>> core_;
-  std::vector<int> core_edge_;  // -1 for one of a chain
+  std::vector<int> core_edge_;  // -1 for an edge of a chain
   std::unique_ptr<AcceptedGraph<D>> whole_graph_, core_graph_;
   bool in_core_ = false;
-  std::vector<char> in_;                          // edges of problem()
-  std::vector<Rigid<D>> poses_;                   // those of problem()
-  double of_candidates_ = 1.0, of_others_ = 1.0;  // factors
+  std::vector<char> in_;                          // by edge of problem()
+  std::vector<Rigid<D>> poses_;                   // by pose of problem()
+  double of_candidates_ = 1.0, of_others_ = 1.0;  // variance factors
 };
 
 extern template class RelaxedSet<2>;

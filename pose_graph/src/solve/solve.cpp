@@ -19,14 +19,15 @@ bool allFinite(const std::vector<Rigid<D>>& poses) {
                      [](const Rigid<D>& pose) { return pose.R.allFinite() && pose.t.allFinite(); });
 }
 
-// Beyond so many poses the search for another valley takes longer than anybody waits.
+// Limit of poses for the search for another local minimum; above it the search takes too long.
 constexpr std::size_t kMostUntangled = 100000;
 
-// Poses: a smaller graph as a whole takes fewer steps, which cost next to nothing (2 to 4 for 6 of the core, each round
-// counted, on walks of 12 to 30 poses).
+// Minimum number of poses to condense chains. The full solution of a smaller graph takes fewer and very cheap steps (2
+// to 4, instead of 6 of the core graph including all rounds, for random walks of 12 to 30 poses).
 constexpr std::size_t kLeastCondensed = 200;
 
-// What is turned by less everywhere is in the same valley: a knot turns some poses all the way round.
+// Rotation (rad) below which two solutions belong to the same local minimum: a wrap-around rotates some poses by a full
+// turn.
 constexpr double kSameValley = 1.0;
 
 template <int D>
@@ -69,7 +70,7 @@ double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objec
 template <int D>
 Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const std::vector<double>& weights) {
   SolveOptions options = given;
-  // In the plane the two are one, and only the geodesic solver condenses chains, which it needs where they are long.
+  // In the plane both objectives are equal, and only the geodesic solver condenses chains, as long chains require.
   if (D == 2 && options.objective == Objective::G2o) options.objective = Objective::Geodesic;
   std::optional<Solution<D>> condensed;
   if (problem.poses.size() >= kLeastCondensed) condensed = solveCondensed(problem, options, weights);
@@ -86,7 +87,7 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& given, const st
   made.components = equations.unknowns().components;
   made.cost_before = equations.cost(options.objective, problem.poses, weights);
   made.poses = firstGuess(equations, problem, options, weights);
-  if (!allFinite(made.poses)) made.poses = problem.poses;  // measurements that add up to infinity
+  if (!allFinite(made.poses)) made.poses = problem.poses;  // measurements overflowed
   made.cost_start = equations.cost(options.objective, made.poses, weights);
   Descent descent = minimise(equations, cholesky, options, weights, made.poses);
   made.cost = descent.cost;

@@ -10,7 +10,7 @@ namespace pose_graph {
 
 namespace {
 
-// Radians: on average about an axis, and of one edge alone.
+// Radians: root mean square about one axis, and maximum of one edge.
 constexpr double kNoisy = 0.1, kTangled = 1.1;
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace pose_graph {
 
-/// Whether rotations end up so far from what edges measure, on average or at one edge, that there may be a better
-/// valley. `weights` as in cost().
+/// Returns whether relaxed rotations are so far from the measured ones, on average or at one edge, that a lower local
+/// minimum may exist. `weights` as in cost().
 template <int D>
 bool isTangled(const Problem<D>& problem, const std::vector<double>& weights, const std::vector<Rigid<D>>& poses);
 

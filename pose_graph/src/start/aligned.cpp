@@ -14,7 +14,7 @@ bool measuresRotation(const Edge<D>& edge) {
   return edge.information.template bottomRightCorner<kRotationSize<D>, kRotationSize<D>>().diagonal().minCoeff() > 0.0;
 }
 
-/// Positions as measured from the fixed poses, and as they are.
+/// Positions measured from the fixed poses, and present ones.
 template <int D>
 struct Correspondences {
   using Position = Eigen::Matrix<double, D, 1>;
@@ -54,7 +54,7 @@ void alignWithFixed(const Problem<D>& problem, const std::vector<double>& weight
     const Edge<D>& edge = problem.edges[e];
     if (counts(e) && !fixed[sz(edge.from)] && !fixed[sz(edge.to)]) parts.join(edge.from, edge.to);
   }
-  std::vector<Correspondences<D>> found(poses.size());  // by the first pose of a part
+  std::vector<Correspondences<D>> found(poses.size());  // indexed by the first pose of a part
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const Edge<D>& edge = problem.edges[e];
     if (!counts(e) || fixed[sz(edge.from)] == fixed[sz(edge.to)] || edge.information.isZero(0.0)) continue;

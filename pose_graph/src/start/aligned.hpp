@@ -7,14 +7,14 @@
 
 namespace pose_graph {
 
-/// Moves each part of a graph as a whole to where its positions fit best what edges from fixed poses measure of them
-/// (Umeyama, least-squares estimation of transformation parameters, PAMI 1991, without scale), each by its information.
-/// A part: poses that edges join without leading over a fixed pose. One is left where it is if such an edge measures
-/// its rotation as well, or if fewer than two measure its positions. `weights` as in cost().
+/// Moves each part of a graph rigidly so that its positions best fit the measurements from fixed poses, weighted by
+/// information (Umeyama, least-squares estimation of transformation parameters, PAMI 1991, without scale). A part
+/// consists of poses joined by edges without passing a fixed pose. A part is not moved if such an edge also measures
+/// its rotation, or if fewer than two edges measure its positions. `weights` as in cost().
 template <int D>
 void alignWithFixed(const Problem<D>& problem, const std::vector<double>& weights, std::vector<Rigid<D>>& poses);
 
-/// Whether the rotations of all poses follow from edges that measure rotations.
+/// Returns whether edges that measure rotations determine the rotations of all poses.
 template <int D>
 bool areRotationsTied(const Problem<D>& problem, const std::vector<double>& weights);
 

@@ -45,7 +45,8 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vect
   std::vector<Rigid<D>> poses = problem.poses;
   std::vector<char> reached = known, fixed(problem.poses.size(), 0);
   for (const int pose : problem.fixed) reached[sz(pose)] = fixed[sz(pose)] = 1;
-  std::vector<int> chain, others;  // reached poses whose neighbours are to be reached: chain edges go first and far
+  // Poses whose neighbours are to be visited; chain edges are followed first, depth first.
+  std::vector<int> chain, others;
   std::size_t next_other = 0;
   const auto follow = [&](int pose, const Edge<D>& edge) {
     const int other = edge.from == pose ? edge.to : edge.from;
@@ -77,7 +78,8 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vect
   for (std::size_t i = poses.size(); i-- > 0;)
     if (reached[i]) chain.push_back(static_cast<int>(i));
   spread();
-  // Many edges may lead from a fixed pose, as priors do from the frame: each reaches only what those before it do not.
+  // Many edges may start at a fixed pose, such as priors at the reference frame: each is followed only to poses not
+  // reached before.
   for (const int pose : problem.fixed)
     for (int k = incidence.first[sz(pose)]; k < incidence.first[sz(pose) + 1]; ++k) {
       follow(pose, problem.edges[sz(incidence.edge[sz(k)])]);

@@ -7,7 +7,7 @@ namespace pose_graph {
 
 namespace {
 
-// In the plane a rotation commutes with a quarter turn, so one column of it says all.
+// In the plane a rotation commutes with a quarter turn, so one column determines it.
 template <int D>
 constexpr int kColumns = D == 2 ? 1 : 3;
 
@@ -33,7 +33,7 @@ std::optional<std::vector<Rotation<D>>> chordalRotations(const NormalEquations<D
   const std::size_t n = symbolic.node.size();
   BlockMatrix<D> A;
   A.setZero(equations.pattern());
-  // Unknown: Y_i = R_i^T. Column c of all unknowns, one column after the other.
+  // Unknowns: Y_i = R_i^T. Column c of all unknowns, one column after the other.
   std::vector<double> x(n * D * kC, 0.0);
   const auto part = [&](int place, int c) {
     return Eigen::Map<Eigen::Matrix<double, D, 1>>(x.data() + (sz(c) * n + sz(place)) * D);

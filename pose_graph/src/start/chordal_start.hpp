@@ -8,17 +8,18 @@
 
 namespace pose_graph {
 
-/// Rotations without a first guess: R_i as free DxD matrices minimise sum kappa |R_j - R_i R_ij|^2, which is linear,
-/// and each is then replaced by the rotation nearest to it (Martinec, Pajdla, CVPR 2007; Carlone et al., ICRA 2015,
-/// "chordal relaxation"). It undoes knots: no path is followed, so none can be wrong. Poses that are held keep their
-/// rotation. `poses` gives those. Empty where the edges do not determine the rotations.
+/// Estimates rotations without an initial guess. R_i as free DxD matrices minimise sum kappa |R_j - R_i R_ij|^2, a
+/// linear problem, and each is projected to the nearest rotation (Martinec, Pajdla, CVPR 2007; Carlone et al., ICRA
+/// 2015, "chordal relaxation"). No path is followed, so no rotation error can accumulate. Held poses keep their
+/// rotation in `poses`. Returns nullopt if the edges do not determine the rotations.
 template <int D>
 std::optional<std::vector<Rotation<D>>> chordalRotations(const NormalEquations<D>& equations,
                                                          const std::vector<Rigid<D>>& poses,
                                                          const std::vector<double>& weights);
 
-/// The translations that fit these rotations best: linear least squares with the edges' information of translations.
-/// Poses that are held stay. Empty where the edges do not determine them.
+/// Returns the poses with the translations that best fit these rotations: linear least squares with the edges'
+/// translation information. Held poses keep their values. Returns nullopt if the edges do not determine the
+/// translations.
 template <int D>
 std::optional<std::vector<Rigid<D>>> translationsFor(const NormalEquations<D>& equations,
                                                      const std::vector<Rotation<D>>& rotations,

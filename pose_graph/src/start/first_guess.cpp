@@ -27,7 +27,7 @@ std::vector<Rigid<D>> firstGuess(const NormalEquations<D>& equations, const Prob
   const auto rotations = chordalRotations(equations, problem.poses, weights);
   if (!rotations) return problem.poses;
   const auto poses = translationsFor(equations, *rotations, problem.poses, weights);
-  // Written so that poses of which the cost is no number lose.
+  // The comparison also rejects poses with a cost of NaN.
   if (poses &&
       equations.cost(options.objective, *poses, weights) < equations.cost(options.objective, problem.poses, weights))
     return *poses;

@@ -8,7 +8,7 @@
 
 namespace pose_graph {
 
-/// Where options.start has a minimisation begin.
+/// Returns the initial guess of a minimisation for options.start.
 template <int D>
 std::vector<Rigid<D>> firstGuess(const NormalEquations<D>& equations, const Problem<D>& problem,
                                  const SolveOptions& options, const std::vector<double>& weights);

@@ -22,11 +22,11 @@ using urban_nav_store::Store;
 
 namespace {
 
-// Writes that wait for the disk; with kNodesAtOnce and some 1.2 kB a node at most 24 MB. In good order a second brings
-// some fifty.
+// Limit of writes that wait for the disk; with kNodesAtOnce and about 1.2 kB per node at most 24 MB. In normal
+// operation a second brings about fifty.
 constexpr std::size_t kWaiting = 100;
 constexpr std::size_t kNodesAtOnce = 200;
-constexpr std::size_t kPending = 1000;  // of rejected closures and evidence
+constexpr std::size_t kPending = 1000;  // limit of rejected closures and evidence texts
 constexpr double kStoredDistance = 0.01, kStoredAngle = 0.02 * 3.14159265358979323846 / 180.0;  // docs/architecture.md
 
 bool isSame(const Pose& a, const Pose& b) { return a.t() == b.t() && a.q().coeffs() == b.q().coeffs(); }
@@ -47,7 +47,7 @@ GraphStoreWriter::StoredEdge stepEdge(const SessionId& session, const RelativePo
   return edge;
 }
 
-/// Nodes of a track with the steps that lead to them.
+/// Nodes of a track with the steps that end at them.
 struct Nodes {
   SessionId session;
   std::vector<Node> nodes;
@@ -81,7 +81,7 @@ Nodes collectNodes(const PoseGraph& graph, std::size_t t, std::size_t first, std
 
 ClosureId findNewest(const PoseGraph& graph) { return graph.closures().empty() ? 0 : graph.closures().rbegin()->first; }
 
-/// The session at whose first pose the map of a track has its origin.
+/// Returns the session whose first pose is the origin of a track's map.
 const SessionId& findMap(const PoseGraph& graph, const Track& track) {
   for (const Track& other : graph.tracks())
     if (!other.part.empty() && other.part.front() == track.part.front()) return other.session;
@@ -90,7 +90,7 @@ const SessionId& findMap(const PoseGraph& graph, const Track& track) {
 
 }  // namespace
 
-/// What a relaxation changes in the store, at once.
+/// All changes of the store by one relaxation, in one write.
 struct GraphStoreWriter::Batch {
   std::vector<std::pair<SessionId, RelaxedPose>> poses;
   std::vector<Anchor> anchors;
@@ -159,7 +159,7 @@ void GraphStoreWriter::markStored(const PoseGraph& graph, std::size_t track) {
 
 void GraphStoreWriter::markStored(const Closure& closure) {
   closures_[closure.id] = toEdge(closure);
-  closures_[closure.id].weight = -1.0;  // differs from any: it is written again when it has a verdict
+  closures_[closure.id].weight = -1.0;  // differs from any weight: written again with its verdict
 }
 
 void GraphStoreWriter::reset() {
@@ -200,8 +200,8 @@ bool GraphStoreWriter::syncNodes(const PoseGraph& graph) {
   return true;
 }
 
-// The forces of a session are one value: written when it has grown by a fifth, so that a byte is written five times at
-// most.
+// The forces of a session are stored as one value: rewritten after growing by a fifth, so that a byte is written about
+// five times.
 bool GraphStoreWriter::syncForces(const PoseGraph& graph, bool at_once) {
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const std::vector<SpecificForce>& forces = graph.forces(t);
@@ -245,7 +245,7 @@ void GraphStoreWriter::syncRelaxation(const PoseGraph& graph, bool exactly, bool
   const ClosureId newest = findNewest(graph);
   const bool poses = graph.revision() != synced_revision_ || (exactly && !exact_);
   if (!poses && newest == newest_closure_) return;
-  // One at a time: while the disk is slow, successive relaxations become one write.
+  // One relaxation at a time: while the disk is slow, successive ones are combined in one write.
   const LiveWriter::Counts counts = writer_->counts();
   if ((!at_once && counts.committed + counts.refused < relaxation_) || counts.waiting >= kWaiting) return;
   auto batch = std::make_shared<Batch>();

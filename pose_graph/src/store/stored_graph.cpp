@@ -22,8 +22,8 @@ namespace {
 
 constexpr const char* kGate = "odometry gate: passed\n";
 
-/// The steps of a session: a node's covariances are of the motion from the one before, the transform stands in the edge
-/// between the two, where one was measured.
+/// Returns the steps of a session. A node's covariances are those of the motion from the previous node; the transform
+/// is stored in the edge between the two, if it was measured.
 std::vector<RelativePose> collectSteps(Store& store, const SessionId& session,
                                        const std::map<StampNs, StoredEdge>& edges) {
   std::vector<RelativePose> steps;
@@ -60,8 +60,8 @@ bool isSameClosure(const StoredEdge& edge, const Closure& closure) {
   return edge.a == closure.a && edge.b == closure.b && edge.kind == closure.kind && edge.source == closure.source;
 }
 
-/// Leaves out the closures that edits reject and the steps that they cut, and notes those that a person vouches for.
-/// The closures that edits have added are among the stored ones.
+/// Removes closures rejected by edits and steps cut by edits, and marks closures confirmed manually. Closures added by
+/// edits are among the stored ones.
 void applyEdits(const std::vector<urban_nav_store::StoredEdit>& edits, StoredGraph& graph) {
   std::vector<Closure> closures;
   for (Closure& closure : graph.closures) {

@@ -14,15 +14,15 @@ namespace pose_graph {
 
 namespace {
 
-// Chi-square over degrees of freedom, in units of the middle one: as of a step of odometry that slipped.
+// Limit of chi-square over degrees of freedom relative to the median, as for slips of odometry.
 constexpr double kFalseSquare = 100.0;
-constexpr double kTieBreak = 1.1;      // factor of the weight of the first one, in the first round
-constexpr double kFitNarrowing = 4.0;  // of the square of the kernel's width, each round
+constexpr double kTieBreak = 1.1;      // factor of the weight of the first edge in the first round
+constexpr double kFitNarrowing = 4.0;  // divisor of the squared kernel width per round
 constexpr int kFitStartSteps = 20, kFitSteps = 3, kFitLastRounds = 5;
 constexpr double kFitStartShare = 1e-3, kFitShare = 1e-4;
 
 template <int D>
-struct Doubted {
+struct TestedEdge {
   int edge = 0;
   int group = -1;  // the landmark; -1 for priors
   WhitenedEdge<D> whitened;
@@ -33,10 +33,10 @@ struct Doubted {
 };
 
 template <int D>
-std::vector<Doubted<D>> collectDoubted(const FileProblem<D>& file) {
-  std::vector<Doubted<D>> made;
+std::vector<TestedEdge<D>> collectTested(const FileProblem<D>& file) {
+  std::vector<TestedEdge<D>> made;
   const auto add = [&](int e, int group) {
-    Doubted<D> one{e, group, whitened(file.problem.edges[sz(e)])};
+    TestedEdge<D> one{e, group, whitened(file.problem.edges[sz(e)])};
     if (one.whitened.rank > 0) made.push_back(one);
   };
   for (const int e : file.priors) add(e, -1);
@@ -46,24 +46,24 @@ std::vector<Doubted<D>> collectDoubted(const FileProblem<D>& file) {
 }
 
 template <int D>
-double largestSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Rigid<D>>& poses) {
+double largestSquare(const std::vector<TestedEdge<D>>& tested, const std::vector<Rigid<D>>& poses) {
   double most = 0.0;
-  for (const Doubted<D>& one : doubted) most = std::max(most, one.squareOverRank(poses));
+  for (const TestedEdge<D>& one : tested) most = std::max(most, one.squareOverRank(poses));
   return most;
 }
 
 template <int D>
-double middleSquare(const std::vector<Doubted<D>>& doubted, const std::vector<Rigid<D>>& poses) {
+double middleSquare(const std::vector<TestedEdge<D>>& tested, const std::vector<Rigid<D>>& poses) {
   std::vector<double> squares;
-  for (const Doubted<D>& one : doubted) squares.push_back(one.squareOverRank(poses));
+  for (const TestedEdge<D>& one : tested) squares.push_back(one.squareOverRank(poses));
   const auto at = squares.begin() + static_cast<std::ptrdiff_t>((squares.size() - 1) / 2);
   std::nth_element(squares.begin(), at, squares.end());
   return *at;
 }
 
-// Where odometry and most of the priors put the poses. Nothing where least squares fit all of them.
+// Returns the poses that fit odometry and most of the priors; empty if least squares fit all of them.
 template <int D>
-std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doubted<D>>& doubted) {
+std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<TestedEdge<D>>& tested) {
   const Problem<D>& problem = file.problem;
   const std::vector<EdgeRole>& roles = file.roles;
   std::vector<char> in;
@@ -73,22 +73,22 @@ std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doub
     if (in.back()) part.edges.push_back(problem.edges[e]);
   }
   std::vector<Rigid<D>> poses = posesAlongEdges(part);
-  alignWithFixed(part, {}, poses);  // no other start finds how poses are turned whose positions alone are measured
+  alignWithFixed(part, {}, poses);  // no other initial guess determines rotations from positions only
   AcceptedGraph<D> graph(problem);
   std::vector<double> weights(in.begin(), in.end());
   graph.take(in, weights);
   graph.relax(poses, kFitStartSteps, kFitStartShare, true);
-  const bool all_fit = std::all_of(doubted.begin(), doubted.end(),
-                                   [&](const Doubted<D>& one) { return one.squareOverRank(poses) <= kFalseSquare; });
+  const bool all_fit = std::all_of(tested.begin(), tested.end(),
+                                   [&](const TestedEdge<D>& one) { return one.squareOverRank(poses) <= kFalseSquare; });
   if (all_fit) return {};
   int last = 0;
   bool is_first = true;
-  for (double width = largestSquare(doubted, poses); last < kFitLastRounds;
+  for (double width = largestSquare(tested, poses); last < kFitLastRounds;
        width = std::max(1.0, width / kFitNarrowing)) {
     last += width <= 1.0;
-    for (const Doubted<D>& one : doubted) weights[sz(one.edge)] = 1.0 / (1.0 + one.squareOverRank(poses) / width);
-    // Two that contradict each other by the same amount would share the error for ever.
-    if (is_first) weights[sz(doubted.front().edge)] *= kTieBreak;
+    for (const TestedEdge<D>& one : tested) weights[sz(one.edge)] = 1.0 / (1.0 + one.squareOverRank(poses) / width);
+    // Two measurements that contradict each other equally would share the error indefinitely.
+    if (is_first) weights[sz(tested.front().edge)] *= kTieBreak;
     is_first = false;
     alignWithFixed(problem, weights, poses);
     graph.take(in, weights);
@@ -102,24 +102,25 @@ std::vector<Rigid<D>> fitMost(const FileProblem<D>& file, const std::vector<Doub
 template <int D>
 FalsePriors findFalsePriors(const FileProblem<D>& file) {
   FalsePriors made;
-  const std::vector<Doubted<D>> doubted = collectDoubted(file);
-  if (doubted.empty()) return made;
-  const std::vector<Rigid<D>> poses = fitMost(file, doubted);
+  const std::vector<TestedEdge<D>> tested = collectTested(file);
+  if (tested.empty()) return made;
+  const std::vector<Rigid<D>> poses = fitMost(file, tested);
   if (poses.empty()) return made;
-  const double scale = std::max(1.0, middleSquare(doubted, poses));
+  const double scale = std::max(1.0, middleSquare(tested, poses));
   struct Group {
     std::size_t all = 0;
     std::vector<int> off;
   };
   std::map<int, Group> groups;
-  for (const Doubted<D>& one : doubted) {
+  for (const TestedEdge<D>& one : tested) {
     Group& group = groups[one.group];
     ++group.all;
     if (one.squareOverRank(poses) > scale * kFalseSquare) group.off.push_back(one.edge);
   }
   for (const auto& [name, group] : groups) {
-    const std::size_t witnesses = group.all + (name >= 0);  // with the first sighting
-    if (2 * group.off.size() < witnesses) made.rejected.insert(made.rejected.end(), group.off.begin(), group.off.end());
+    const std::size_t observations = group.all + (name >= 0);  // including the first observation
+    if (2 * group.off.size() < observations)
+      made.rejected.insert(made.rejected.end(), group.off.begin(), group.off.end());
     else made.undecided += group.off.size();
   }
   std::sort(made.rejected.begin(), made.rejected.end());

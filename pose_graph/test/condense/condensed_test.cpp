@@ -29,7 +29,7 @@ Problem<3> problemFrom(const SimulatedGraph& graph) {
   return problem;
 }
 
-// The same drive without the third dimension.
+// The same drive projected to the plane.
 Problem<2> flattened(const Problem<3>& problem) {
   Problem<2> made;
   const auto flat = [](const Rigid<3>& T) {
@@ -51,7 +51,7 @@ const SimulatedGraph& condensedDrive() {
   return graph;
 }
 
-// A weight that is one but for the last bit keeps an edge out of the chains: the whole graph is solved at once.
+// Solves the full graph: a weight that differs from one in its last bit excludes an edge from chains.
 template <int D>
 std::vector<double> wholeGraph(const Problem<D>& problem) {
   return std::vector<double>(problem.edges.size(), 1.0 + 1e-15);
@@ -93,8 +93,8 @@ TEST(Condensed, TakesEdgesThatRunBackwards) {
     Edge<3>& edge = problem.edges[e];
     std::swap(edge.from, edge.to);
     edge.Z = edge.Z.inverse();
-    // Seen from the other end the same information turns and gets a lever arm, which this one has no room for: even
-    // noise.
+    // Isotropic noise, because information seen from the other end is rotated and has a lever arm, which this edge
+    // cannot represent.
     edge.information = Eigen::Matrix<double, 6, 1>(1e6, 1e6, 1e6, 1e7, 1e7, 1e7).asDiagonal();
   }
   expectWhatTheWholeGraphGives<3>(problem, Start::Auto);
@@ -115,7 +115,7 @@ TEST(Condensed, HasNoErrorWithoutNoise) {
 TEST(Condensed, ComesBackFromABendOfTheStart) {
   Problem<3> problem = problemFrom(condensedDrive());
   const auto straight = solveCondensed(problem, {}, {});
-  // The odometry turns 60 deg too far in the middle: the first guess is far off.
+  // Odometry rotates 60 deg too far in the middle, so the initial guess is far off.
   Eigen::AngleAxisd turn(1.05, Eigen::Vector3d::UnitZ());
   SolveOptions options;
   options.start = Start::Vertices;
@@ -182,7 +182,7 @@ TEST(Chains, FixedPosesAreInTheCore) {
   EXPECT_TRUE(made.core_edges.empty());
 }
 
-TEST(Chains, KnowTreesAndRings) {
+TEST(Chains, HandleTreesAndRings) {
   const auto find = [](const Problem<2>& problem) {
     return findChains(problem, std::vector<char>(problem.edges.size(), 1));
   };

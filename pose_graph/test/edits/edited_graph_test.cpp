@@ -31,7 +31,7 @@ Edit verdict(Edit::Action action, std::int64_t number, int lap_pose) {
   return edit;
 }
 
-/// Two laps with a closure every tenth pose, as edits have it.
+/// Two laps with a closure at every tenth pose, with edits applied.
 struct EditedLaps {
   explicit EditedLaps(std::vector<Edit> edits) : edited(graph, std::move(edits)) {
     for (int i = 0; i < 2 * kLap; ++i) edited.addOdometry(kSession, testing::stepAt(i));
@@ -72,7 +72,7 @@ TEST(EditedGraph, TheLastVerdictOnAClosureCounts) {
   expectSameMap(unedited.graph, taken_back.graph);
 }
 
-TEST(EditedGraph, AcceptsWhatDisagreesWithAllElse) {
+TEST(EditedGraph, AcceptsAClosureThatContradictsAllOthers) {
   const auto build = [](std::vector<Edit> edits) {
     PoseGraph graph{Parameters()};
     EditedGraph edited(graph, std::move(edits));

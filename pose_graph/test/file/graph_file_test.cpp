@@ -73,7 +73,7 @@ TEST(GraphFile, VerticesThatAreNotListedFollowTheEdgesAndAreNamed) {
   EXPECT_EQ(bare.problem.poses[2].t, Eigen::Vector2d(2, 0));
 }
 
-/// g2o's cost of a problem is that of the file's own numbers.
+/// The g2o cost of a problem equals that of the file's numbers.
 TEST(GraphFile, InformationOfSpaceIsThatOfTheQuaternionsVector) {
   const FileProblem<3> file = parsed<3>(kSpace);
   const Edge<3>& edge = file.problem.edges[0];
@@ -134,7 +134,7 @@ TEST(GraphFile, AnEdgeToItselfIsLeftOutAndSaid) {
   EXPECT_NE(file.notes[0].find("itself"), std::string::npos);
 }
 
-// A path whose ends priors hold, with a landmark seen from both.
+// A path with priors at both ends and a landmark observed from both.
 const std::string kConstrained =
     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0.2\nVERTEX_SE2 2 2 0.3 0.4\nVERTEX_XY 7 3 3\n"
     "EDGE_SE2 0 1 1 0 0.2" +
@@ -142,7 +142,7 @@ const std::string kConstrained =
     "EDGE_SE2_XY 0 7 3 2.5 20 1 30\nEDGE_SE2_XY 2 7 1.6 2.2 10 0 15\n"
     "EDGE_PRIOR_SE2 0 100 50 1 8 0 0 8 0 9\nEDGE_PRIOR_SE2_XY 2 100.8 51.9 40 2 50\n";
 
-/// The costs of the file's lines as g2o defines them, at the poses of a graph.
+/// Returns the cost of the file's lines as g2o defines them, at the poses of a graph.
 double costOfLines(const G2oGraph& graph) {
   double sum = 0.0;
   const auto vertex = [&](G2oGraph::Id id) {
@@ -178,7 +178,7 @@ double costOfLines(const G2oGraph& graph) {
   return sum;
 }
 
-TEST(GraphFile, LandmarksAndPriorsCostWhatTheLinesSay) {
+TEST(GraphFile, LandmarksAndPriorsHaveTheCostOfTheirLines) {
   const G2oGraph graph = parseG2o(kConstrained, "g.g2o");
   const FileProblem<2> file = parsed<2>(kConstrained);
   EXPECT_EQ(file.problem.poses.size(), 5U);
@@ -187,7 +187,7 @@ TEST(GraphFile, LandmarksAndPriorsCostWhatTheLinesSay) {
   const G2oGraph made = withPoses(graph, file, solution.poses);
   EXPECT_NEAR(costOfLines(made), solution.cost, 1e-9 * solution.cost);
   EXPECT_GT(solution.cost, 0.01);
-  // No step of any of the file's numbers costs less.
+  // No change of any number of the file lowers the cost.
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t axis = 0; axis < (i < 3 ? 3U : 2U); ++axis)
       for (const double step : {-1e-4, 1e-4}) {
@@ -290,7 +290,7 @@ TEST(GraphFile, RigidsAndPosesAreOne) {
   }
 }
 
-/// What a reader lets through is relaxed without a number that is none.
+/// A file that the reader accepts is relaxed without NaN.
 template <int D>
 void relaxed(const G2oGraph& graph) {
   const FileProblem<D> file = makeProblem<D>(graph, "fuzz");

@@ -8,7 +8,7 @@
 namespace pose_graph {
 namespace {
 
-// Two chains of four poses, one closure within the first, and two between them.
+// Two chains of four poses, one closure within the first and two between them.
 struct TwoChains {
   FileProblem<2> file;
   RobustSolution<2> robust;
@@ -50,7 +50,7 @@ TEST(SelectionWarnings, NameTheClosuresWithoutWhichPartsStayApart) {
   EXPECT_TRUE(graph.warns("2 parts of the graph that odometry does not join stay apart: all 2 closures between them"));
 }
 
-TEST(SelectionWarnings, SayNothingMoreWhereNothingCouldBeDecided) {
+TEST(SelectionWarnings, AreLimitedToOneWhereNothingCouldBeDecided) {
   TwoChains graph;
   graph.robust.selection.undecided = true;
   for (const auto& [from, to] : {std::pair{0, 3}, {1, 4}, {2, 6}}) graph.reject(from, to);
@@ -58,7 +58,7 @@ TEST(SelectionWarnings, SayNothingMoreWhereNothingCouldBeDecided) {
   EXPECT_FALSE(graph.warns("apart"));
 }
 
-TEST(SelectionWarnings, SpeakOfScaleOnlyWhereItDoesHarm) {
+TEST(SelectionWarnings, NameTheScaleOnlyWhereItMatters) {
   TwoChains graph;
   const auto warnings = [&](double odometry, double closures) {
     DeviationScales scales;
@@ -71,7 +71,7 @@ TEST(SelectionWarnings, SpeakOfScaleOnlyWhereItDoesHarm) {
   ASSERT_EQ(warnings(4.0, 1.0).size(), 1u);
   EXPECT_NE(warnings(4.0, 1.0)[0].find("divide its information by 16"), std::string::npos);
   ASSERT_EQ(warnings(0.2, 0.9).size(), 1u);
-  EXPECT_NE(warnings(0.2, 0.9)[0].find("weighed wrongly"), std::string::npos);
+  EXPECT_NE(warnings(0.2, 0.9)[0].find("weighted inconsistently"), std::string::npos);
   EXPECT_EQ(warnings(5.0, 5.0).size(), 2u);
 }
 

@@ -40,7 +40,7 @@ TEST(UseFixes, MoveNothingWhereOdometryAndFixesAgree) {
   EXPECT_EQ(graph.fixUse().sigma_factor, 1.0);
 }
 
-TEST(UseFixes, BoundTheDriftOfALongWay) {
+TEST(UseFixes, BoundTheDriftOfALongPath) {
   double without = 0.0, with = 0.0;
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const GpsDrive drive = realisticDrive(seed);
@@ -74,8 +74,8 @@ TEST(UseFixes, LeaveOutReflections) {
   }
 }
 
-TEST(UseFixes, OfAReceiverThatPromisesTooMuchAreNoWorseThanOdometry) {
-  GpsDrive drive;  // an odometry that drifts by some decimetres, fixes that are off by metres and say they are not
+TEST(UseFixes, OfAnOverconfidentReceiverAreNoWorseThanOdometry) {
+  GpsDrive drive;  // odometry drifts by some decimetres; fixes have errors of metres and overconfident covariances
   drive.turn_drift = 1e-4;
   drive.slow = 5.0;
   drive.white = 1.0;
@@ -134,7 +134,7 @@ TEST(UseFixes, LeaveWhatComesAfterThemWhereTheyHaveIt) {
   const GpsDrive drive = realisticDrive(8);
   PoseGraph graph = relaxDrive(drive, true);
   const std::vector<Pose> relaxed = graph.tracks()[0].map;
-  // A closure that says what is so already: the incremental relaxation must not pull the way back to odometry's.
+  // A closure equal to the current relative pose: the incremental relaxation must not pull the path back to odometry.
   Closure closure;
   closure.a = {"a", drive.stamps[10]};
   closure.b = {"a", drive.stamps[400]};

@@ -17,7 +17,7 @@ PoseGraph driven(int laps) {
   return graph;
 }
 
-// What a batch is worth once all has been taken in.
+// The live graph equals a batch of the same inputs.
 void expectBatch(PoseGraph& live, PoseGraph& fresh) {
   live.relax();
   fresh.relax();
@@ -95,7 +95,7 @@ TEST(Batch, AClosureThatIsGoneOrMeasuredAnewIsNotWhatTheBatchSaid) {
   EXPECT_EQ(live.closures().count(1), 0u);
   EXPECT_TRUE(live.closures().at(id).judged);
   EXPECT_EQ(live.closures().at(id).measured.information, anew.measured.information);
-  EXPECT_EQ(live.closures().at(id).reason, "agrees with what is accepted");
+  EXPECT_EQ(live.closures().at(id).reason, "consistent with the accepted edges");
 }
 
 TEST(Batch, OfNothingIsNothing) {

@@ -15,7 +15,7 @@ ConsideredConstant disparityAt(int step, double used, double mean, double sigma)
   return {"disparity", used, mean, sigma, (Vector6d() << 1e-3, 2e-4, 0.0, 0.0, 0.0, 1e-5 * step).finished()};
 }
 
-/// A session whose steps, but for the first, know the offset: each a little better.
+/// A session whose steps, except the first, contain an estimate of the offset with decreasing uncertainty.
 void driveKnowing(PoseGraph& graph, const SessionId& session, int steps, double mean, double sigma) {
   for (int i = 0; i < steps; ++i) {
     RelativePose step = testing::stepAt(i);
@@ -24,7 +24,7 @@ void driveKnowing(PoseGraph& graph, const SessionId& session, int steps, double 
   }
 }
 
-TEST(CommonErrorsOfAGraph, FollowWhatTheNewestStepKnows) {
+TEST(CommonErrorsOfAGraph, FollowTheEstimateOfTheNewestStep) {
   PoseGraph graph{Parameters()};
   driveKnowing(graph, "a", 5, 0.05, 0.01);
   const std::vector<CommonError<3>> errors = graph.commonErrors();

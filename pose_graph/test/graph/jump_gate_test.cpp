@@ -12,8 +12,8 @@ using testing::kLap;
 
 constexpr int kDriven = 4 * kLap;
 
-/// It says that the robot is where it was two laps ago, which is over half a metre from where odometry has it; acts
-/// alone only if it is asked to.
+/// A closure to the pose two laps ago, more than 0.5 m from odometry. `alone`: within the odometry gate, so that it
+/// needs no confirmation.
 Closure large(int a, bool alone = false) {
   Closure closure = closureAt("a", a, "a", a + 2 * kLap);
   closure.odometry_gate = alone;
@@ -26,7 +26,7 @@ Closure wrong(int a, double ahead, double sideways) {
   return closure;
 }
 
-// Wide enough steps: what is large is no wonder to odometry.
+// Steps with a large covariance: odometry is consistent with large corrections.
 PoseGraph driven() {
   PoseGraph graph{Parameters()};
   for (int i = 0; i < kDriven; ++i) {
@@ -65,7 +65,7 @@ TEST(JumpGate, ASecondOneThatAgreesEndsTheWaitAtOnce) {
     EXPECT_TRUE(isApprox(live.tracks()[0].map[i], batch.tracks()[0].map[i], 1e-2)) << i;
 }
 
-TEST(JumpGate, OneThatDisagreesIsNoWitness) {
+TEST(JumpGate, AnInconsistentClosureConfirmsNothing) {
   PoseGraph live = driven();
   const ClosureId false_one = live.addClosure(wrong(30, 0.0, 2.0));
   live.update();
@@ -80,7 +80,7 @@ TEST(JumpGate, OneThatDisagreesIsNoWitness) {
   EXPECT_FALSE(isAccepted(live, false_one));
 }
 
-TEST(JumpGate, OneThatMayActAloneIsAWitness) {
+TEST(JumpGate, AClosureWithinTheOdometryGateConfirms) {
   PoseGraph live = driven();
   const ClosureId first = live.addClosure(large(20));
   live.update();

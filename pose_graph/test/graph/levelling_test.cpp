@@ -13,11 +13,10 @@ using testing::drive;
 using testing::kLap;
 using testing::kPeriod;
 
-// The robot begins tilted: a map that begins with it has z there.
+// The robot begins tilted; a map that begins with its session is tilted accordingly.
 const Pose kT_level_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, -0.2, 0.0)), Eigen::Vector3d::Zero());
 
-/// At rest all along, as far as the accelerometer can tell: a lap of 10 m in 5 s turns its axes and bends its way by
-/// little.
+/// Forces at rest: a lap of 10 m in 5 s changes the axes and the acceleration only a little.
 std::vector<SpecificForce> forcesAlong(const Track& track, std::size_t first, std::size_t end,
                                        const std::vector<Pose>& poses) {
   std::vector<SpecificForce> made;
@@ -32,13 +31,13 @@ std::vector<SpecificForce> forcesAlong(const Track& track, std::size_t first, st
   return made;
 }
 
-/// Of a track as odometry has it.
+/// Forces along a track at its odometry poses.
 std::vector<SpecificForce> forcesAlong(const Track& track) {
   return forcesAlong(track, 0, track.stamps.size(), track.odom);
 }
 
 double computeTilt(const PoseGraph& graph, std::size_t track = 0) {
-  // The first pose of the map leans as the robot did: what was up there is up here.
+  // The first pose of the map has the robot's tilt, so its up vector is known.
   const Eigen::Vector3d up =
       graph.tracks()[track].map.front().R() * (kT_level_first.R().transpose() * Eigen::Vector3d::UnitZ());
   return std::acos(std::min(1.0, up.z()));
@@ -142,7 +141,7 @@ TEST(Levelling, TheGroundLevelsAMapOfWhichNoSessionHasForces) {
   EXPECT_THROW(graph.putGround("b", ground), urban_nav_core::UserError);
 }
 
-TEST(Levelling, LaterForcesTakeThePlaceOfWhatWasKnownThere) {
+TEST(Levelling, LaterForcesReplaceEarlierOnes) {
   PoseGraph graph{Parameters()}, whole{Parameters()};
   for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);
   const std::vector<SpecificForce> all = forcesAlong(whole.tracks()[0]);
@@ -157,13 +156,13 @@ TEST(Levelling, LaterForcesTakeThePlaceOfWhatWasKnownThere) {
   EXPECT_THROW(graph.putForces("b", all), urban_nav_core::UserError);
 }
 
-/// Odometry whose rotation walks away, and the specific forces on the path that was driven.
-struct Leaning {
+/// Odometry with rotation drift, and the specific forces along the true path.
+struct DriftingDrive {
   testing::Drive drive;
   std::vector<urban_nav_core::RelativePose> steps;
   std::vector<SpecificForce> forces;
 
-  Leaning() {
+  DriftingDrive() {
     urban_nav_core::testing::Dice dice(5);
     drive.frames = 3000;
     drive.noise = 0.01;
@@ -183,7 +182,7 @@ struct Leaning {
     for (const auto& step : steps) graph.addOdometry("a", step);
     graph.putForces("a", forces);
   }
-  /// The largest tilt of a pose against the first one.
+  /// Returns the largest tilt of a pose relative to the first one.
   double lost(const PoseGraph& graph) const {
     const auto truth = drive.trajectory();
     const Eigen::Vector3d up = drive.trueUp();
@@ -196,7 +195,7 @@ struct Leaning {
 };
 
 TEST(Levelling, TakesTheDriftOfRollAndPitchOutOfOdometry) {
-  const Leaning drive;
+  const DriftingDrive drive;
   Parameters without;
   without.gravity = false;
   PoseGraph graph{Parameters()}, plain{without};
@@ -210,7 +209,7 @@ TEST(Levelling, TakesTheDriftOfRollAndPitchOutOfOdometry) {
 }
 
 TEST(Levelling, ABatchLeavesNoTraceInTheNextOne) {
-  const Leaning drive;
+  const DriftingDrive drive;
   PoseGraph graph{Parameters()}, once{Parameters()};
   for (PoseGraph* each : {&graph, &once}) {
     drive.into(*each);
@@ -221,7 +220,7 @@ TEST(Levelling, ABatchLeavesNoTraceInTheNextOne) {
 }
 
 TEST(Levelling, AnUpdateGoesOnFromTheLevelledSteps) {
-  const Leaning drive;
+  const DriftingDrive drive;
   PoseGraph graph{Parameters()};
   drive.into(graph);
   graph.relax();

@@ -13,14 +13,14 @@
 namespace pose_graph {
 namespace {
 
-// A sphere of which odometry errs `drawn` times as much as its information says, and closures as much as theirs.
-struct Boasting {
+// A sphere graph whose odometry errors are `drawn` times the stated ones; closure errors are as stated.
+struct ScaledErrors {
   Problem<3> problem;
   std::size_t chains = 0;
   std::vector<double> weights;
   Solution<3> solution;
 
-  explicit Boasting(double drawn, std::size_t closures = 1000, std::uint64_t seed = 3) {
+  explicit ScaledErrors(double drawn, std::size_t closures = 1000, std::uint64_t seed = 3) {
     auto noise = urban_nav_core::testing::evenNoise(0.02, 0.004);
     noise.drawn = drawn;
     const auto graph = urban_nav_core::testing::sphereGraph(12, 24, 20.0, noise, seed);
@@ -36,13 +36,13 @@ struct Boasting {
   }
 };
 
-TEST(OdometryVariance, FindsHowMuchOdometryBoasts) {
+TEST(OdometryVariance, FindsTheFactorOfOverconfidentOdometry) {
   for (const double drawn : {1.5, 3.0}) {
-    Boasting graph(drawn);
+    ScaledErrors graph(drawn);
     const double factor = graph.factor();
     EXPECT_GT(factor, 0.8 * drawn * drawn);
     EXPECT_LT(factor, 1.25 * drawn * drawn);
-    // What is returned is where the problem with that factor is relaxed.
+    // The returned solution is the one of the problem with that factor.
     SolveOptions from_here;
     from_here.start = Start::Vertices;
     graph.problem.poses = graph.solution.poses;
@@ -51,9 +51,9 @@ TEST(OdometryVariance, FindsHowMuchOdometryBoasts) {
 }
 
 TEST(OdometryVariance, LeavesTrueCovariancesAlone) {
-  Boasting graph(1.0);
+  ScaledErrors graph(1.0);
   EXPECT_LT(graph.factor(), 1.15);
-  EXPECT_GE(Boasting(0.5).factor(), 1.0) << "and careful ones";
+  EXPECT_GE(ScaledErrors(0.5).factor(), 1.0) << "and careful ones";
 }
 
 TEST(OdometryVariance, IsNoLargerThanAllowed) {
@@ -73,20 +73,20 @@ TEST(OdometryVariance, IsNoLargerThanAllowed) {
 }
 
 TEST(OdometryVariance, IsNotDecidedByOneClosure) {
-  // Its six numbers weigh as much as what is stated: half way, on average.
+  // Its six degrees of freedom have the same weight as the stated variance: on average half way.
   double mean = 0.0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) mean += Boasting(3.0, 1, seed).factor() / 20.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) mean += ScaledErrors(3.0, 1, seed).factor() / 20.0;
   EXPECT_GT(mean, 3.0);
   EXPECT_LT(mean, 7.0);
-  Boasting none(3.0, 0);
+  ScaledErrors none(3.0, 0);
   const double before = none.problem.edges.front().information(0, 0);
   EXPECT_EQ(none.factor(), 1.0);
   EXPECT_EQ(none.problem.edges.front().information(0, 0), before);
 }
 
 TEST(OdometryVariance, DoesNothingWhereClosuresLeaveDirectionsFree) {
-  Boasting graph(3.0);
-  // Two parts, joined by planes alone.
+  ScaledErrors graph(3.0);
+  // Two parts joined by planes only.
   graph.problem.edges[graph.chains / 2].information.setZero();
   for (std::size_t e = graph.chains; e < graph.problem.edges.size(); ++e) {
     graph.problem.edges[e].information.setZero();

@@ -25,7 +25,7 @@ using urban_nav_core::Vector6d;
 constexpr StampNs kNodeStep = 50'000'000;
 constexpr int kRound = 400;  // steps of a square of 20 m
 
-// A square: 5 cm a step, a quarter turn at each corner.
+// A square with steps of 5 cm and a quarter turn at each corner.
 Pose truthAt(int i) {
   Pose T;
   for (int k = 0; k < i; ++k)
@@ -41,7 +41,7 @@ RelativePose stepAt(int i, double turn_error) {
       truthAt(i).inverse() * truthAt(i + 1) * Pose(expSo3(Vector3d(0.0, 0.0, turn_error)), Vector3d::Zero());
   Vector6d sigma;
   sigma << 1e-3, 1e-3, 1e-3, 5e-4, 5e-4,
-      1e-2;  // a turn error of each step that adds up is within what odometry owns to
+      1e-2;  // an accumulating rotation error per step is within odometry's covariance
   step.covariance = sigma.cwiseAbs2().asDiagonal();
   step.drift_covariance = 0.5 * step.covariance;
   return step;
@@ -89,7 +89,7 @@ TEST(PoseGraph, ClosesALoop) {
   ASSERT_FALSE(relaxed.moved.empty());
 }
 
-TEST(PoseGraph, SaysWhyTheRobotJumped) {
+TEST(PoseGraph, ReportsTheReasonOfACorrection) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 5e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 20, "a", 20 + kRound));
@@ -111,7 +111,7 @@ TEST(PoseGraph, SaysWhyTheRobotJumped) {
   EXPECT_EQ(by_hand.correction->reason, CorrectionReason::ClosureAsserted);
   EXPECT_EQ(by_hand.correction->causing_edges.size(), 1u);
 
-  // Whoever is not being recorded is not corrected, and neither does one who stays where he is.
+  // Corrections are reported only for the active session, and only if its newest pose moves.
   EXPECT_FALSE(graph.relax().correction);
   graph.beginSession("b");
   graph.removeClosure(*graph.findClosure(asserted.a, asserted.b, EdgeKind::Asserted, asserted.source));
@@ -184,7 +184,7 @@ TEST(PoseGraph, TakesAddedClosuresAsTheBatchDoes) {
   for (std::size_t i = 0; i < live.tracks()[0].map.size(); i += 50)
     EXPECT_TRUE(isApprox(live.tracks()[0].map[i], batch.tracks()[0].map[i], 1e-2)) << i;
 
-  // One that is 3 m off is left out, and asks for a batch.
+  // A closure with an error of 3 m is rejected and requests a batch.
   Closure wrong = closureBetween("a", 130, "a", 130 + kRound);
   wrong.measured.T_a_b = Pose(wrong.measured.T_a_b.q(), wrong.measured.T_a_b.t() + Vector3d(3.0, 0.0, 0.0));
   const ClosureId id = live.addClosure(wrong);
@@ -195,7 +195,7 @@ TEST(PoseGraph, TakesAddedClosuresAsTheBatchDoes) {
   EXPECT_TRUE(isApprox(live.tracks()[0].map.back(), before, 1e-2));
 }
 
-TEST(PoseGraph, WaitsForASecondWitnessOfALargeCorrection) {
+TEST(PoseGraph, WaitsForConfirmationOfALargeCorrection) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 2 * kRound, 3e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 100, "a", 100 + kRound));
@@ -218,7 +218,7 @@ TEST(PoseGraph, WaitsForASecondWitnessOfALargeCorrection) {
 TEST(PoseGraph, FusesSessionsByTwoClosures) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "monday", 0, kRound, 0.0);
-  driveRounds(graph, "tuesday", 100, 300, 0.0);  // begins elsewhere, in an odom of its own
+  driveRounds(graph, "tuesday", 100, 300, 0.0);  // begins elsewhere, in its own odom frame
   EXPECT_EQ(graph.relax().parts, 2);
   EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::Separate));
   graph.addClosure(closureBetween("monday", 120, "tuesday", 120));
@@ -230,7 +230,7 @@ TEST(PoseGraph, FusesSessionsByTwoClosures) {
   EXPECT_EQ(graph.tracks()[1].part.back(), 0);
 }
 
-TEST(PoseGraph, SaysWhatIsWrongWithAClosure) {
+TEST(PoseGraph, ReportsInvalidClosures) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 100, 0.0);
   const auto message = [&](Closure closure) {
@@ -266,13 +266,13 @@ TEST(PoseGraph, ReplacesAndRemovesClosures) {
   EXPECT_FALSE(graph.removeClosure(id));
 }
 
-TEST(PoseGraph, TakesBadOdometryForWhatItIs) {
+TEST(PoseGraph, HandlesInvalidOdometry) {
   PoseGraph graph{Parameters()};
   driveRounds(graph, "a", 0, 50, 0.0);
   RelativePose step = stepAt(50, 0.0);
   step.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(graph.addOdometry("a", step));
-  EXPECT_FALSE(graph.addOdometry("a", stepAt(20, 0.0)));  // long ago
+  EXPECT_FALSE(graph.addOdometry("a", stepAt(20, 0.0)));  // earlier than the newest pose
   EXPECT_TRUE(graph.addOdometry("a", stepAt(55, 0.0)));   // after a gap
   EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::BrokenChain));
   EXPECT_EQ(graph.relax().parts, 2);
@@ -290,7 +290,7 @@ TEST(ClosureInformation, AddsTheNoiseOfTheEndsAndLeavesFreeWhatIsFree) {
   turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() = measured.T_a_b.R();
   EXPECT_LT((closureInformation(measured, none, none) - turned.transpose() * measured.information * turned).norm(),
             1e-6);
-  // Covariances add up: b's noise turned, a's with its lever arm.
+  // Covariances add up: that of b is rotated, that of a is transformed by its lever arm.
   Matrix6d lever = Matrix6d::Identity();
   lever.topRightCorner<3, 3>() = -urban_nav_core::skew(measured.T_a_b.t());
   const Matrix6d sum = Matrix6d(measured.information.inverse() + small + lever * small * lever.transpose());

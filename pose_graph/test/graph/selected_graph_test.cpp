@@ -28,7 +28,7 @@ bool isChain(const GraphEdge& edge) { return edge.b == edge.a + 1; }
 
 NodeRef toNode(std::size_t pose) { return {"a", static_cast<StampNs>(pose + 1) * kBetweenPoses}; }
 
-// Steps and closures of a simulated graph as a session; closures that may act alone.
+// Steps and closures of a simulated graph as a session; closures need no confirmation.
 PoseGraph makeGraph(const SimulatedGraph& simulated) {
   PoseGraph graph{Parameters()};
   for (const GraphEdge& edge : simulated.edges) {
@@ -104,7 +104,7 @@ TEST(SelectedGraph, VerdictsAreThoseOfTheSelectionOfFiles) {
   }
 }
 
-// One step is longer by two metres and turned by a radian.
+// One step is too long by 2 m and rotated by 1 rad.
 TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
   SimulatedGraph simulated = drawSphere(7);
   constexpr std::size_t kSlipped = 130;
@@ -128,7 +128,7 @@ TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
       EXPECT_LT(distanceBetween(T_truth_map * graph.tracks()[0].map[i], simulated.truth[i]), 1.0) << i;
   };
   expectNearTruth();
-  // The live graph goes on from there, and the next batch from the measurement.
+  // The live graph continues from the replaced step, and the next batch from the measurement.
   Closure closure;
   closure.a = toNode(newest.a);
   closure.b = toNode(newest.b);
@@ -147,7 +147,7 @@ TEST(SelectedGraph, AStepThatSlippedFollowsTheClosures) {
     EXPECT_EQ(graph.tracks()[0].map[i].t(), again.tracks()[0].map[i].t()) << i;
 }
 
-// One closure at a time, as the live graph does it: a batch follows where it is asked for.
+// One closure at a time, as in the live graph; a batch follows on request.
 TEST(SelectedGraph, OneAtATimeEndsWithTheVerdictsOfTheBatch) {
   SimulatedGraph simulated = drawSphere(4);
   addFalseClosures(simulated, FalseClosures::Random, 30, 9);
@@ -165,7 +165,7 @@ TEST(SelectedGraph, OneAtATimeEndsWithTheVerdictsOfTheBatch) {
     EXPECT_LT(distanceBetween(batch.tracks()[0].map[i], live.tracks()[0].map[i]), 1e-6) << i;
 }
 
-// A drive that sees no place twice, and two stretches of it taken for one: odometry that is loosened fits them.
+// A drive without revisits in which two sections are confused: odometry with larger variances fits these closures.
 TEST(SelectedGraph, ARowThatIsAMetreOffIsNotJoinedSilently) {
   for (const std::uint64_t seed : {1, 2, 3})
     for (const int length : {10, 30}) {

@@ -21,7 +21,7 @@ constexpr double kDegree = M_PI / 180.0;
 
 double degreesApart(const Vector3d& a, const Vector3d& b) { return std::asin(a.cross(b).norm()) / kDegree; }
 
-/// A robot that drives in curves over level ground, in a world that is tilted against gravity.
+/// A robot that drives curves on level ground, in a world frame tilted against gravity.
 struct GroundDrive {
   Pose T_world_level{expSo3(Vector3d(0.05, -0.12, 0.7)), Vector3d(3.0, 1.0, 0.0)};
   int keyframes = 200;
@@ -44,7 +44,7 @@ struct GroundDrive {
   }
 
  private:
-  /// The robot's pose on the ground, 0.25 m apart, rocking as it drives.
+  /// Returns the robot's pose on the ground; poses are 0.25 m apart and rock.
   static Pose base(int i) {
     return Pose(expSo3(Vector3d(0.0, 0.0, 0.02 * i)) * expSo3(Vector3d(0.02 * std::sin(i), 0.05 * std::cos(i), 0.0)),
                 Vector3d(0.25 * i, std::sin(0.05 * i), 0.0));
@@ -77,7 +77,7 @@ TEST(GroundLevel, AveragesNoiseAndSlopesAndIgnoresWalls) {
   for (std::size_t i = 0; i < normals.size(); i += 5) normals[i].up = Vector3d(0.5, 0.1, 0.8).normalized();
   normals[7].up.x() = std::numeric_limits<double>::quiet_NaN();
   normals[8].up *= 2.0;
-  normals[9].stamp += 1;  // of no pose
+  normals[9].stamp += 1;  // matches no pose
   const Level level = estimateLevel(drive.trajectory(), normals, Pose());
   ASSERT_TRUE(level.known());
   EXPECT_LT(degreesApart(level.up, drive.trueUp()), 0.5);

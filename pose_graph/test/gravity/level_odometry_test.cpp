@@ -16,7 +16,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::testing::Dice;
 
-/// Tracks one after another, each a drive whose rotation walks away; a track may be broken.
+/// Consecutive tracks, each a drive with rotation drift; a track may be broken.
 struct TiltedChains {
   Problem<3> problem;
   std::vector<std::vector<StampNs>> stamps;
@@ -86,7 +86,7 @@ TEST(LevelOdometry, TakesTracksAndTheirPiecesEachForItself) {
   chains.add(drive, dice, 700);
   chains.add(drive, dice);
   const std::size_t steps = chains.problem.edges.size();
-  Edge<3> closure;  // which looks like a step
+  Edge<3> closure;  // between consecutive poses, like a step
   closure.from = 0;
   closure.to = 1;
   chains.problem.edges.push_back(closure);

@@ -45,7 +45,7 @@ TEST(Level, MapIsLevelWithTheHeadingOfTheFirstPose) {
   EXPECT_GT(ahead.x(), 0.9);
 }
 
-TEST(Level, TellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
+TEST(Level, SeparatesBiasFromTiltWhereTheRobotTurns) {
   Dice dice(1);
   Drive drive;
   drive.fault = {0.1, -0.15, 0.05};
@@ -75,7 +75,7 @@ TEST(Level, DoesNotDependOnTheFrameOfTheTrajectory) {
   EXPECT_LT((later.R().transpose() * level.up - from_later.up).norm(), 1e-9);
 }
 
-TEST(Level, StandsShocksAndRubbish) {
+TEST(Level, ToleratesShocksAndInvalidForces) {
   Dice dice(3);
   Drive drive;
   drive.noise = 0.05;
@@ -105,17 +105,17 @@ TEST(Level, ItsCovarianceIsRight) {
     drive.fault.z() *= 0.1;
     const Level level = drive.level(dice);
     ASSERT_TRUE(level.known());
-    // In the plane across `up`, where the covariance is regular.
+    // In the plane perpendicular to `up`, where the covariance is regular.
     const Matrix3d axes = level.R_map_first;
     const Eigen::Vector2d error = (axes * (level.up - drive.trueUp())).head<2>();
     const Eigen::Matrix2d covariance = (axes * level.covariance * axes.transpose()).topLeftCorner<2, 2>();
     sum += error.dot(covariance.inverse() * error);
   }
-  // Ten spans give the scatter of their noise to a quarter only: the band is that of 30 drives.
+  // Ten spans determine the scatter of their noise to a quarter only: the interval is that of 30 drives.
   EXPECT_TRUE(urban_nav_core::testing::meanChiSquareFits(sum / kDrives, 2, 30));
 }
 
-TEST(Level, AFewSecondsShowWhichWayIsUp) {
+TEST(Level, IsEstimatedFromAFewSeconds) {
   Dice dice(11);
   for (const int frames : {40, 60, 100}) {
     double sum = 0.0;
@@ -143,9 +143,10 @@ TEST(Level, RotationsThatAreNotExactAddToItsCovariance) {
   const Level level = Drive().level(dice);
   const Level same = withRotations(level, Matrix3d::Zero());
   EXPECT_EQ(same.covariance, level.covariance);
-  const Matrix3d covariance = Vector3d(1e-4, 4e-4, 1.0).asDiagonal();  // the heading is known least, and does not count
+  // The heading is the least certain and has no effect.
+  const Matrix3d covariance = Vector3d(1e-4, 4e-4, 1.0).asDiagonal();
   const Level wider = withRotations(level, covariance);
-  // A turn by phi moves `up` by phi x up.
+  // A rotation by phi moves `up` by phi x up.
   Matrix3d sum = level.covariance;
   for (int i = 0; i < 3; ++i) {
     const Vector3d moved = (Vector3d::Unit(i) * std::sqrt(covariance(i, i))).cross(level.up);
@@ -157,7 +158,7 @@ TEST(Level, RotationsThatAreNotExactAddToItsCovariance) {
   EXPECT_FALSE(withRotations(Level(), covariance).known());
 }
 
-TEST(Level, SaysWhyItIsNotKnown) {
+TEST(Level, ReportsWhyItIsUnknown) {
   Dice dice(1);
   Drive drive;
   EXPECT_EQ(estimateLevel(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);

@@ -23,10 +23,10 @@ using urban_nav_core::testing::Dice;
 
 constexpr double kMilli = 1e-3;
 
-/// Odometry whose rotation walks away from the truth, about every axis.
+/// Odometry with rotation drift about all axes.
 struct Odometry {
   Trajectory trajectory;
-  std::vector<double> variance;  ///< as it is, rad2
+  std::vector<double> variance;  ///< true variance, rad2
 };
 
 Odometry drifting(const Drive& drive, double rad_per_root_second, Dice& dice) {
@@ -48,10 +48,10 @@ Odometry drifting(const Drive& drive, double rad_per_root_second, Dice& dice) {
 }
 
 struct Lost {
-  double before = 0.0, after = 0.0;  ///< rad, root of the mean square, across gravity
+  double before = 0.0, after = 0.0;  ///< rad, root mean square, perpendicular to gravity
 };
 
-/// How far the robot seems to lean otherwise than it does.
+/// Returns the error of the robot's tilt, before and after the correction.
 Lost measureLoss(const Drive& drive, const Odometry& odometry, const std::vector<Tilt>& tilts) {
   const Trajectory truth = drive.trajectory();
   const Vector3d up = drive.trueUp();
@@ -77,7 +77,7 @@ Drive noisyDrive(double noise) {
   return drive;
 }
 
-TEST(TiltDrift, IsFoundToWhatForcesCanTell) {
+TEST(TiltDrift, IsEstimatedToTheAccuracyOfTheForces) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Dice dice(seed);
@@ -93,7 +93,7 @@ TEST(TiltDrift, IsFoundToWhatForcesCanTell) {
       << "the forces of a span are good to 0.3, the fault among them is not known";
 }
 
-TEST(TiltDrift, DoesNotBelieveOdometryThatPromisesTooMuch) {
+TEST(TiltDrift, RescalesOverconfidentOdometry) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Dice dice(seed);
     const Drive drive = noisyDrive(0.02);
@@ -101,8 +101,8 @@ TEST(TiltDrift, DoesNotBelieveOdometryThatPromisesTooMuch) {
     const std::vector<SpecificForce> forces = drive.forces(dice);
     const Lost honest = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
     for (double& variance : odometry.variance) variance /= 100.0;
-    const Lost boasting = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
-    EXPECT_LT(boasting.after, 1.3 * honest.after) << seed;
+    const Lost overconfident = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
+    EXPECT_LT(overconfident.after, 1.3 * honest.after) << seed;
   }
 }
 
@@ -132,7 +132,7 @@ TEST(TiltDrift, FindsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
   EXPECT_LT(lost(far), 1.2 * lost(near));
 }
 
-TEST(TiltDrift, StandsAFaultThatWanders) {
+TEST(TiltDrift, ToleratesADriftingBias) {
   Dice dice(4);
   const Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
@@ -144,7 +144,7 @@ TEST(TiltDrift, StandsAFaultThatWanders) {
   EXPECT_LT(lost.after, 1.2 * kMilli) << "of which the fault alone would be 2";
 }
 
-TEST(TiltDrift, StandsShocks) {
+TEST(TiltDrift, ToleratesShocks) {
   Dice dice(3);
   const Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
@@ -155,7 +155,7 @@ TEST(TiltDrift, StandsShocks) {
   EXPECT_LT(lost.after, 1.0 * kMilli);
 }
 
-TEST(TiltDrift, SaysNothingWhereNothingIsKnown) {
+TEST(TiltDrift, IsEmptyWithoutGravity) {
   Dice dice(1);
   Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);

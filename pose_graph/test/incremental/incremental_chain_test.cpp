@@ -33,7 +33,7 @@ std::vector<Rigid<3>> laidBy(const std::vector<ChainStep>& steps) {
   return at;
 }
 
-// Both ends held: what the poses in between cost at their best.
+// Returns the minimum cost over the poses in between, with both ends fixed.
 double leastCost(const std::vector<ChainStep>& steps, const Rigid<3>& end) {
   Problem<3> problem;
   problem.poses.emplace_back();
@@ -80,7 +80,7 @@ TEST(IncrementalChain, SplitsWhereItLies) {
   const Rigid<3> end = chain.at(7) * rest.at(11);
   EXPECT_LT((end.t - wanted.t).norm(), 1e-6);
   EXPECT_LT((end.R - wanted.R).norm(), 1e-6);
-  // Covariances of ways add up in the axes of one place: information of the parts, one after the other, is that of the
+  // Covariances of consecutive chains add up in the axes of one pose: both parts together have the information of the
   // whole.
   Problem<3> two;
   two.poses = {Rigid<3>(), chain.at(7), wanted};
@@ -94,7 +94,7 @@ TEST(IncrementalChain, SplitsWhereItLies) {
   one.edges[0].to = 1;
   const double expected = cost(one, one.poses, Objective::Geodesic);
   EXPECT_NEAR(cost(two, two.poses, Objective::Geodesic), expected, 1e-4 * expected);
-  // A part of a single step is no chain.
+  // A part of a single step is not a chain.
   EXPECT_TRUE(whole.splitAfter(18, steps.data()).empty());
 }
 

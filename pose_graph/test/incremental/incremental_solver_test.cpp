@@ -16,7 +16,7 @@ using urban_nav_core::testing::GraphEdge;
 using urban_nav_core::testing::GraphEdgeKind;
 using urban_nav_core::testing::SimulatedGraph;
 
-/// Tracks as a test has them: each unbroken but where a step does not join.
+/// Tracks for tests, each unbroken except where a step does not join.
 class Tracks : public GraphView {
  public:
   void add(std::size_t track, const ChainStep& step) {
@@ -41,7 +41,7 @@ class Tracks : public GraphView {
   }
   void write(const NodeIndex& place, const Rigid<3>& T) override { map_[place.first][place.second] = toPose(T); }
 
-  /// All of it, with these closure_edges, from where it is written.
+  /// Returns the whole problem with these closures, from the written poses.
   Problem<3> problem(const std::vector<ClosureEdge>& closure_edges) const {
     Problem<3> made;
     std::vector<int> first;
@@ -85,7 +85,7 @@ ChainStep toStep(const Edge<3>& edge) {
 
 struct LiveDrive {
   std::vector<ChainStep> steps;
-  std::vector<ClosureEdge> closure_edges;  // by the later of their two places
+  std::vector<ClosureEdge> closure_edges;  // sorted by the later one of their two nodes
 };
 
 const LiveDrive& liveDrive() {
@@ -108,7 +108,7 @@ const LiveDrive& liveDrive() {
   return made;
 }
 
-// What is left to gain from where the poses are written, and by how much the farthest pose would still go, m.
+// Expects that little further decrease is possible from the written poses, and that no pose would move far (m).
 void expectRelaxed(const Tracks& tracks, const std::vector<ClosureEdge>& closure_edges, double cost) {
   SolveOptions options;
   options.start = Start::Vertices;
@@ -139,11 +139,11 @@ TEST(IncrementalSolver, IsTheBatchAfterEachClosure) {
     core->write(tracks);
     if (closure_edges.size() % 10 == 3) expectRelaxed(tracks, closure_edges, offer.cost);
   }
-  // One that begins from the same written poses has the same cost.
+  // A solver that begins at the same written poses has the same cost.
   EXPECT_NEAR(IncrementalSolver(tracks, closure_edges, 100).cost(), core->cost(), 0.01);
 }
 
-TEST(IncrementalSolver, TakesBackWhatIsNotKept) {
+TEST(IncrementalSolver, WithdrawsClosuresThatAreNotKept) {
   Tracks tracks, untouched;
   for (const ChainStep& step : liveDrive().steps)
     for (Tracks* each : {&tracks, &untouched}) each->add(0, step);
@@ -154,12 +154,12 @@ TEST(IncrementalSolver, TakesBackWhatIsNotKept) {
     wrong.edge.Z.t += Eigen::Vector3d(0.2, 0.1, 0.0);
     const double before = core.cost();
     core.offer(tracks, wrong, INFINITY);
-    core.readmitByTruncatedSquares();
+    core.withdraw();
     EXPECT_EQ(core.cost(), before);
-    // Far beyond hope the cost is a prediction, and nothing is laid.
+    // Above the limit the cost is a prediction, and no chain is updated.
     wrong.edge.Z.t += Eigen::Vector3d(30.0, 0.0, 0.0);
     EXPECT_GT(core.offer(tracks, wrong, 1000.0).innovation, 1000.0);
-    core.readmitByTruncatedSquares();
+    core.withdraw();
   }
   for (IncrementalSolver* each : {&core, &other}) {
     Tracks& on = each == &core ? tracks : untouched;
@@ -191,7 +191,7 @@ TEST(IncrementalSolver, TakesSeveralOnTrialBackOneByOne) {
     EXPECT_GT(core.cost(), costs.back());
   }
   while (!costs.empty()) {
-    core.readmitByTruncatedSquares();
+    core.withdraw();
     EXPECT_EQ(core.cost(), costs.back());
     const std::vector<Rigid<3>> now = poses();
     for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT((now[i].t - lay.back()[i].t).norm(), 1e-9) << i;
@@ -200,14 +200,15 @@ TEST(IncrementalSolver, TakesSeveralOnTrialBackOneByOne) {
   }
 }
 
-TEST(IncrementalSolver, SaysWhereAPoseIsBeforeItIsWritten) {
+TEST(IncrementalSolver, ReturnsPosesBeforeTheyAreWritten) {
   Tracks tracks;
   for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
   IncrementalSolver core(tracks, liveDrive().closure_edges, 100);
-  std::vector<Rigid<3>> said;
-  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
+  std::vector<Rigid<3>> predicted_poses;
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) predicted_poses.push_back(core.pose(tracks, {0, i}));
   core.write(tracks);
-  for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
+  for (std::size_t i = 0; i < predicted_poses.size(); ++i)
+    EXPECT_LT((tracks.pose({0, i}).t - predicted_poses[i].t).norm(), 1e-9) << i;
 }
 
 TEST(IncrementalSolver, TakesStepsForAsUncertainAsStated) {
@@ -222,8 +223,7 @@ TEST(IncrementalSolver, TakesStepsForAsUncertainAsStated) {
               IncrementalSolver(wider, liveDrive().closure_edges, 100).cost(), 1e-6);
 }
 
-// The second half of the drive as a session of its own, begun where its odometry has its origin: one closure puts it in
-// its place.
+// The second half of the drive as a separate session, which begins at its odometry origin: one closure joins it.
 TEST(IncrementalSolver, BringsPartsTogether) {
   const std::size_t half = liveDrive().steps.size() / 2;
   Tracks tracks;

@@ -123,8 +123,7 @@ TEST(BlockCholesky, AnyBlockOfTheInverse) {
   }
 }
 
-/// Nothing tells where each part lies: as many pins as that leaves free, and with them a factor of the matrix plus
-/// pins.
+/// Parts without absolute position: as many pins as free directions, and a factor of the matrix plus pins.
 TEST(BlockCholesky, PinsWhatIsFree) {
   const Adjacency graph = test::chainWithClosures(40, 10, 2);
   BlockSystem<3> system(graph, 3);
@@ -133,7 +132,8 @@ TEST(BlockCholesky, PinsWhatIsFree) {
     for (int e = graph.first[static_cast<std::size_t>(a)]; e < graph.first[static_cast<std::size_t>(a) + 1]; ++e) {
       const int b = graph.neighbours[static_cast<std::size_t>(e)];
       const bool bridge = (a < 20) != (b < 20);
-      const Eigen::Vector3d weight(1.0 + a + b, bridge ? 0.0 : 2.0, 3.0);  // the second coordinate falls into two parts
+      // The second coordinate has two separate parts.
+      const Eigen::Vector3d weight(1.0 + a + b, bridge ? 0.0 : 2.0, 3.0);
       system.A.diagonal[static_cast<std::size_t>(system.symbolic.place[static_cast<std::size_t>(a)])] +=
           weight.asDiagonal();
       if (a < b) system.A.lower[static_cast<std::size_t>(system.pattern.slot(a, b).index)] -= weight.asDiagonal();

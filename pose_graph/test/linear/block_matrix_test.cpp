@@ -22,7 +22,7 @@ TEST(BlockMatrix, EachPairOfNeighboursHasItsPlace) {
         const BlockPattern::Slot slot = pattern.slot(a, b), other = pattern.slot(b, a);
         EXPECT_EQ(slot.index, other.index);
         EXPECT_NE(slot.turned, other.turned);
-        // The row is the later place: turned where that is b's.
+        // The row is the later place; transposed if that is b's.
         const int place_a = symbolic.place[static_cast<std::size_t>(a)],
                   place_b = symbolic.place[static_cast<std::size_t>(b)];
         EXPECT_EQ(slot.turned, place_b > place_a);

@@ -25,7 +25,7 @@ void fill(Front& front, const Eigen::MatrixXd& A) {
     for (int i = j; i < front.size(); ++i) front.column(j)[i] = A(i, j);
 }
 
-/// The leading columns of L, then the Schur complement, by plain formulas.
+/// Returns the leading columns of L and the Schur complement, by plain formulas.
 Eigen::MatrixXd expected(const Eigen::MatrixXd& A, int pivots) {
   const Eigen::Index rest = A.rows() - pivots;
   Eigen::MatrixXd L = A.topLeftCorner(pivots, pivots);

@@ -17,7 +17,7 @@ double work(const EliminationTree& tree) {
                          [](double sum, int count) { return sum + (count + 1.0) * (count + 1.0); });
 }
 
-/// Column counts and parents by eliminating node after node, as a person would.
+/// Returns column counts and parents by explicit elimination, node after node.
 EliminationTree plainTree(const Adjacency& graph, const std::vector<int>& order) {
   const std::size_t n = order.size();
   std::vector<std::vector<char>> filled(n, std::vector<char>(n, 0));

@@ -6,7 +6,7 @@
 namespace pose_graph {
 namespace {
 
-TEST(Pattern, NeighboursAscendAndStandOnce) {
+TEST(Pattern, NeighboursAreAscendingAndUnique) {
   const Adjacency graph = makeAdjacency(4, {{2, 0}, {0, 2}, {2, 0}, {1, 2}, {3, 3}, {-1, 2}, {0, -1}});
   EXPECT_EQ(graph.first, (std::vector<int>{0, 1, 2, 4, 4}));
   EXPECT_EQ(graph.neighbours, (std::vector<int>{2, 2, 0, 1}));

@@ -25,7 +25,7 @@ void expectSound(const Adjacency& graph, const Symbolic& shape) {
   ASSERT_EQ(shape.begin.front(), 0);
   ASSERT_EQ(shape.begin.back(), n);
   ASSERT_EQ(static_cast<int>(shape.parent.size()), shape.size());
-  std::vector<int> smallest(sz(shape.size()));  // place of each subtree
+  std::vector<int> smallest(sz(shape.size()));  // smallest place of each subtree
   for (int s = 0; s < shape.size(); ++s) {
     ASSERT_GT(shape.columns(s), 0);
     for (int k = shape.begin[sz(s)]; k < shape.begin[sz(s) + 1]; ++k) EXPECT_EQ(shape.supernode[sz(k)], s);
@@ -34,7 +34,7 @@ void expectSound(const Adjacency& graph, const Symbolic& shape) {
     EXPECT_TRUE(std::is_sorted(first, last));
     EXPECT_EQ(std::adjacent_find(first, last), last);
     EXPECT_TRUE(first == last || *first >= shape.begin[sz(s) + 1]);
-    // The parent holds the first row; the other rows are its columns or rows.
+    // The parent contains the first row; the other rows are its columns or rows.
     if (first == last) {
       EXPECT_EQ(shape.parent[sz(s)], -1);
     } else {
@@ -46,7 +46,7 @@ void expectSound(const Adjacency& graph, const Symbolic& shape) {
         EXPECT_TRUE(above.count(*row) > 0 || shape.supernode[sz(*row)] == parent);
     }
   }
-  // Postorder: a subtree is the run of supernodes that ends at its root.
+  // In postorder a subtree is the sequence of supernodes that ends at its root.
   std::vector<int> members(sz(shape.size()), 1);
   std::iota(smallest.begin(), smallest.end(), 0);
   for (int s = 0; s < shape.size(); ++s) {
@@ -58,7 +58,7 @@ void expectSound(const Adjacency& graph, const Symbolic& shape) {
   }
 }
 
-/// Every entry of the factor, found by eliminating node after node, lies in its supernode.
+/// Every entry of the factor, found by explicit elimination, is within its supernode.
 void expectHoldsFill(const Adjacency& graph, const Symbolic& shape) {
   const int n = graph.size();
   std::vector<std::set<int>> below(sz(n));
@@ -92,7 +92,7 @@ TEST(Symbolic, IsSoundForManyGraphs) {
 TEST(Symbolic, JoinsAChainIntoPieces) {
   const Symbolic shape = analyse(test::chainWithClosures(1000, 0, 1));
   EXPECT_LT(shape.size(), 600);
-  // Joining must not make up more than it stores: entries of the factor of a chain are two a node.
+  // Merging must not add more zeros than entries: the factor of a chain has two entries per node.
   double entries = 0.0;
   for (int s = 0; s < shape.size(); ++s)
     entries +=

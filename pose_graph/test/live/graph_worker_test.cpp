@@ -14,14 +14,14 @@ namespace {
 using namespace std::chrono_literals;
 using urban_nav_core::UserError;
 
-/// A graph that notes what it is asked, and takes its time to relax.
+/// A graph that records its calls and takes time to relax.
 class Note : public LiveGraph {
  public:
   struct Book {
     std::vector<urban_nav_core::StampNs> steps;
     int closures = 0, batches = 0, updates = 0, kept = 0;
-    bool disagree = false;  // updates find closures that only a batch can judge
-    bool due = false;       // only a batch would do
+    bool disagree = false;  // updates find closures that require a batch
+    bool due = false;       // a batch is required
     int steps_at_batch = 0, steps_at_take = 0;
   };
   explicit Note(std::chrono::milliseconds relaxing) : relaxing_(relaxing) {}
@@ -100,7 +100,7 @@ urban_nav_core::RelativePose step(urban_nav_core::StampNs from, urban_nav_core::
   return step;
 }
 
-/// A worker in a thread, as a node has it.
+/// A worker in a thread, as in a node.
 class Worker {
  public:
   using Listener = GraphWorker::Listener;
@@ -165,7 +165,7 @@ TEST(GraphWorker, NothingWaitsForARelaxation) {
   };
   Worker worker(std::make_unique<Note>(200ms), 1000, listener);
   worker.put(urban_nav_core::MetricClosure());
-  std::this_thread::sleep_for(50ms);  // it is at work now
+  std::this_thread::sleep_for(50ms);  // the batch is running now
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 500; ++i) worker.put(step(i, i + 1));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 100ms);
@@ -199,7 +199,7 @@ TEST(GraphWorker, OptimizeIsABatch) {
   EXPECT_EQ(makeBook(worker).batches, 1);
 }
 
-TEST(GraphWorker, WhoWaitsForABatchIsInformedHowItEnds) {
+TEST(GraphWorker, RequestsOfABatchReceiveItsResult) {
   std::future<Figures> dropped;
   {
     Worker worker(std::make_unique<Note>(77ms), 100, {});
@@ -248,13 +248,13 @@ TEST(GraphWorker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
 }
 
 TEST(GraphWorker, ABatchThatFailsIsSaid) {
-  std::atomic<bool> said{false};
+  std::atomic<bool> reported_reason{false};
   Worker::Listener listener;
-  listener.refused = [&](const std::string& why) { said = why == "out of memory"; };
+  listener.refused = [&](const std::string& why) { reported_reason = why == "out of memory"; };
   Worker worker(std::make_unique<Note>(77ms), 100, listener);
   worker.optimize();
-  for (int i = 0; i < 1000 && !said; ++i) std::this_thread::sleep_for(5ms);
-  EXPECT_TRUE(said);
+  for (int i = 0; i < 1000 && !reported_reason; ++i) std::this_thread::sleep_for(5ms);
+  EXPECT_TRUE(reported_reason);
   EXPECT_EQ(makeBook(worker).batches, 0);
 }
 
@@ -269,7 +269,7 @@ TEST(GraphWorker, EndsInTheMiddleOfABatch) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
 }
 
-TEST(GraphWorker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {
+TEST(GraphWorker, ADisagreementLeadsToOneBatch) {
   Worker worker(std::make_unique<Note>(50ms), 100, {});
   set(worker, &Note::Book::disagree);
   const auto begin = std::chrono::steady_clock::now();
@@ -284,16 +284,16 @@ TEST(GraphWorker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {
   EXPECT_GT(book.kept, 0);
 }
 
-TEST(GraphWorker, WhatTheGraphRefusesIsCountedAndSaid) {
-  std::string said;
+TEST(GraphWorker, RejectedInputsAreCountedAndReported) {
+  std::string reported_reason;
   Worker::Listener listener;
-  listener.refused = [&](const std::string& why) { said = why; };
+  listener.refused = [&](const std::string& why) { reported_reason = why; };
   Worker worker(std::make_unique<Note>(0ms), 100, listener);
   worker.put(step(5, 3));
   worker.put(step(5, 7));
   EXPECT_EQ(makeBook(worker).steps.size(), 1U);
   EXPECT_EQ(worker.counts().refused, 1);
-  EXPECT_EQ(said, "step: backwards");
+  EXPECT_EQ(reported_reason, "step: backwards");
 }
 
 TEST(GraphWorker, AQuestionThrowsWhereItWasAsked) {
@@ -324,7 +324,7 @@ TEST(GraphWorker, ADroppedQuestionHasNoAnswer) {
   EXPECT_GE(worker.counts().dropped, 1);
 }
 
-TEST(GraphWorker, EndsWithWhatIsUnderWay) {
+TEST(GraphWorker, EndsWhileABatchRuns) {
   const auto begin = std::chrono::steady_clock::now();
   {
     Worker worker(std::make_unique<Note>(100ms), 100, {});

@@ -8,7 +8,7 @@ namespace {
 
 constexpr StampNs kFrame = 50'000'000;
 
-/// A straight drive of `spacing` metres a pose.
+/// Returns a straight drive with `spacing` metres between poses.
 Track makeTrack(int poses, double spacing) {
   Track track;
   for (int i = 0; i < poses; ++i) {
@@ -34,7 +34,7 @@ TEST(GroundNormalBuffer, KeepsWhatIsAheadOfThePoses) {
   EXPECT_EQ(rest.back().stamp, 9 * kFrame);
 }
 
-TEST(GroundNormalBuffer, TakesOneEveryQuarterMetreAndOneOfARobotThatStands) {
+TEST(GroundNormalBuffer, TakesOneEveryQuarterMetreAndOneAtRest) {
   GroundNormalBuffer moving, standing;
   addNormals(0, 101, moving);
   addNormals(0, 101, standing);

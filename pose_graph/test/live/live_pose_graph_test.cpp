@@ -56,18 +56,17 @@ class LivePoseGraphTest : public ::testing::Test {
     }
     graph.syncStore();
   }
-  /// Returns the announced session of a round of the recording.
+  /// Returns the announced session of one lap of the recording.
   static urban_nav_core::OdometrySessionPtr announce(int round) {
     const std::string recording = "monday (" + std::to_string(round) + ")";
     return std::make_shared<const urban_nav_core::OdometrySession>(urban_nav_core::OdometrySession{
         urban_nav_store::makeSessionId({"lisa", recording, 0, ""}), recording, "lisa", recording, 0});
   }
-  /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is
-  /// more than that.
+  /// Adds samples of an accelerometer that lies on its side at rest: inconsistent with the path, but gravity dominates.
   static void feel(LivePoseGraph& graph, int end) {
     for (int i = -5; i < end + 5; ++i) graph.add(SpecificForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
   }
-  /// What the camera sees of level ground while the robot drives a circle that is tilted in the axes of its first pose.
+  /// Adds normals of level ground while the robot drives a circle that is tilted in the axes of its first pose.
   static void seeGround(LivePoseGraph& graph, int end) {
     Pose T;
     for (int i = 0; i < end; ++i) {
@@ -75,7 +74,7 @@ class LivePoseGraphTest : public ::testing::Test {
       T = T * testing::stepAt(i).T_from_to;
     }
   }
-  /// Tilt of the map, rad.
+  /// Returns the tilt of the map, rad.
   static double tilt(const LivePoseGraph& graph) {
     const Pose first = graph.trajectory(0, 0, 0).segments[0].poses[0].T_map_base;
     return (first.R() * kUp - Eigen::Vector3d::UnitZ()).norm();
@@ -198,7 +197,7 @@ TEST_F(LivePoseGraphTest, ABagThatIsLoopedIsASessionEachTime) {
 TEST_F(LivePoseGraphTest, SessionsAreThoseOfTheOdometry) {
   auto graph = begin("own name");
   for (int round = 1; round <= 3; ++round) drive(*graph, 0, 20, announce(round));
-  graph->add(testing::stepAt(25));  // of an odometry that does not announce it: the session before, and a gap
+  graph->add(testing::stepAt(25));  // from odometry without an announced session: continues the session, after a gap
   graph.reset();
   const StoredGraph kept = stored();
   ASSERT_GE(kept.chains.size(), 3u);
@@ -291,13 +290,13 @@ TEST_F(LivePoseGraphTest, SavesWithAndWithoutAStoreAndLoadsIntoAnotherGraph) {
     graph->save(place.file("saved.db"))();
     graph->save(place.file("saved.db"))();
     if (!file.empty()) {
-      EXPECT_EQ(graph->save(place.file(file))(), "all of it is committed");
+      EXPECT_EQ(graph->save(place.file(file))(), "already committed");
     }
     auto other = begin("tuesday", "");
     EXPECT_NE(other->load(stored("saved.db")).find("1 sessions with 201 poses and 2 closures"), std::string::npos);
     relaxAll(*other);
     expectSame(other->trajectory(0, 0, 0), graph->trajectory(0, 0, 0));
-    EXPECT_NE(other->load(stored("saved.db")).find("1 sessions were there already"), std::string::npos);
+    EXPECT_NE(other->load(stored("saved.db")).find("1 sessions were already loaded"), std::string::npos);
     drive(*other, 0, 10);
     other->reset();
     drive(*other, 0, 10);
@@ -352,7 +351,7 @@ TEST_F(LivePoseGraphTest, ASessionEndsWithABatch) {
   EXPECT_FALSE(graph->isBatchPending());
 }
 
-TEST_F(LivePoseGraphTest, LevelsOnceItIsKnownWhichWayIsUp) {
+TEST_F(LivePoseGraphTest, LevelsOnceTheUpwardDirectionIsKnown) {
   auto graph = begin("monday", "");
   feel(*graph, 3 * kLap);
   drive(*graph, 0, 100);
@@ -396,7 +395,7 @@ TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   EXPECT_LT(tilt(*graph), 0.02);
 }
 
-TEST_F(LivePoseGraphTest, AnAccelerometerIsBelievedBeforeTheGround) {
+TEST_F(LivePoseGraphTest, AnAccelerometerHasPriorityOverTheGround) {
   auto graph = begin("monday", ""), alone = begin("monday", "");
   for (LivePoseGraph* each : {graph.get(), alone.get()}) {
     feel(*each, 3 * kLap);
@@ -425,20 +424,21 @@ TEST_F(LivePoseGraphTest, TheGroundLevelsTheMapAfterARestartToo) {
   expectSame(graph->trajectory(0, 0, 0), before);
 }
 
-TEST_F(LivePoseGraphTest, FixesBendTheWayAndAreThereAfterARestart) {
-  testing::GpsDrive way;
-  way.turn_drift = 0.003;
-  way.white = 0.3;
-  testing::makeDrive(3, 700.0, way);
+TEST_F(LivePoseGraphTest, FixesCorrectThePathAlsoAfterARestart) {
+  testing::GpsDrive gps_drive;
+  gps_drive.turn_drift = 0.003;
+  gps_drive.white = 0.3;
+  testing::makeDrive(3, 700.0, gps_drive);
   Parameters parameters;
   parameters.gps = true;
   const auto start = [&] { return std::make_unique<LivePoseGraph>(parameters, "lisa", "monday", place.file("s.db")); };
   auto graph = start();
   graph->syncStore();
-  graph->add(way.fixes[0]);  // before any odometry
+  graph->add(gps_drive.fixes[0]);  // before any odometry
   std::size_t next = 1;
-  for (const urban_nav_core::RelativePose& step : way.odometry) {
-    for (; next < way.fixes.size() && way.fixes[next].reading.stamp <= step.to; ++next) graph->add(way.fixes[next]);
+  for (const urban_nav_core::RelativePose& step : gps_drive.odometry) {
+    for (; next < gps_drive.fixes.size() && gps_drive.fixes[next].reading.stamp <= step.to; ++next)
+      graph->add(gps_drive.fixes[next]);
     graph->add(step);
     if (graph->isBatchPending()) batch(*graph);
   }
@@ -447,11 +447,11 @@ TEST_F(LivePoseGraphTest, FixesBendTheWayAndAreThereAfterARestart) {
   const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
   Track track;
   for (const auto& pose : before.segments.at(0).poses) track.map.push_back(pose.T_map_base);
-  EXPECT_LT(testing::positionError(way, track),
-            0.5 * testing::positionError(way, testing::relaxDrive(way, false).tracks()[0]));
+  EXPECT_LT(testing::positionError(gps_drive, track),
+            0.5 * testing::positionError(gps_drive, testing::relaxDrive(gps_drive, false).tracks()[0]));
   graph.reset();
   ASSERT_EQ(stored().chains.size(), 1u);
-  EXPECT_EQ(stored().chains[0].fixes.size(), way.fixes.size());
+  EXPECT_EQ(stored().chains[0].fixes.size(), gps_drive.fixes.size());
   graph = start();
   relaxAll(*graph);
   batch(*graph);

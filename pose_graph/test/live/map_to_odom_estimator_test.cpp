@@ -14,7 +14,7 @@ Pose at(int i) { return Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 0.01 * i)), Eigen:
 
 const Pose kMoved(expSo3(Eigen::Vector3d(0.1, -0.2, 1.0)), Eigen::Vector3d(5.0, -3.0, 0.3));
 
-/// Poses first...last - 1, relaxed to somewhere else.
+/// Returns the track of poses first...last - 1, displaced by relaxation.
 Track track(int first, int last, const SessionId& session = "a") {
   Track made;
   made.session = session;
@@ -48,7 +48,7 @@ TEST(MapToOdomEstimator, IsOfTheNewestPoseWhoseOdometryIsKnown) {
   expectTied(estimator, track(0, 80), 59);
 }
 
-TEST(MapToOdomEstimator, NothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMeet) {
+TEST(MapToOdomEstimator, IsUnknownForOdometryStartedEarlierUntilStampsMatch) {
   MapToOdomEstimator estimator;
   EXPECT_FALSE(estimator.estimate(nullptr));
   receive(estimator, 100, 130);
@@ -88,7 +88,7 @@ TEST(MapToOdomEstimator, AnOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
   EXPECT_TRUE(isApprox(*estimator.estimate(&after) * at(1), kMoved, 1e-9));
 }
 
-TEST(MapToOdomEstimator, ARecordingThatBeginsAgainHasNothingToDoWithTheSessionBefore) {
+TEST(MapToOdomEstimator, ARestartedRecordingIgnoresThePreviousSession) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 100);
   const Track before = track(0, 100), again = track(0, 10, "b");

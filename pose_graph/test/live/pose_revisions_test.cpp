@@ -8,7 +8,7 @@ namespace {
 
 using Ranges = std::vector<PoseRevisions::Range>;
 
-TEST(PoseRevisions, TellsWhatIsNewSinceARevision) {
+TEST(PoseRevisions, ReturnsRangesMovedSinceARevision) {
   PoseRevisions log;
   log.grow(10, 0);
   EXPECT_EQ(log.movedSince(-1, 0, 10), (Ranges{{0, 9}}));

@@ -21,7 +21,7 @@ std::vector<StampNs> posesUpTo(int end) {
   return stamps;
 }
 
-/// What becomes of it in a graph: each answer takes the place of what was known from its begin on.
+/// Applies an answer as a graph does: it replaces the known forces from its first stamp on.
 void put(const std::vector<SpecificForce>& forces, std::vector<SpecificForce>& known) {
   if (forces.empty()) return;
   while (!known.empty() && known.back().stamp >= forces.front().stamp) known.pop_back();
@@ -41,16 +41,16 @@ TEST(SpecificForceBuffer, EndsWithTheBitsOfAllAtOnce) {
   std::vector<SpecificForce> all, known;
   int poses = 0;
   for (StampNs stamp = -200'000'000; stamp < 60'000'000'000; stamp += kSample) {
-    if (stamp > 30'000'000'000 && stamp < 31'000'000'000) continue;  // it was silent
+    if (stamp > 30'000'000'000 && stamp < 31'000'000'000) continue;  // a gap of the accelerometer
     buffer.add(sampleAt(stamp));
     all.push_back(sampleAt(stamp));
-    // Poses come a second and a quarter late, and are asked for at odd times.
+    // Poses arrive 1.25 s late, and are requested at irregular times.
     poses = std::max(0, static_cast<int>((stamp - 1'250'000'000) / kPose));
     if (all.size() % 333 == 0) put(buffer.meansAt(posesUpTo(poses)), known);
   }
   put(buffer.meansAt(posesUpTo(poses + 20)), known);
   expectSame(known, forcesAt(posesUpTo(poses + 20), all));
-  // What is final is not made again.
+  // Final means are not computed again.
   EXPECT_LT(buffer.meansAt(posesUpTo(poses + 20)).size(), 300u);
 }
 

@@ -38,7 +38,7 @@ TEST(Rotation, TurnedIsTheDerivativeOfATurn) {
   EXPECT_LT(((ahead - before) / (2 * h) - turned(w) * d).norm(), 1e-9);
 }
 
-/// No rotation drawn at random lies nearer.
+/// No randomly drawn rotation is nearer.
 template <int D>
 void expectNearest() {
   Dice dice(3);

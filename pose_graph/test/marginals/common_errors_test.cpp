@@ -9,7 +9,7 @@
 namespace pose_graph::test {
 namespace {
 
-/// The measurements with an error of `step` standard deviations.
+/// Returns the measurements with an error of `step` standard deviations.
 template <int D>
 Problem<D> withError(const Problem<D>& problem, const CommonError<D>& error, double step) {
   Problem<D> displaced = problem;
@@ -100,7 +100,7 @@ TEST(CommonErrors, OfRejectedEdgesDoNotCount) {
   EXPECT_GT(added, 1e-3);
 }
 
-/// Without knowledge of the third coordinate the rest is known as in the plane of the other five.
+/// Without information on the third coordinate, the others are known as in the problem of the other five.
 TEST(CommonErrors, ReduceASingularInformation) {
   Dice dice(24);
   Problem<3> problem;
@@ -117,7 +117,7 @@ TEST(CommonErrors, ReduceASingularInformation) {
   const Marginal<3> without = Marginals<3>(problem, problem.poses).ofPose(2),
                     with = Marginals<3>(problem, problem.poses, {}, {common}).ofPose(2);
   ASSERT_EQ(with.knowledge, Knowledge::Partial);
-  // Two steps of variance 1/4 along x, and twice 0.5 m of a common error.
+  // Two steps with variance 1/4 along x, and twice 0.5 m of a common error.
   EXPECT_NEAR(1.0 / without.information(0, 0), 0.5, 1e-6);
   EXPECT_NEAR(1.0 / with.information(0, 0), 1.5, 1e-6);
   EXPECT_NEAR(with.information(2, 2), 0.0, 1e-9);

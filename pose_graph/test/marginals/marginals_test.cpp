@@ -19,14 +19,14 @@ namespace {
 using urban_nav_core::Matrix6d;
 using urban_nav_core::PoseWithCovariance;
 
-/// The edge as everything outside has it: its covariance seen from the parent.
+/// Returns the edge in the convention of stage outputs: covariance in the parent's axes.
 PoseWithCovariance withCovariance(const Edge<3>& edge) {
   Matrix6d turn = Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.Z.R;
   return {toPose(edge.Z), turn * *urban_nav_core::invertPositiveDefinite(edge.information) * turn.transpose()};
 }
 
-/// Covariance of all poses by a dense inverse, 0 for the first, in the axes of the map.
+/// Returns the covariance of all poses by a dense inverse, 0 for the first, in the axes of the map.
 template <int D>
 Eigen::MatrixXd denseCovariance(const Problem<D>& problem) {
   constexpr int kN = kTangentSize<D>;
@@ -53,7 +53,7 @@ Eigen::MatrixXd denseCovariance(const Problem<D>& problem) {
   return made;
 }
 
-/// d_ab by d_a and d_b from the core's own Jacobians, all in the axes of the map or, the result, of a.
+/// Returns the covariance of d_ab from those of d_a and d_b, with the core's Jacobians; in the axes of a.
 Matrix6d expectedBetween(const Problem<3>& problem, const Eigen::MatrixXd& covariance, int a, int b) {
   const auto between = urban_nav_core::between(toPose(problem.poses[sz(a)]), toPose(problem.poses[sz(b)]));
   Eigen::MatrixXd joint(12, 12), J(6, 12);
@@ -81,7 +81,7 @@ TEST(Marginals, EveryPairEqualsTheDenseInverse) {
   }
 }
 
-/// With fixed poses they are what is left of those without, once the places of the fixed ones are known.
+/// Marginals with fixed poses are those without, conditioned on the fixed poses.
 TEST(Marginals, OfFixedPosesAreConditional) {
   Dice dice(11);
   Problem<3> problem = drawProblem<3>(dice, 14, 8, 0.1, 0.1);
@@ -124,7 +124,7 @@ TEST(Marginals, ThePlaneIsAPartOfSpace) {
   }
 }
 
-/// Without closures, each link's covariance is carried along by hand.
+/// Without closures, the covariance of each link is propagated explicitly.
 TEST(Marginals, AChainIsItsPropagatedCovariance) {
   Dice dice(2);
   Problem<3> problem = drawProblem<3>(dice, 40, 0, 0.3, 0.4);
@@ -169,7 +169,7 @@ void expectParts() {
   for (int i = 0; i < 6; ++i) problem.poses.push_back(drawRigid<D>(dice, 5.0, 1.0));
   for (int i = 11; i < 15; ++i)
     problem.edges.push_back({i - 1, i, drawRigid<D>(dice, 1.0, 0.5), drawInformation<D>(dice)});
-  problem.edges.push_back({3, 12, drawRigid<D>(dice, 1.0, 0.5), TangentMatrix<D>::Zero()});      // says nothing
+  problem.edges.push_back({3, 12, drawRigid<D>(dice, 1.0, 0.5), TangentMatrix<D>::Zero()});      // no information
   problem.edges.push_back({4, 13, drawRigid<D>(dice, 1.0, 0.5), TangentMatrix<D>::Identity()});  // rejected
   std::vector<double> weights(problem.edges.size(), 1.0);
   weights.back() = 0.0;
@@ -184,7 +184,7 @@ void expectParts() {
   EXPECT_EQ(marginals.ofPose(15).covariance.norm(), 0.0);
   for (int i = 0; i < 10; ++i) EXPECT_LT((marginals.ofPose(i).covariance - alone.ofPose(i).covariance).norm(), 1e-9);
 }
-TEST(Marginals, PartsThatNothingConnectsKnowNothingOfEachOther) {
+TEST(Marginals, UnconnectedPartsHaveNoRelativeInformation) {
   expectParts<2>();
   expectParts<3>();
 }
@@ -198,8 +198,8 @@ TEST(Marginals, WeightsAreFactorsOfTheInformation) {
   EXPECT_LT((4.0 * four_times.between(2, 8).covariance - covariance).norm(), 1e-9 * covariance.norm());
 }
 
-/// A pose that hangs on by an edge of less than full rank: what the edge tells is known, along what it does not tell
-/// the information is zero, and all others are as if it were not there.
+/// A pose attached by an edge of deficient rank: constrained directions are known, the information is zero along free
+/// ones, and all other marginals are as without the pose.
 template <int D>
 void expectFreeMarginals() {
   constexpr int kN = kTangentSize<D>;
@@ -217,7 +217,7 @@ void expectFreeMarginals() {
       const TangentMatrix<D> expected = without.ofPose(i).covariance;
       EXPECT_LT((one.covariance - expected).norm(), 1e-6 * expected.norm() + 1e-15) << "rank " << rank;
     }
-    // Seen from its neighbour the edge is all there is.
+    // Relative to its neighbour the edge is the only information.
     const Marginal<D> hanging = marginals.between(5, 12);
     ASSERT_EQ(hanging.knowledge, Knowledge::Partial) << "rank " << rank;
     TangentMatrix<D> turn = TangentMatrix<D>::Identity();
@@ -233,7 +233,7 @@ TEST(Marginals, FreeDirectionsHaveZeroInformation) {
   expectFreeMarginals<3>();
 }
 
-/// Many links that leave the heading free, after which the graph goes on.
+/// Many links that leave the heading free, followed by more of the graph.
 TEST(Marginals, FreeHeadingIsHandedOn) {
   Dice dice(7);
   Problem<2> problem = drawProblem<2>(dice, 20, 0, 0.0, 0.0);
@@ -246,7 +246,7 @@ TEST(Marginals, FreeHeadingIsHandedOn) {
     const Marginal<2> one = marginals.ofPose(i);
     ASSERT_EQ(one.knowledge, Knowledge::Partial) << i;
     EXPECT_EQ(urban_nav_core::symmetricEigenvalues(one.information)->size(), 3);
-    // The whole part turns about pose 10: that is what is free, and nothing else.
+    // The remaining part rotates about pose 10: this is the only free direction.
     Tangent<2> free;
     free << turned(Eigen::Vector2d(problem.poses[sz(i)].t - problem.poses[10].t)), 1.0;
     free.head<2>() = problem.poses[0].R.transpose() * free.head<2>();
@@ -274,7 +274,7 @@ TEST(Marginals, AreDisplayedWithTheLargestVarianceWhereNothingIsKnown) {
   EXPECT_NEAR(mixed(5, 5), 10.0, 1e-6);
 }
 
-TEST(Marginals, NumbersBeyondReasonAreReportedAsNothingKnown) {
+TEST(Marginals, OverflowIsReportedAsNoKnowledge) {
   Dice dice(8);
   Problem<3> problem = drawProblem<3>(dice, 6, 3, 0.1, 0.1);
   problem.edges[2].information *= 1e308;
@@ -286,7 +286,7 @@ TEST(Marginals, NumbersBeyondReasonAreReportedAsNothingKnown) {
   }
 }
 
-/// Simulated graphs with true information: errors are as large as the covariances say.
+/// Simulated graphs with true information: errors match the stated covariances.
 TEST(Marginals, NeesIsRight) {
   using namespace urban_nav_core::testing;
   double sum = 0.0;
@@ -308,7 +308,7 @@ TEST(Marginals, NeesIsRight) {
       ++count;
     }
   }
-  // The two poses of a graph depend on each other: a band as of one of them.
+  // The two poses of a graph are correlated, so the interval is that of one.
   EXPECT_TRUE(meanChiSquareFits(sum / count, 6, 8, 0.999));
 }
 

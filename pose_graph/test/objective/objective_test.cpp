@@ -34,7 +34,7 @@ double computeCost(Objective objective, const Edge<D>& edge, const Rigid<D>& fro
   return 0.0;
 }
 
-/// An edge and its two poses, whose error is `metres` long and turned by `angle`.
+/// An edge and its two poses, with an error of `metres` and `angle`.
 template <int D>
 struct Case {
   Edge<D> edge;
@@ -73,7 +73,7 @@ TEST(Objective, CostsAreThoseOfTheDefinitions) {
   expectCostsAsDefined<3>();
 }
 
-/// What NormalEquations does with `from`: EdgeQuadratic's T.
+/// The derivatives by `from` as NormalEquations computes them: T of EdgeQuadratic.
 template <int D>
 TangentMatrix<D> fromTo(const EdgeQuadratic<D>& quadratic) {
   TangentMatrix<D> T = TangentMatrix<D>::Identity();
@@ -119,7 +119,7 @@ void expectGaussNewton() {
     const Case<D> one(dice, Sizes<D>::kMetres[size], Sizes<D>::kAngle[size]);
     for (const Objective objective : kObjectives) {
       constexpr int kMost = D * D + D;
-      using Residual = Eigen::Matrix<double, kMost, 1>;  // filled up with zeros
+      using Residual = Eigen::Matrix<double, kMost, 1>;  // padded with zeros
       const auto residual = [&](const Rigid<D>& from, const Rigid<D>& to) {
         const Eigen::VectorXd r = plainResidual(objective, one.edge, from, to).r;
         Residual made = Residual::Zero();
@@ -213,7 +213,7 @@ TEST(Objective, HalfATurnIsNoTrouble) {
     EXPECT_NEAR(computeCost(Objective::Geodesic, edge, from, to), 14.0 + half * half, 1e-9);
     EXPECT_NEAR(computeCost(Objective::G2o, edge, from, to), 14.0 + 4.0, 1e-9);
   }
-  Rigid<3> exact;  // not a bit beside half a turn
+  Rigid<3> exact;  // exactly half a turn
   for (int axis = 0; axis < 3; ++axis) {
     exact.R = -Eigen::Matrix3d::Identity();
     exact.R(axis, axis) = 1.0;

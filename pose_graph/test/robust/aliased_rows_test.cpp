@@ -18,7 +18,8 @@ using urban_nav_core::ClosureVerdict;
 using urban_nav_core::testing::SimulatedGraph;
 
 constexpr std::size_t kPosesOfTown = 600;
-constexpr std::size_t kLastRevisit = 480;  // of the drive, that ends on streets of its own
+// Last pose of the drive near earlier ones; the end is on streets driven once.
+constexpr std::size_t kLastRevisit = 480;
 constexpr int kAliased = 10;
 
 SimulatedGraph drawBlocks(std::uint64_t seed) {
@@ -31,7 +32,7 @@ SimulatedGraph drawBlocks(std::uint64_t seed) {
   return graph;
 }
 
-/// Returns the first pose that is 4 to 8 m from another one, and headed like it; -1 if no pose is.
+/// Returns the first pose 4 to 8 m from another one with similar heading; -1 if there is none.
 int findSimilar(const SimulatedGraph& graph, std::size_t other) {
   for (std::size_t pose = 0; pose + kAliased < kLastRevisit; ++pose) {
     const double metres = urban_nav_core::distanceBetween(graph.truth[pose], graph.truth[other]);
@@ -41,8 +42,8 @@ int findSimilar(const SimulatedGraph& graph, std::size_t other) {
   return -1;
 }
 
-/// Appends closures between two stretches of the same length that are taken for one place: each agrees with odometry
-/// along both, and with the others.
+/// Appends closures between two sections of equal length that are confused: each is consistent with odometry along
+/// both, and with the others.
 void addAliasedRow(Problem<2>& problem, int from, int to, test::Dice& dice) {
   const Edge<2> like = problem.edges.back();
   const Rigid<2> offset = test::drawRigid<2>(dice, 0.3, 0.05);
@@ -96,14 +97,14 @@ void expectRejected(double information) {
   EXPECT_GE(rows, 4);
 }
 
-// One row of false closures at the end of a drive contradicts nothing but odometry: it may bend the chain, or have a
-// step slip.
+// A single row of false closures at the end of a drive contradicts only odometry: it could bend the chain or cause a
+// false slip.
 TEST(AliasedRows, DoNotMoveTheMap) { expectRejected(1.0); }
 
-// Deviations stated twenty times too large let the row fit as it is.
-TEST(AliasedRows, DoNotMoveTheMapWhereTheInformationIsFarTooModest) { expectRejected(1.0 / 400.0); }
+// With deviations stated twenty times too large the row fits.
+TEST(AliasedRows, DoNotMoveTheMapWhereTheInformationIsFarTooLow) { expectRejected(1.0 / 400.0); }
 
-// All errors are a twentieth of what the information states, but for one closure in thirty that errs by nearly as much.
+// All errors are a twentieth of the stated ones, except for one closure in thirty with almost the stated error.
 TEST(AliasedRows, CostNoClosureThatErrsAsMuchAsItStates) {
   for (const std::uint64_t seed : {3, 6, 8}) {
     auto noise = urban_nav_core::testing::evenNoise(0.05, 0.01);

@@ -10,7 +10,7 @@
 namespace pose_graph {
 namespace {
 
-// Evenly over a square of 20 m and all headings: 1 / (400 2 pi) within.
+// Uniform over a square of 20 m and all headings: the density is 1 / (400 2 pi).
 TEST(ChanceDensity, OfAnEvenSpreadIsOneOverItsVolume) {
   test::Dice dice(3);
   std::vector<Rigid<2>> poses;
@@ -33,11 +33,11 @@ TEST(ChanceDensity, OfASpreadInSpaceIsOneOverItsVolume) {
     };
     poses.push_back({expRotation(RotationVector<3>(draw(0.5 * width))), draw(10.0)});
   }
-  // Near the edge of the spread the nearest ones lie on one side only: a factor of two in the sixth dimension.
+  // Near the edge of the distribution the nearest samples are on one side only: a factor of two in the sixth dimension.
   EXPECT_NEAR(PoseSample<3>(poses, 10.0).logDensity({}), -std::log(8000.0 * width * width * width), std::log(2.5));
 }
 
-// The pair in question is there a thousand times: only what else lies there is chance.
+// The excluded pair occurs a thousand times: only the other samples count as chance.
 TEST(ChanceDensity, OfTheOwnPairIsWithoutIt) {
   test::Dice dice(5);
   std::vector<Rigid<2>> poses;

@@ -15,7 +15,7 @@
 namespace pose_graph {
 namespace {
 
-// Of one standard deviation as stated, in one direction.
+// Density of a residual with the stated standard deviation of one, in one dimension.
 double density(double residual, double variance) {
   return std::exp(logInlierLikelihood(-0.5 * std::log(2.0 * M_PI), 1, residual * residual, variance));
 }
@@ -28,14 +28,14 @@ TEST(TrueResidual, IsADensity) {
   }
 }
 
-TEST(TrueResidual, IsNormalWhereInformationIsRightOrBoasts) {
+TEST(TrueResidual, IsNormalWhereInformationIsRightOrOverconfident) {
   for (const double variance : {1.0, 4.0})
     for (const double residual : {0.0, 1.0, 10.0})
       EXPECT_NEAR(std::log(density(residual, variance)),
                   -0.5 * std::log(2.0 * M_PI * variance) - 0.5 * residual * residual / variance, 1e-12);
 }
 
-TEST(TrueResidual, FarOutIsWhatModestInformationStates) {
+TEST(TrueResidual, HasTheStatedTailsWhereInformationIsLow) {
   const double stated = -0.5 * std::log(2.0 * M_PI) - 0.5 * 9.0;
   EXPECT_NEAR(std::log(density(3.0, 0.01)), std::log(0.05) + stated, 1e-9) << "thirty deviations of the others";
   EXPECT_GT(density(0.0, 0.01), 9.0 * density(0.0, 1.0)) << "and near by it is nearly as sharp as the others";
@@ -53,9 +53,9 @@ TEST(TrueResidual, FallsWithTheResidualAndStaysFinite) {
   }
 }
 
-// A straight drive there and back, closures between the two directions, and one of them that errs.
+// A straight drive there and back, closures between both directions, one of them with an error.
 struct ThereAndBack {
-  static constexpr int kPoses = 60, kErring = 70;  // number of the edge
+  static constexpr int kPoses = 60, kErring = 70;  // edge number
   Problem<2> problem;
   std::vector<int> candidates;
   std::vector<char> in;
@@ -93,7 +93,7 @@ struct ThereAndBack {
   }
 };
 
-// A covariance from 24 samples is good to three tenths.
+// A covariance from 24 samples has an error of 30 %.
 TEST(OwnVariance, IsThatOfTheClosureInQuestionAlone) {
   ThereAndBack inside(0.3), outside = inside, wider = inside;
   outside.in[ThereAndBack::kErring] = wider.in[ThereAndBack::kErring] = 0;
@@ -105,7 +105,7 @@ TEST(OwnVariance, IsThatOfTheClosureInQuestionAlone) {
   }
 }
 
-// Ten closures in a row that are two metres off, which a tenth of a metre of each does not explain.
+// Ten closures in a row with an error of 2 m, which their deviations of 0.1 m do not explain.
 TEST(OwnVariance, OfARowIsThatOfAllItsClosures) {
   ThereAndBack alone(0.0), row(0.0);
   for (int e = ThereAndBack::kErring - 5; e < ThereAndBack::kErring + 5; ++e) {

@@ -43,7 +43,7 @@ InformationScale estimateScale(const SimulatedGraph& graph) {
   return informationScale(ClosureLoops<3>(drawn.problem, drawn.edges, chains));
 }
 
-// The factor is one of variances; it is read off some hundred loops.
+// The factor applies to variances; it is estimated from about a hundred loops.
 TEST(InformationScale, IsThatOfTheNoise) {
   for (const double drawn : {0.1, 0.5, 1.0, 4.0}) {
     const double factor = estimateScale(globe(drawn, 3)).factor;
@@ -52,7 +52,7 @@ TEST(InformationScale, IsThatOfTheNoise) {
   }
 }
 
-TEST(InformationScale, StandsBesideAsManyFalseClosures) {
+TEST(InformationScale, IsEstimatedAmongAsManyFalseClosures) {
   for (const FalseClosures kind : {FalseClosures::Random, FalseClosures::Local, FalseClosures::RandomGrouped})
     for (const double drawn : {0.2, 1.0, 4.0}) {
       SimulatedGraph graph = globe(drawn, 5);
@@ -69,15 +69,16 @@ TEST(InformationScale, IsOneWithoutLoops) {
   EXPECT_EQ(estimateScale(graph).factor, 1.0);
 }
 
-// Few loops may be distinguished from what is stated by chance, and must not make everything acceptable.
-TEST(InformationScale, TakesFewLoopsForNoProofOfABoast) {
+// Few loops may deviate from the stated variance by chance, and must not loosen the tests.
+TEST(InformationScale, DoesNotInferOverconfidenceFromFewLoops) {
   SimulatedGraph graph = globe(10.0, 5);
   graph.edges.resize(graph.truth.size() + 19);
   EXPECT_LE(estimateScale(graph).factor, 1.0);
 }
 
-// Information four times too confident in every deviation: each true closure looks false by what is stated.
-TEST(InformationScale, KeepsTrueClosuresOfInformationThatBoasts) {
+// Information overconfident by a factor of four in all deviations: every true closure looks false with the stated
+// covariance.
+TEST(InformationScale, KeepsTrueClosuresWithOverconfidentInformation) {
   const SimulatedGraph clean = globe(4.0, 7);
   SimulatedGraph spoilt = clean;
   addFalseClosures(spoilt, FalseClosures::Random, (clean.edges.size() - clean.truth.size()) / 2, 11);

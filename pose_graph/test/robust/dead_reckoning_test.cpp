@@ -46,7 +46,7 @@ TEST(CopiedPoses, ThoseWhereOdometryLeadsAreLeftOut) {
   EXPECT_TRUE(withoutCopiedPoses(problem, roles).empty());
 }
 
-// A handful of closures does not determine variances better than the information states them.
+// A handful of closures does not determine variances better than the stated information.
 TEST(CopiedPoses, SmallGraphsAreRelaxedWithTheInformationStated) {
   for (const Held held : kHeld) {
     expectNeitherScaledNorRejected<2>(held);

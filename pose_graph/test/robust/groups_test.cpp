@@ -12,8 +12,8 @@ namespace {
 using test::Dice;
 
 constexpr int kCirclePoses = 100;       // poses of a circle
-constexpr double kOdometryStep = 0.5;   // metres
-constexpr std::size_t kFirstFalse = 8;  // candidates: so many true ones, then ten false ones
+constexpr double kOdometryStep = 0.5;   // m
+constexpr std::size_t kFirstFalse = 8;  // index of the first of ten false candidates, after the true ones
 
 Rigid<2> step() {
   Rigid<2> made;
@@ -22,8 +22,8 @@ Rigid<2> step() {
   return made;
 }
 
-// Three laps of a circle, hardly known to odometry for its closures: beginning and middle of the second lap are tied to
-// the first, and ten in a row of the third lap to places that are a quarter of a lap away.
+// Three laps of a circle with odometry of low information. Closures join the beginning and the middle of the second lap
+// to the first; ten in a row join the third lap to places a quarter of a lap away.
 struct Laps {
   Problem<2> problem;
   std::vector<EdgeRole> roles;
@@ -58,13 +58,13 @@ struct Laps {
   }
 };
 
-// The figures with all of them in and the graph relaxed to fit them all.
-struct Said {
+// Statistics with all candidates accepted and the graph relaxed with them.
+struct LapSummary {
   bool changed = false;
   std::vector<char> in;
-  double group_chi2 = 0.0;  // before, of the last group, as a round hears it
+  double group_chi2 = 0.0;  // of the last group before relaxation, as in a round of admission
 };
-Said summariseLaps(const Laps& laps) {
+LapSummary summariseLaps(const Laps& laps) {
   const DeadReckoning<2> reckoning(laps.problem, laps.roles);
   const ClosureEvaluator<2> evaluator(laps.problem, laps.candidates, reckoning);
   const Thresholds thresholds(laps.candidates.size(), 3);
@@ -75,28 +75,28 @@ Said summariseLaps(const Laps& laps) {
   graph.take(state.in);
   graph.settle(state.poses);
   const std::vector<int> group = laps.group;
-  Said said;
-  said.group_chi2 = evaluator.evaluate(graph, state.in, state.poses, 1.0, group, kUncontrolled).group_chi2.back();
+  LapSummary summary;
+  summary.group_chi2 = evaluator.evaluate(graph, state.in, state.poses, 1.0, group, kUncontrolled).group_chi2.back();
   std::vector<int> expelled(laps.problem.edges.size(), 0);
-  said.changed = validateFinally(evaluator, group, group, thresholds, {}, expelled, graph, state);
-  said.in = state.in;
-  return said;
+  summary.changed = validateFinally(evaluator, group, group, thresholds, {}, expelled, graph, state);
+  summary.in = state.in;
+  return summary;
 }
 
 TEST(LastWord, ExpelsAGroupThatBendsTheGraphUntilItFits) {
   const Laps laps(M_PI / 2.0);
-  const Said said = summariseLaps(laps);
-  EXPECT_LT(said.group_chi2, sampledMargin() * Thresholds(laps.candidates.size(), 3).limit.back())
+  const LapSummary summary = summariseLaps(laps);
+  EXPECT_LT(summary.group_chi2, sampledMargin() * Thresholds(laps.candidates.size(), 3).limit.back())
       << "nothing else controls it, and a round does not see it";
-  EXPECT_TRUE(said.changed);
+  EXPECT_TRUE(summary.changed);
   for (std::size_t k = kFirstFalse; k < laps.candidates.size(); ++k)
-    EXPECT_EQ(said.in[static_cast<std::size_t>(laps.candidates[k])], 0) << k;
+    EXPECT_EQ(summary.in[static_cast<std::size_t>(laps.candidates[k])], 0) << k;
 }
 
 TEST(LastWord, LeavesTrueOnesAlone) {
-  const Said said = summariseLaps(Laps(0.0));
-  EXPECT_FALSE(said.changed);
-  EXPECT_EQ(std::count(said.in.begin(), said.in.end(), 0), 0);
+  const LapSummary summary = summariseLaps(Laps(0.0));
+  EXPECT_FALSE(summary.changed);
+  EXPECT_EQ(std::count(summary.in.begin(), summary.in.end(), 0), 0);
 }
 
 }  // namespace

@@ -97,8 +97,8 @@ TEST(Robust, ExactMeasurementsStayExact) {
     EXPECT_LT((robust.solution.poses[i].t - toRigid<2>(graph.truth[i]).t).norm(), 1e-6);
 }
 
-// Most residuals are a fifth of what the information promises, one is three times what it promises.
-TEST(Robust, WhatModestInformationStatesIsBelieved) {
+// Most residuals are a fifth of the stated deviation, one is three times as large.
+TEST(Robust, LowInformationIsTakenAsStated) {
   SimulatedGraph graph = urban_nav_core::testing::manhattanGraph(
       600, 12, 0.5,
       [] {
@@ -135,7 +135,7 @@ TEST(Robust, PlacesWithoutHeadingsAreEnough) {
   EXPECT_TRUE(test::allFinite<2>(robust.solution.poses));
 }
 
-// Two drives through the same town, which closures alone join.
+// Two drives through the same town, joined by closures only.
 struct TwoDrives {
   SimulatedGraph graph = town(13);
   Problem<2> problem;
@@ -153,7 +153,8 @@ struct TwoDrives {
     }
     graph.edges = kept;
     problem = simulatedProblem<2>(graph, graph.truth);
-    for (std::size_t i = second; i < problem.poses.size(); ++i) problem.poses[i].t.x() += 500.0;  // unknown
+    // Unknown relative pose.
+    for (std::size_t i = second; i < problem.poses.size(); ++i) problem.poses[i].t.x() += 500.0;
     roles = rolesByNumbers(problem);
   }
 };
@@ -180,7 +181,7 @@ TEST(Robust, AnAssertedEdgeStaysAndNamesWhatContradictsIt) {
   const SimulatedGraph graph = town(21);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
   std::vector<EdgeRole> roles = rolesByNumbers(problem);
-  Edge<2> lie = problem.edges.back();  // a closure
+  Edge<2> lie = problem.edges.back();  // a false closure
   const std::size_t truth = problem.edges.size() - 1;
   lie.Z.t.x() += 4.0;
   lie.information *= 100.0;
@@ -224,7 +225,7 @@ TEST(Robust, RolesFollowTheNumbers) {
                                                             EdgeRole::Trusted, EdgeRole::Candidate}));
 }
 
-TEST(Robust, NothingToDecideIsNoTrouble) {
+TEST(Robust, GraphsWithoutCandidatesAreRelaxed) {
   Problem<3> problem;
   problem.poses.resize(3);
   problem.edges = {{0, 1, {}, TangentMatrix<3>::Identity()}, {1, 2, {}, TangentMatrix<3>::Zero()}};

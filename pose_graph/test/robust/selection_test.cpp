@@ -78,8 +78,8 @@ TEST(Selection, AChainWithFalseClosuresAloneStaysWithOdometry) {
   }
 }
 
-// Odometry that turns by half a radian a step is bent to fit any closures once all places have become one.
-TEST(Selection, AMapThatIsDrawnTogetherExplainsNothing) {
+// Odometry with a rotation error of 0.5 rad per step can be bent to fit any closures, in a map that is one point.
+TEST(Selection, AContractedMapExplainsNothing) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SimulatedGraph graph =
         urban_nav_core::testing::gridGraph(5, 5, 5, 1.0, 0.5, urban_nav_core::testing::evenNoise(0.1, 0.4), seed);
@@ -102,7 +102,7 @@ TEST(Selection, WhatNothingContestsEndsWhereRobustSelectionDoes) {
   EXPECT_LT(test::largestDifference<2>(selected.robust.solution.poses, plain.solution.poses), 1e-9);
 }
 
-// The step is longer by two metres and turned by a radian; nothing else is like it.
+// The step is too long by 2 m and rotated by 1 rad; no other step is similar.
 TEST(Selection, ASlippedStepIsFoundAndCostsNoClosure) {
   for (const std::uint64_t seed : {1, 5, 9}) {
     const SimulatedGraph graph = drawTown(seed);
@@ -118,7 +118,7 @@ TEST(Selection, ASlippedStepIsFoundAndCostsNoClosure) {
   }
 }
 
-// One step is longer by two metres and turned by half a radian; which.
+// Makes one step too long by 2 m and rotated by 0.5 rad. Returns its index.
 std::size_t slip(Problem<2>& problem, std::uint64_t seed) {
   const std::size_t slipped = 500 + 37 * seed;
   problem.edges[slipped].Z.t[0] += 2.0;
@@ -126,7 +126,7 @@ std::size_t slip(Problem<2>& problem, std::uint64_t seed) {
   return slipped;
 }
 
-// Among many closures: two to six of a thousand would be rejected in place of the step.
+// With many closures: otherwise two to six of a thousand would be rejected instead of the step.
 TEST(Selection, ASlippedStepThatCostsFewClosuresIsFound) {
   for (const std::uint64_t seed : {1, 9}) {
     const SimulatedGraph graph =
@@ -140,8 +140,8 @@ TEST(Selection, ASlippedStepThatCostsFewClosuresIsFound) {
   }
 }
 
-// Which fill the factor, so that not all of each row take part in the search.
-TEST(Selection, ASlippedStepIsFoundBesideRowsOfFalseClosures) {
+// The rows fill the factor, so that the search uses only some closures of each.
+TEST(Selection, ASlippedStepIsFoundAmongRowsOfFalseClosures) {
   for (const std::uint64_t seed : {1, 5, 9}) {
     SimulatedGraph graph =
         urban_nav_core::testing::manhattanGraph(1500, 20, 1.0, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
@@ -157,7 +157,7 @@ TEST(Selection, ASlippedStepIsFoundBesideRowsOfFalseClosures) {
   }
 }
 
-TEST(Selection, AChainThatNothingRefutesIsNotTornApart) {
+TEST(Selection, AChainThatNothingContradictsHasNoSlip) {
   SimulatedGraph graph = drawTown(2);
   graph.edges.resize(graph.truth.size() - 1);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
@@ -166,7 +166,7 @@ TEST(Selection, AChainThatNothingRefutesIsNotTornApart) {
   for (std::size_t e = 0; e < problem.edges.size(); ++e) EXPECT_TRUE(selected.accepted(e)) << e;
 }
 
-// Factors of the information of odometry and of closures. What it states is in deviations.
+// Factors of the information of odometry and of closures; the expected scales are of deviations.
 TEST(Selection, InformationOfTheWrongScaleCostsNoClosure) {
   const double factors[][2] = {{100.0, 1.0}, {1.0, 100.0}, {100.0, 100.0}, {0.01, 0.01}};
   for (const auto& [odometry, closures] : factors) {
@@ -190,7 +190,7 @@ TEST(Selection, InformationOfTheWrongScaleCostsNoClosure) {
   }
 }
 
-// Closures err by a twentieth of what they state, one in thirty by nearly as much; odometry by a twentieth too.
+// Closures have a twentieth of the stated error, one in thirty almost the stated one; odometry a twentieth too.
 TEST(Selection, ClosuresThatErrAsStatedStayAmongThoseThatErrByFarLess) {
   for (const std::uint64_t seed : {3, 6, 8}) {
     auto noise = urban_nav_core::testing::evenNoise(0.05, 0.01);
@@ -228,8 +228,8 @@ TEST(Selection, AnEdgeGivenTenTimesCountsOnce) {
   for (std::size_t e = 0; e < often.edges.size(); ++e) EXPECT_EQ(ten.accepted(e), one.accepted(e / 10)) << e;
 }
 
-// Odometry that errs by less than it states from one step to the next, and by more over a long distance: a wrong
-// scale of its turns adds up. Two streets are driven twice.
+// Odometry whose error is smaller than stated between steps and larger over a long distance: a scale error of its
+// rotations accumulates. Two streets are driven twice.
 Problem<2> drawStreets(std::uint64_t seed) {
   constexpr int kSide = 150, kRoundPoses = 4 * kSide, kPoses = kRoundPoses + 3 * kSide;
   constexpr double kMetres = 0.04, kRadians = 8e-4, kDrawn = 0.6, kTurnBias = 1.2e-4;
@@ -265,8 +265,9 @@ TEST(Selection, NoneOfTheClosuresOfStreetsDrivenTwiceIsLost) {
   }
 }
 
-// Closures that measure nothing agree with each other and with a map that is one point, if odometry is loosened.
-TEST(Selection, ClosuresThatOnlySayTheSamePlaceDoNotShrinkTheMap) {
+// Closures that measure nothing are consistent with each other and with a map that is one point, if odometry's variance
+// is increased.
+TEST(Selection, ClosuresThatOnlyAssertTheSamePlaceDoNotContractTheMap) {
   SimulatedGraph graph = drawTown(3);
   addFalseClosures(graph, FalseClosures::Random, 80, 5);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
@@ -310,8 +311,8 @@ TEST(Selection, FalseAssertionsOnAChainStayWithOdometry) {
   }
 }
 
-// A drive of 23 minutes indoors, whose odometry errs by thirty times what it says in places, and 5 180 pairs of images
-// that look alike: four in five are true.
+// An indoor drive of 23 minutes, whose odometry has thirty times the stated error in places, with 5 180 pairs of
+// similar images, four in five of them true.
 TEST(Selection, TrueAssertionsHoldARealDriveTogether) {
   const auto file = test::readPublic("tuc");
   if (!file) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with graphs/tuc.g2o.xz";
@@ -320,8 +321,8 @@ TEST(Selection, TrueAssertionsHoldARealDriveTogether) {
   EXPECT_GT(selected.closures(ClosureVerdict::Accepted), 1000u);
 }
 
-// A drive whose odometry states far too little: 76 of 77 closures are false, and all of them fit once variances are
-// enlarged. The same with a second session that two true closures join.
+// A drive whose odometry is strongly overconfident: 76 of 77 closures are false, and all fit once variances are
+// enlarged. Also with a second session joined by two true closures.
 TEST(Selection, FalseClosuresThatFitByEnlargedVariancesStayOutInTwoSessionsToo) {
   const auto file = test::readPublic("kitti_07_closures");
   if (!file) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with graphs/kitti_07_closures.g2o.xz";
@@ -345,8 +346,8 @@ TEST(Selection, FalseClosuresThatFitByEnlargedVariancesStayOutInTwoSessionsToo) 
     EXPECT_TRUE(alone.roles[e] != EdgeRole::Candidate || !two_sessions.accepted(e)) << e;
 }
 
-// The second half of the way as a session of its own, and `links` of the true closures between the two, and as many
-// random ones as `wrong`.
+// The second half of the path as a separate session, with `links` true closures between both halves and `wrong` random
+// ones.
 template <int D>
 Problem<D> drawSessions(const SimulatedGraph& graph, std::size_t links, std::size_t wrong,
                         std::vector<std::size_t>* true_links) {
@@ -399,8 +400,8 @@ TEST(Selection, OneClosureAloneJoinsNothing) {
     }
 }
 
-// Steps turn by 0.2 rad more or less: after a few of them any two closures agree.
-TEST(Selection, ClosuresThatAgreeAsAWholeJoinSessionsOfLooseOdometry) {
+// Steps have rotation errors of 0.2 rad: after a few of them any two closures are consistent.
+TEST(Selection, ClosuresConsistentAsAWholeJoinSessionsOfUncertainOdometry) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const SimulatedGraph graph =
         urban_nav_core::testing::sphereGraph(8, 12, 2.0, urban_nav_core::testing::evenNoise(0.05, 0.2), seed);

@@ -12,7 +12,7 @@ namespace {
 
 using test::Dice;
 
-// A chain of 40 poses and closures over ten steps each, all exact but for one step.
+// A chain of 40 poses with closures over ten steps each; all are exact except for one step.
 struct SlippedChain {
   Problem<2> problem;
   std::vector<EdgeRole> roles;
@@ -50,19 +50,19 @@ TEST(Slips, AStepThatAllClosuresContradictIsFound) {
   EXPECT_TRUE(findSlips(chain.problem, chain.roles, chain.none, {}, chain.odometry).empty());
 }
 
-TEST(Slips, OdometryThatIsFarSurerThanClosuresHidesASlipUntilItIsDoubted) {
+TEST(Slips, OverconfidentOdometryHidesASlipUntilItIsWeightedDown) {
   SlippedChain chain(1.0);
   for (std::size_t e = 0; e < chain.roles.size(); ++e)
     if (chain.roles[e] == EdgeRole::Trusted) chain.problem.edges[e].information *= 1e3;
   std::vector<char> in = chain.all;
   for (std::size_t e = 0; e < in.size(); ++e)
     in[e] = chain.roles[e] == EdgeRole::Trusted || chain.problem.edges[e].from > 20 || chain.problem.edges[e].to <= 20;
-  const std::vector<char> doubted = mostRefuted(chain.problem, chain.roles, in, chain.all);
-  ASSERT_EQ(std::count(doubted.begin(), doubted.end(), 1), 1);
-  EXPECT_TRUE(doubted[20]);
-  EXPECT_TRUE(mostRefuted(chain.problem, chain.roles, chain.all, chain.all).empty());
+  const std::vector<char> weighted_down = mostContradicted(chain.problem, chain.roles, in, chain.all);
+  ASSERT_EQ(std::count(weighted_down.begin(), weighted_down.end(), 1), 1);
+  EXPECT_TRUE(weighted_down[20]);
+  EXPECT_TRUE(mostContradicted(chain.problem, chain.roles, chain.all, chain.all).empty());
   EXPECT_TRUE(findSlips(chain.problem, chain.roles, chain.all, {}, chain.odometry).empty());
-  const auto slips = findSlips(chain.problem, chain.roles, chain.all, doubted, chain.odometry);
+  const auto slips = findSlips(chain.problem, chain.roles, chain.all, weighted_down, chain.odometry);
   ASSERT_EQ(slips.size(), 1u);
   EXPECT_EQ(slips[0].edge, 20);
   EXPECT_LT((slips[0].T_from_to.t - (chain.truth[20].inverse() * chain.truth[21]).t).norm(), 0.05);
@@ -72,12 +72,12 @@ TEST(Slips, AStepMayHaveSlippedWhereClosuresAreOutsideOrItIsFarOff) {
   const SlippedChain slipped(2.0), right(0.0);
   const auto may = [](const SlippedChain& chain, const std::vector<char>& in, const std::vector<char>& considered,
                       const std::vector<Rigid<2>>& poses) {
-    std::vector<int> row;  // a closure for itself
+    std::vector<int> row;  // each closure is its own row
     for (std::size_t e = 0; e < chain.roles.size(); ++e) row.push_back(static_cast<int>(e));
     return maySlip(chain.problem, chain.roles, in, considered, row, poses);
   };
-  EXPECT_TRUE(may(slipped, slipped.none, slipped.all, slipped.odometry));    // all that span it are outside
-  EXPECT_FALSE(may(slipped, slipped.none, slipped.none, slipped.odometry));  // and not considered
+  EXPECT_TRUE(may(slipped, slipped.none, slipped.all, slipped.odometry));    // all closures that span it are outside
+  EXPECT_FALSE(may(slipped, slipped.none, slipped.none, slipped.odometry));  // none is considered
   EXPECT_TRUE(may(slipped, slipped.all, slipped.all, slipped.truth));
   EXPECT_FALSE(may(right, right.all, right.all, right.truth));
 }
@@ -95,7 +95,7 @@ TEST(Slips, ClosuresThatDisagreeOnAStepShowNoSlip) {
   EXPECT_FALSE(maySlip(chain.problem, chain.roles, in, chain.all, row, chain.truth));
 }
 
-// The closures that span the step are all of them, one row of the same, two rows, or none.
+// The closures that span the step form one row each, one row in total, two rows, or are absent.
 TEST(Slips, OneRowOfClosuresContradictsNoStep) {
   const SlippedChain chain(2.0);
   std::vector<char> in = chain.all, none_spans = chain.all;

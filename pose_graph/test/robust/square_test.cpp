@@ -13,7 +13,7 @@
 namespace pose_graph {
 namespace {
 
-constexpr int kSteps = 80, kSide = 10;  // twice around a square, a metre a step
+constexpr int kSteps = 80, kSide = 10;  // two laps of a square with steps of 1 m
 constexpr double kClosureM = 0.05, kClosureRad = 0.01;
 
 struct Square {
@@ -28,8 +28,8 @@ void addMeasured(Problem<2>& problem, int from, int to, const Rigid<2>& exact, d
   problem.edges.push_back({from, to, moved(exact, test::drawTangent<2>(dice, metres, radians)), information});
 }
 
-/// Odometry of these deviations, closures between poses a lap apart, and false ones that take two places at least 2 m
-/// apart for one.
+/// Odometry with these deviations, closures between poses one lap apart, and false closures between places at least 2 m
+/// apart.
 Square drawSquare(std::uint64_t seed, double metres, double radians, int false_closures) {
   test::Dice dice(seed);
   std::vector<Rigid<2>> truth(1);
@@ -62,8 +62,8 @@ Square drawSquare(std::uint64_t seed, double metres, double radians, int false_c
   return drawn;
 }
 
-// The true closures are one row along a lap, longer than the square is wide: they are more than one place that
-// resembles another one, which would be no more than chance.
+// The true closures are one row along a lap, longer than the square is wide, hence more than one pair of similar
+// places, which would be no more than chance.
 TEST(Square, FewFalseClosuresCostNoTrueOne) {
   for (const auto& [metres, radians] : {std::pair(0.02, 0.005), std::pair(0.05, 0.01), std::pair(0.1, 0.03)}) {
     for (std::uint64_t seed = 1; seed <= 9; ++seed) {

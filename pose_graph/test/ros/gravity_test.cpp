@@ -36,8 +36,8 @@ bool isNamed(const Listener& listener) {
   return false;
 }
 
-/// The frame of the messages is base_link, which needs no tf.
-TEST(PoseGraphGravity, AnAccelerometerWithTheSignOfNedIsNamedAndDoesNotTurnTheMapOver) {
+/// The frame of the messages is base_link, so no tf is needed.
+TEST(PoseGraphGravity, AnAccelerometerWithTheSignOfNedIsReportedAndDoesNotInvertTheMap) {
   Listener listener;
   ASSERT_TRUE(listener.connected());
   ASSERT_TRUE(listener.call("reset"));

@@ -24,7 +24,7 @@
 
 namespace pose_graph::test {
 
-/// The ROS graph as the nodelet sees it: stages that publish, and a listener who keeps everything.
+/// The ROS graph around the nodelet: publishers of other stages, and a listener that keeps all messages.
 class Listener : public urban_nav_ros::testing::Listener {
  public:
   Listener() : urban_nav_ros::testing::Listener("pose_graph") {
@@ -39,7 +39,7 @@ class Listener : public urban_nav_ros::testing::Listener {
   }
   bool connected() const { return connected_; }
 
-  /// Forgets what the nodelet has published so far, once it has come. States and paths have queues of one message,
+  /// Discards what the nodelet has published so far, after its arrival. States and paths have queues of one message,
   /// which receipts do not cover.
   void forgetAll() {
     EXPECT_TRUE(receipts.drain({"graph/update", "graph/correction"}));

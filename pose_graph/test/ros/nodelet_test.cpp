@@ -29,14 +29,14 @@ using urban_nav_core::StampNs;
 using urban_nav_core::Vector6d;
 
 constexpr StampNs kStart = 1'225'719'873'000'000'000, kPeriod = 100'000'000;
-constexpr int kLap = 40;  // poses around
+constexpr int kLap = 40;  // poses of a lap
 
 StampNs toStamp(int i) { return kStart + i * kPeriod; }
 
 Pose turned(double yaw, double x) {
   return Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, yaw)), Eigen::Vector3d(x, 0, 0));
 }
-// A circle of a metre a step, of which odometry sees each turn too small and each metre too long.
+// A circle with steps of 1 m; odometry underestimates each rotation and overestimates each length.
 Pose measuredStep() { return turned(2.0 * M_PI / kLap - 0.004, 1.01); }
 Pose odomPose(int i) {
   Pose T;
@@ -65,7 +65,7 @@ class PoseGraphNodelet : public ::testing::Test {
   void SetUp() override {
     ASSERT_TRUE(listener().connected());
     ASSERT_TRUE(listener().call("reset"));
-    listener().forgetAll();  // what the test before has caused comes first
+    listener().forgetAll();  // messages caused by the previous test arrive first
   }
   Listener& listener() { return *listener_; }
 
@@ -81,13 +81,13 @@ class PoseGraphNodelet : public ::testing::Test {
       listener().relative.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
     }
   }
-  /// Returns once the nodelet has received it.
+  /// Publishes a closure. Returns once the nodelet has received it.
   void close(const urban_nav_core::MetricClosure& closure) {
     EXPECT_TRUE(listener().receipts.await({{"loops/metric", 1}}, [&] {
       listener().closures.publish(urban_nav_ros::toMetricClosureMessage(closure, "base_link", 1.0));
     }));
   }
-  /// The poses that the graph has, by its service.
+  /// Returns the poses of the graph, by its service.
   urban_nav_msgs::GetTrajectory::Response trajectory(std::uint64_t since = 0, int from = -1, int to = -1) {
     urban_nav_msgs::GetTrajectory call;
     call.request.revision = since;
@@ -111,7 +111,7 @@ class PoseGraphNodelet : public ::testing::Test {
     odometry.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base);
     listener().odometry.publish(odometry);
   }
-  /// map -> odom as it is sent with an odometry message.
+  /// Returns map -> odom as published with an odometry message.
   Pose mapFromOdom(int at) {
     listener().transforms.clear();
     receive(at, odomPose(at));
@@ -130,7 +130,7 @@ class PoseGraphNodelet : public ::testing::Test {
 };
 Listener* PoseGraphNodelet::listener_ = nullptr;
 
-/// Without a place of the camera in /tf_static it is at base_link.
+/// Without a camera pose in /tf_static the camera is assumed at base_link.
 TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
   constexpr int kPoses = 80;
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
@@ -146,7 +146,7 @@ TEST_F(PoseGraphNodelet, TheGroundLevelsTheMapWithoutAnAccelerometer) {
     listener().ground.publish(plane);
   };
   ASSERT_TRUE(listener().receipts.await({{"stereo/ground_plane", 1}}, [&] { publish(0); }));
-  ros::WallDuration(2.0).sleep();  // twice as long as the nodelet waits for the place of the camera
+  ros::WallDuration(2.0).sleep();  // twice as long as the nodelet waits for the camera's pose
   ASSERT_TRUE(listener().receipts.await({{"stereo/ground_plane", kPoses}}, [&] {
     for (int i = 1; i <= kPoses; ++i) publish(i);
   })) << "before the poses: topics have no order among each other";
@@ -193,14 +193,14 @@ TEST_F(PoseGraphNodelet, AClosureBringsTheRobotHome) {
 }
 
 TEST_F(PoseGraphNodelet, PositionsOfSatellitesBringTheRobotHome) {
-  constexpr int kLast = 8 * kLap, kAgain = 7 * kLap;  // the fixes of 30 s are used at once
+  constexpr int kLast = 8 * kLap, kAgain = 7 * kLap;  // fixes of 30 s are used in one batch
   const urban_nav_core::LocalTangent tangent({0.9, -0.02, 120.0});
   const Pose T_east_map(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, 0.7)), Eigen::Vector3d(30.0, -8.0, 1.0));
   drive(0, kLast, 1e-2);
   ASSERT_TRUE(driven(kLast + 1));
   Pose T_map_base;
   for (int i = 0; i <= kLast; ++i, T_map_base = T_map_base * turned(2.0 * M_PI / kLap, 1.0)) {
-    if (i % 5 != 0) continue;  // more than wait for the place of the antenna, which is not in /tf_static
+    if (i % 5 != 0) continue;  // more fixes than wait for the antenna's pose, which is not in /tf_static
     const urban_nav_core::Geodetic position = tangent.toGeodetic((T_east_map * T_map_base).t());
     sensor_msgs::NavSatFix fix;
     fix.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
@@ -371,13 +371,13 @@ TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
       [&] { return listener().isConnected() && ros::service::exists("pose_graph/get_trajectory", false); }));
   listener().forget();
   const auto reaches = [&](int pose) {
-    const auto runs = trajectory().segments;  // none until the store has been read
+    const auto runs = trajectory().segments;  // empty until the store has been read
     return !runs.empty() && runs.back().stamps.back() == urban_nav_ros::toRosTime(toStamp(pose));
   };
   ASSERT_TRUE(listener().receipts.await({{"vo/odometry", 6}}, [&] {
     for (int i = 30; i <= 35; ++i) receive(i, odomPose(i));
   }));
-  drive(25, 29);  // what came between is lost, and so is what odometry said of these
+  drive(25, 29);  // data in between are lost, and so is their odometry
   ASSERT_TRUE(Listener::until([&] { return reaches(29); }));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
@@ -404,7 +404,7 @@ TEST_F(PoseGraphNodelet, PauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
   EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("messages damaged", "1"); }));
 }
 
-/// The nodelet keeps its graph in a file of which launch has made the name.
+/// The nodelet keeps its graph in a file named by the launch file.
 class Store : public PoseGraphNodelet {
  protected:
   static std::string path() {
@@ -423,14 +423,14 @@ class Store : public PoseGraphNodelet {
     EXPECT_TRUE(ros::service::call("pose_graph/" + service, call));
     return call.response;
   }
-  /// Number of times that the nodelet has published its diagnostics: one a second, fewer on a machine that is slow.
+  /// Returns the number of published diagnostics: one per second, fewer on a slow machine.
   std::size_t countDiagnostics() {
     std::size_t count = 0;
     for (const auto& array : listener().diagnostics)
       for (const auto& status : array.status) count += status.name.find("pose_graph: map") <= 1 ? 1 : 0;
     return count;
   }
-  /// Of the session that began last, as another process reads it while the nodelet writes.
+  /// Returns the number of nodes of the last session, as read by another process during writing.
   static std::int64_t storedNodes() {
     urban_nav_store::Store store(path(), urban_nav_store::Access::Read);
     std::int64_t nodes = 0;
@@ -440,7 +440,7 @@ class Store : public PoseGraphNodelet {
   }
 };
 
-TEST_F(Store, HasWhatWasTakenInASecondAgo) {
+TEST_F(Store, ContainsInputsAfterOneSecond) {
   drive(0, kLap);
   ASSERT_TRUE(driven(kLap + 1));
   listener().forget();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two more nodelets of nodelet.test, each with parameters of its own.
+// Two further nodelets of nodelet.test, each with its own parameters.
 #include <gtest/gtest.h>
 #include <urban_nav_msgs/GetTrajectory.h>
 
@@ -17,7 +17,7 @@ using urban_nav_core::Pose;
 
 urban_nav_core::StampNs poseStamp(int pose) { return 1'225'800'000'000'000'000 + pose * 100'000'000LL; }
 
-/// A curve of steps of a metre.
+/// A step of 1 m along a curve.
 Pose curveStep() { return Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 0.15)), Eigen::Vector3d(1.0, 0.0, 0.0)); }
 
 /// Inputs and outputs of a nodelet in a namespace.
@@ -47,7 +47,7 @@ class NamedNodelet : public urban_nav_ros::testing::Listener {
     message.pose.pose = urban_nav_ros::toPoseMessage(Pose());
     odometry_.publish(message);
   }
-  /// Child of a transform whose parent is `map_frame`; empty: none came.
+  /// Returns the child frame of a transform with parent `map_frame`; empty if none was received.
   std::string findChild(const std::string& map_frame) const {
     for (const tf2_msgs::TFMessage& message : transforms)
       for (const auto& transform : message.transforms)
@@ -65,7 +65,7 @@ class NamedNodelet : public urban_nav_ros::testing::Listener {
   ros::Publisher steps_, odometry_;
 };
 
-/// The nodelet under /renamed: other frames, and a pose of the path each five metres.
+/// The nodelet under /renamed: other frames, and a path with a pose every five metres.
 class RenamedNodelet : public NamedNodelet {
  public:
   RenamedNodelet() : NamedNodelet("renamed") {
@@ -73,13 +73,13 @@ class RenamedNodelet : public NamedNodelet {
     static_transforms_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
   }
 
-  /// The camera looks down by 0.3 rad in the frame `body`. Returns whether the nodelet has received it.
+  /// Publishes a camera pitched down by 0.3 rad in the frame `body`. Returns whether the nodelet has received it.
   bool describeCamera() {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(urban_nav_ros::toStaticTransform("body", "body_camera", camera_));
     return receipts().await({{"/tf_static", 1}}, [&] { static_transforms_.publish(message); });
   }
-  /// Level ground, while the first pose of the drive has `up`.
+  /// Publishes level ground normals, with `up` in the axes of the first pose.
   void seeGround(int poses, const Eigen::Vector3d& up) {
     Pose T_first_body;
     for (int i = 0; i <= poses; ++i, T_first_body = T_first_body * curveStep()) {
@@ -101,7 +101,7 @@ class RenamedNodelet : public NamedNodelet {
   ros::Publisher ground_, static_transforms_;
 };
 
-/// Length of what a nodelet has of the drive; a step that it has not is no movement.
+/// Returns the path length in a nodelet's graph; a missing step counts as zero.
 double pathMetres(const std::string& name) {
   urban_nav_msgs::GetTrajectory call;
   EXPECT_TRUE(ros::service::call(name + "/pose_graph/get_trajectory", call));
@@ -118,7 +118,7 @@ TEST(NodeletParameters, NameFramesAndSpaceThePath) {
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
   RenamedNodelet nodelet;
   ASSERT_TRUE(nodelet.until([&] { return nodelet.isConnected(); }));
-  // Topics have no order among each other.
+  // There is no order between topics.
   ASSERT_TRUE(nodelet.describeCamera());
   ASSERT_TRUE(
       nodelet.receipts().await({{"renamed/stereo/ground_plane", kPoses + 1}}, [&] { nodelet.seeGround(kPoses, up); }));
@@ -147,7 +147,7 @@ TEST(NodeletParameters, LeaveOutTransformsGroundAndPictures) {
   ros::Publisher ground = ros::NodeHandle().advertise<urban_nav_msgs::GroundPlane>("quiet/stereo/ground_plane", 1);
   nodelet.drive(0, 1);
   ASSERT_TRUE(nodelet.until([&] { return !nodelet.paths.empty(); }));
-  for (int i = 1; i < 25; ++i) {  // for more than the second between pictures by default
+  for (int i = 1; i < 25; ++i) {  // longer than the default period of one second between path messages
     nodelet.drive(i, i + 1);
     nodelet.sendOdometry(i);
     ros::WallDuration(0.1).sleep();

@@ -27,7 +27,7 @@ void expectCertifiedAtTheOptimum() {
     ASSERT_TRUE(certificate.gap);
     EXPECT_LT(*certificate.gap, 1e-4 * solution.cost);
     EXPECT_DOUBLE_EQ(certificate.cost, solution.cost);
-    // The bound holds wherever it is asked, and where poses are not at a minimum they are not certified.
+    // The bound holds at any poses; poses away from a minimum are not certified.
     std::vector<Rigid<D>> off = solution.poses;
     for (Rigid<D>& pose : off) pose = moved<D>(pose, drawTangent<D>(dice, 0.02, 0.01));
     const Certificate away = certify(problem, off);
@@ -43,7 +43,7 @@ TEST(Certificate, IsGivenAtTheOptimum) {
   expectCertifiedAtTheOptimum<3>();
 }
 
-/// The same bound for a graph between constants, which bend it, and for a free one in the same problem.
+/// The same bound for a graph that is bent between fixed poses, and for a free one in the same problem.
 template <int D>
 void expectCertifiedBetweenConstants() {
   Dice dice(19);
@@ -89,7 +89,7 @@ TEST(Certificate, IsGivenBetweenConstants) {
 TEST(Certificate, IsGivenWhereEverythingFits) { EXPECT_TRUE(certify(ring(30, 1), ring(30, 1).poses).certified); }
 
 TEST(Certificate, IsNotGivenToAKnot) {
-  // Turned once more than measured: no small motion undoes it, and its cost is far from the best, which is zero.
+  // One full turn more than measured: no small motion removes it, and its cost is far from the optimum of zero.
   const Problem<2> knotted = ring(30, 2);
   const Solution<2> solution = solve(knotted, chordal(Start::Vertices));
   ASSERT_EQ(solution.ending, Ending::Converged);
@@ -101,7 +101,7 @@ TEST(Certificate, IsNotGivenToAKnot) {
   }
 }
 
-/// One edge that is stiffer than the others by far hides what the others cost in round-off: nothing is certified then.
+/// One edge that is far stiffer than the others hides their cost in round-off: the result is not certified.
 TEST(Certificate, IsNotGivenWhereRoundOffHidesTheCost) {
   Dice dice(31);
   Problem<2> problem = drawProblem<2>(dice, 20, 10, 0.05, 0.05);
@@ -114,7 +114,7 @@ TEST(Certificate, IsNotGivenWhereRoundOffHidesTheCost) {
   EXPECT_FALSE(certificate.certified);
 }
 
-/// A minimisation that ends early leaves the bound wide; the same poses, converged, have a narrow one.
+/// A minimisation that ends early has a wide bound; the converged poses have a narrow one.
 TEST(Certificate, IsNarrowWherePosesHaveConverged) {
   Dice dice(29);
   const Problem<3> problem = drawProblem<3>(dice, 50, 30, 0.1, 0.1);
@@ -132,7 +132,7 @@ TEST(Certificate, IsNarrowWherePosesHaveConverged) {
   EXPECT_DOUBLE_EQ(narrow.cost, cost(problem, poses, Objective::Chordal)) << "poses are those of the certificate";
 }
 
-TEST(Certificate, LeavesOutWhatHasNoWeightAndKnowsParts) {
+TEST(Certificate, IgnoresEdgesWithoutWeightAndSeparatesComponents) {
   Dice dice(23);
   Problem<3> problem = drawProblem<3>(dice, 20, 10, 0.05, 0.05);
   const std::size_t edges = problem.edges.size();

@@ -15,7 +15,7 @@ double chordalCost(const Problem<2>& problem, const std::vector<Rigid<2>>& poses
 }
 
 TEST(LiftedPoses, UndoAKnot) {
-  // No small motion lowers the cost of a ring that turns once more than measured; its best cost is zero.
+  // No small motion lowers the cost of a ring with a full turn more than measured; its optimum is zero.
   for (const int rounds : {0, 2, 3}) {
     const Problem<2> knotted = ring(30, rounds);
     const auto poses = liftedPoses(knotted, knotted.poses, {});
@@ -77,8 +77,8 @@ TEST(LiftedPoses, LeaveFixedOnesWhereTheyAre) {
   }
 }
 
-TEST(LiftedPoses, KnowPartsAndWeights) {
-  // Two rings that nothing joins but an edge without weight: each stays with its first pose, and neither with its knot.
+TEST(LiftedPoses, RespectComponentsAndWeights) {
+  // Two rings joined only by an edge without weight: each keeps its first pose, and neither keeps its wrap-around.
   Problem<2> both = ring(24, 2);
   const Problem<2> other = ring(24, 1);
   for (const Rigid<2>& pose : other.poses) both.poses.push_back({pose.R, pose.t + Eigen::Vector2d(100.0, 0.0)});

@@ -23,7 +23,7 @@ void settlesWhereTheSolverDoes() {
   const auto& drawn = D == 3 ? graph : flat;
   Problem<D> problem = test::simulatedProblem<D>(drawn, drawn.truth);
   const Solution<D> solution = solve(problem, {});
-  for (const double off : {0.01, 3.0}) {  // near, and so far that the way from there is the longer one
+  for (const double off : {0.01, 3.0}) {  // near, and so far that a new initial guess converges faster
     Dice dice(D);
     std::vector<Rigid<D>> poses = solution.poses;
     for (std::size_t i = 1; i < poses.size(); ++i)
@@ -37,7 +37,7 @@ void settlesWhereTheSolverDoes() {
 TEST(AcceptedGraph, SettlesWhereTheSolverDoesInThePlane) { settlesWhereTheSolverDoes<2>(); }
 TEST(AcceptedGraph, SettlesWhereTheSolverDoesInSpace) { settlesWhereTheSolverDoes<3>(); }
 
-// The marginals of all pairs that an edge joins yield the same, edge by edge.
+// The marginals of all pairs joined by an edge yield the same sums.
 template <int D>
 void sharesUnknownsAsMarginalsDo() {
   Dice dice(10 + D);
@@ -83,7 +83,7 @@ TEST(AcceptedGraph, GoesOnOnlyWhereTheCostIsInReach) {
   };
   const double least = costWithin(std::numeric_limits<double>::infinity());
   EXPECT_EQ(costWithin(1.001 * least), least);
-  // Half of it cannot be reached, which shows before the last digit of the cost does.
+  // Half of it is unreachable, which is detected before convergence to the last digit.
   EXPECT_GT(costWithin(0.5 * least), least);
   EXPECT_LT(costWithin(0.5 * least), 1.5 * least);
 }

@@ -44,7 +44,7 @@ TEST(Unknowns, NoPosesAndNoEdges) {
   EXPECT_EQ(makeUnknowns(lone).components, 2);
 }
 
-/// H and g as J^T W J and J^T W r of plain residuals, J by central differences, in the order of places.
+/// Computes H and g as J^T W J and J^T W r of plain residuals, with J by central differences, in the order of places.
 template <int D>
 struct DenseSystem {
   Eigen::MatrixXd H;

@@ -20,7 +20,7 @@ void expectOptima(const urban_nav_core::G2oGraph& graph, const PublicGraph& know
   EXPECT_NEAR(g2o.cost, known.g2o, 1e-6 * known.g2o);
   EXPECT_EQ(chordal.ending, Ending::Converged);
   EXPECT_EQ(g2o.ending, Ending::Converged);
-  // The geodesic optimum leads to the chordal one.
+  // The geodesic optimum is the initial guess of the chordal one.
   options.objective = Objective::Geodesic;
   Problem<D> from_there = problem;
   from_there.poses = solve(problem, options).poses;

@@ -36,7 +36,7 @@ std::vector<Rigid<D>> rigids(const std::vector<urban_nav_core::Pose>& poses) {
   return made;
 }
 
-// Round-off of exact measurements, in squares of standard deviations.
+// Cost of round-off with exact measurements, in squared standard deviations.
 constexpr double kNone = 1e-20;
 
 template <int D>
@@ -49,7 +49,7 @@ void expectNeverRises(const Solution<D>& solution) {
   EXPECT_NEAR(solution.cost, last, kNone);
 }
 
-/// Exact measurements, a guess far off: the truth comes out.
+/// Exact measurements and a guess far off: the result is the truth.
 template <int D>
 void expectExact(const SimulatedGraph& graph) {
   Dice dice(1);
@@ -75,14 +75,14 @@ TEST(Solve, ZeroNoiseInZeroErrorOut) {
   expectExact<2>(urban_nav_core::testing::manhattanGraph(200, 8, 0.5, noise, 4));
 }
 
-/// On graphs as good as these the optimum is one, whatever the objective and the start.
+/// On graphs this accurate the optimum is the same for all objectives and starts.
 template <int D>
 void expectOneOptimum(const SimulatedGraph& graph) {
   Problem<D> problem = simulatedProblem<D>(graph, deadReckoning(graph));
   for (const Objective objective : kObjectives) {
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (const Start start : kStarts) {
-      if (start == Start::Identity) continue;  // a knot: taken as it is, it need not come undone
+      if (start == Start::Identity) continue;  // a wrap-around, which need not be removed from this start
       SolveOptions options;
       options.objective = objective;
       options.start = start;
@@ -163,7 +163,7 @@ TEST(Solve, NoPosesOneTwo) {
   expectSmallGraphs<3>();
 }
 
-/// Without closures the chain's measurements hold exactly.
+/// Without closures the chain's measurements are satisfied exactly.
 template <int D>
 void expectChain() {
   Dice dice(9);
@@ -184,7 +184,7 @@ void expectComponents() {
   Dice dice(10);
   const Problem<D> a = drawProblem<D>(dice, 20, 8, 0.1, 0.1), b = drawProblem<D>(dice, 15, 5, 0.1, 0.1);
   Problem<D> both = a;
-  both.poses.push_back(drawRigid<D>(dice, 5.0, 1.0));  // a pose alone
+  both.poses.push_back(drawRigid<D>(dice, 5.0, 1.0));  // an unconnected pose
   for (const Rigid<D>& pose : b.poses) both.poses.push_back(pose);
   for (Edge<D> edge : b.edges) {
     edge.from += 21;
@@ -236,7 +236,7 @@ TEST(Solve, WeightsAreFactorsAndMayBeZero) {
   expectWeights<3>();
 }
 
-/// Nothing is known in some direction, or of a pose at all: it stays there, and the rest is relaxed.
+/// Without information in some direction, or on a pose: it keeps its value, and the rest is relaxed.
 template <int D>
 void expectFreeDirections() {
   Dice dice(12);
@@ -259,7 +259,7 @@ void expectFreeDirections() {
         EXPECT_NEAR(solution.cost, without.cost, 1e-6 * without.cost) << "free " << free;
       }
     }
-    // All information lost: where it began.
+    // Without any information the poses keep their initial values.
     const std::vector<double> none(problem.edges.size(), 0.0);
     const Solution<D> still = solve(problem, {}, none);
     EXPECT_EQ(largestDifference(still.poses, problem.poses), 0.0);
@@ -310,7 +310,7 @@ TEST(Solve, ProgressMayEndIt) {
   EXPECT_EQ(solve(problem, options).ending, Ending::Iterations);
 }
 
-/// How much more than from the truth a minimisation costs that knows of no pose where it is.
+/// Returns the excess of the cost of a minimisation without initial poses over that from the truth.
 template <int D>
 double excess(const SimulatedGraph& graph) {
   SolveOptions from_truth;
@@ -319,8 +319,8 @@ double excess(const SimulatedGraph& graph) {
   return solve(simulatedProblem<D>(graph, deadReckoning(graph)), {}).cost / best - 1.0;
 }
 
-// Straight down from the first guess, one in six of the grids ends in a valley 1 to 3 % above.
-TEST(Solve, FindsTheBestValleyWhereNoiseIsLarge) {
+// Without a search, one in six of the grids ends in a local minimum 1 to 3 % above the optimum.
+TEST(Solve, FindsTheGlobalMinimumWhereNoiseIsLarge) {
   const auto noise = evenNoise(0.3, 0.3);
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
     EXPECT_LT(excess<2>(urban_nav_core::testing::planarGridGraph(30, 30, 1.0, 0.5, noise, seed)), 1e-6) << seed;
@@ -328,8 +328,8 @@ TEST(Solve, FindsTheBestValleyWhereNoiseIsLarge) {
     EXPECT_LT(excess<3>(urban_nav_core::testing::gridGraph(5, 5, 5, 1.0, 0.5, noise, seed)), 1e-6) << seed;
 }
 
-// Half a radian on every rotation: straight down from the first guess ends an eighth above, on average.
-TEST(Solve, ComesNearTheBestValleyWhereNoiseIsEnormous) {
+// Rotations with an error of 0.5 rad: without a search the result is on average an eighth above the optimum.
+TEST(Solve, ComesNearTheGlobalMinimumWhereNoiseIsEnormous) {
   double sum = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     sum += excess<3>(urban_nav_core::testing::sphereGraph(16, 40, 20.0, evenNoise(0.5, 0.5), seed));

@@ -7,7 +7,8 @@
 namespace pose_graph::test {
 namespace {
 
-/// A path whose positions edges from a fixed pose measure, as satellites do; its poses lie somewhere else, turned.
+/// A path whose positions are measured from a fixed pose, as by satellites; its initial poses are displaced and
+/// rotated.
 template <int D>
 Problem<D> drawMeasured(Dice& dice, bool with_rotation) {
   Problem<D> result = drawProblem<D>(dice, 20, 4, 0.0, 0.0);

@@ -13,7 +13,7 @@ std::vector<Rotation<D>> toRotations(const std::vector<Rigid<D>>& poses) {
   return made;
 }
 
-/// The truth with every pose but the first turned and moved any way.
+/// Returns the truth with every pose except the first displaced and rotated randomly.
 template <int D>
 Problem<D> withoutGuess(const Problem<D>& exact, Dice& dice) {
   Problem<D> made = exact;
@@ -56,7 +56,7 @@ TEST(ChordalStart, GivesRotations) {
   expectRotations<3>();
 }
 
-/// With the rotations given, no other translations cost less.
+/// With the rotations given, no other translations have a lower cost.
 template <int D>
 void expectBestTranslations() {
   Dice dice(3);

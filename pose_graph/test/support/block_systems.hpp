@@ -8,8 +8,8 @@
 
 namespace pose_graph::test {
 
-/// A positive definite matrix on a graph: a square for each pair of neighbours and each node. `dense` is in the order
-/// of places.
+/// A positive definite matrix on a graph: a squared term for each pair of neighbours and each node. `dense` is in the
+/// order of places.
 template <int B>
 struct BlockSystem {
   Symbolic symbolic;

@@ -10,8 +10,8 @@
 
 namespace pose_graph::test {
 
-/// Poses that minimise a small problem, with nothing of the solver: plain residuals, numeric Jacobians, dense
-/// Levenberg-Marquardt from `poses`. Fixed poses stay, or pose 0 where there are none.
+/// Returns poses that minimise a small problem, independent of the solver: plain residuals, numeric Jacobians, dense
+/// Levenberg-Marquardt from `poses`. Fixed poses, or pose 0 without any, are held.
 template <int D>
 class DenseSolution {
   static constexpr int kN = kTangentSize<D>;
@@ -38,7 +38,7 @@ class DenseSolution {
   std::vector<Rigid<D>> poses;
   double cost = 0.0;
 
-  /// Returns the gradient of the cost by the free poses, one after the other.
+  /// Returns the gradient of the cost with respect to the free poses, stacked.
   Eigen::VectorXd gradient() const {
     Eigen::MatrixXd H;
     Eigen::VectorXd g;

@@ -27,7 +27,7 @@ Rigid<D> drawRigid(Dice& dice, double metres, double radians) {
   return moved(Rigid<D>(), drawTangent<D>(dice, metres, radians));
 }
 
-/// Full, or of this rank; elongated and with cross terms.
+/// Draws information of full rank or of this rank, elongated and with cross terms.
 template <int D>
 TangentMatrix<D> drawInformation(Dice& dice, int rank = kTangentSize<D>) {
   TangentMatrix<D> sum = TangentMatrix<D>::Zero();
@@ -38,8 +38,8 @@ TangentMatrix<D> drawInformation(Dice& dice, int rank = kTangentSize<D>) {
   return sum;
 }
 
-/// Poses about a walk, and edges that measure them with these deviations: the chain, one of it backwards and one twice,
-/// and `closures` between any two.
+/// Draws poses along a random walk and edges with these deviations: the chain, one edge of it backwards and one twice,
+/// and `closures` edges between any two poses.
 template <int D>
 Problem<D> drawProblem(Dice& dice, int poses, int closures, double metres, double radians) {
   Problem<D> made;
@@ -66,7 +66,8 @@ Problem<D> drawProblem(Dice& dice, int poses, int closures, double metres, doubl
   return made;
 }
 
-/// A simulated graph as a problem, its guess these poses. The information of a simulated edge is seen from the parent.
+/// Converts a simulated graph to a problem with these initial poses. The information of a simulated edge is in the
+/// parent's axes.
 template <int D>
 Problem<D> simulatedProblem(const urban_nav_core::testing::SimulatedGraph& graph,
                             const std::vector<urban_nav_core::Pose>& guess) {
@@ -89,7 +90,7 @@ Problem<D> simulatedProblem(const urban_nav_core::testing::SimulatedGraph& graph
   return made;
 }
 
-/// The largest distance of two lists of poses: m and matrix elements alike.
+/// Returns the largest difference of two lists of poses, in m and matrix elements.
 template <int D>
 double largestDifference(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b) {
   EXPECT_EQ(a.size(), b.size());

@@ -14,7 +14,7 @@ namespace pose_graph::testing {
 constexpr StampNs kPeriod = 50'000'000;  // ns
 constexpr int kLap = 100;                // steps of a circle, 0.1 m each
 
-/// A circle on which odometry turns too little.
+/// A circle whose rotation odometry underestimates.
 inline urban_nav_core::RelativePose stepAt(int i) {
   urban_nav_core::RelativePose step;
   step.from = i * kPeriod;
@@ -31,7 +31,7 @@ inline void drive(PoseGraph& graph, const SessionId& session, int first, int end
   for (int i = first; i < end; ++i) graph.addOdometry(session, stepAt(i));
 }
 
-/// The robot is where it was a lap ago.
+/// A closure to the pose of one lap ago.
 inline Closure closureAt(const SessionId& session_a, int a, const SessionId& session_b, int b) {
   Closure closure;
   closure.a = {session_a, a * kPeriod};
@@ -57,7 +57,7 @@ inline void expectSameMap(const PoseGraph& a, const PoseGraph& b) {
   }
 }
 
-/// A path in a folder of its own, gone when the test is.
+/// A path in a separate folder, which is removed after the test.
 class StoreFolder {
  public:
   StoreFolder() {

@@ -9,15 +9,15 @@
 
 namespace pose_graph::testing {
 
-/// A long drive through streets, its odometry, and what a receiver says of it.
+/// A long drive through streets, its odometry, and the fixes of a receiver.
 struct GpsDrive {
-  // What may be wrong, as standard deviations.
+  // Errors, as standard deviations.
   double turn_drift = 0.0;   // rad per square root of a metre, in heading
-  double scale_error = 0.0;  // common to the whole way
-  double slow = 0.0;         // m, of errors of fixes that last for kSlowSeconds
-  double white = 0.0;        // m, of independent ones
-  double reflected = 0.0;    // m: for a minute of each eight, fixes lie this far off
-  double stated = 1.0;       // m, what the receiver says of itself
+  double scale_error = 0.0;  // common to the whole drive
+  double slow = 0.0;         // m, of fix errors with a correlation time of kSlowSeconds
+  double white = 0.0;        // m, independent between fixes
+  double reflected = 0.0;    // m: multipath error, one minute in eight
+  double stated = 1.0;       // m, as stated by the receiver
 
   std::vector<StampNs> stamps;
   std::vector<Pose> truth;
@@ -25,12 +25,12 @@ struct GpsDrive {
   std::vector<PositionFix> fixes;
 
   static constexpr double kSlowSeconds = 60.0;
-  /// Of the antenna in base_link.
+  /// Returns the antenna position in base_link.
   static Eigen::Vector3d antenna() { return {-0.3, 0.2, 1.1}; }
 };
 
-/// A way of blocks of 120 m at 1.25 m/s, two poses a second, that comes by no place twice; a fix a second, in a frame
-/// east, north, up that is turned against the first pose.
+/// Creates a path around blocks of 120 m at 1.25 m/s without revisits, two poses per second, and a fix per second in an
+/// east-north-up frame that is rotated against the first pose.
 inline void makeDrive(unsigned seed, double seconds, GpsDrive& drive) {
   constexpr double kSpeed = 1.25, kBlock = 120.0, kStep = 0.5;
   std::mt19937 dice(seed);
@@ -48,7 +48,7 @@ inline void makeDrive(unsigned seed, double seconds, GpsDrive& drive) {
     if (k > 0) {
       double turn = 0.0;
       if (travelled >= next_corner) {
-        turn = (corner++ % 4 < 2 ? 1.0 : -1.0) * M_PI / 2.0;  // right angles that lead ever further away
+        turn = (corner++ % 4 < 2 ? 1.0 : -1.0) * M_PI / 2.0;  // right-angled turns away from the start
         next_corner += kBlock;
       }
       const Pose step(urban_nav_core::expSo3(Eigen::Vector3d(0.0, 0.0, turn)), Eigen::Vector3d(kSpeed * kStep, 0, 0));
@@ -81,7 +81,7 @@ inline void makeDrive(unsigned seed, double seconds, GpsDrive& drive) {
   }
 }
 
-/// The graph of a drive, relaxed.
+/// Returns the relaxed graph of a drive.
 inline PoseGraph relaxDrive(const GpsDrive& drive, bool gps) {
   Parameters parameters;
   parameters.gps = gps;
@@ -93,8 +93,7 @@ inline PoseGraph relaxDrive(const GpsDrive& drive, bool gps) {
   return graph;
 }
 
-/// Root mean square distance of the positions of a track from the truth, m, after the rigid alignment that is best for
-/// it.
+/// Returns the root mean square distance of a track's positions from the truth after the best rigid alignment, m.
 inline double positionError(const GpsDrive& drive, const Track& track) {
   Eigen::Matrix3Xd found(3, static_cast<Eigen::Index>(track.map.size())), true_ones = found;
   for (Eigen::Index i = 0; i < found.cols(); ++i) {

@@ -12,8 +12,8 @@ namespace pose_graph::test {
 enum class Held { Nothing, WherePosesAre, WhereOdometryDrifted, ByPriors };
 inline constexpr Held kHeld[] = {Held::Nothing, Held::WherePosesAre, Held::WhereOdometryDrifted, Held::ByPriors};
 
-/// A walk of 12 to 30 poses around blocks with one to five closures, its guess dead reckoning. Odometry is stiffer than
-/// the closures, and fixed poses are off by what it has drifted.
+/// A walk of 12 to 30 poses around blocks with one to five closures; the initial guess is dead reckoning. Odometry is
+/// stiffer than the closures, and fixed poses differ from it by its drift.
 template <int D>
 Problem<D> drawHeld(Dice& dice, Held held, int count) {
   const int n = 12 + static_cast<int>(dice.below(19));

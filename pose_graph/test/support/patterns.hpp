@@ -29,7 +29,7 @@ inline Adjacency cubeGraph(int side) {
   return makeAdjacency(side * side * side, pairs);
 }
 
-/// A chain of `nodes` with `closures` between any two.
+/// Returns a chain of `nodes` nodes with `closures` edges between any two.
 inline Adjacency chainWithClosures(int nodes, int closures, std::uint64_t seed) {
   urban_nav_core::testing::Dice dice(seed);
   std::vector<std::pair<int, int>> pairs;
@@ -40,7 +40,7 @@ inline Adjacency chainWithClosures(int nodes, int closures, std::uint64_t seed) 
   return makeAdjacency(nodes, pairs);
 }
 
-/// Chains, stars, cliques, parts that nothing connects, lone nodes, none at all, and graphs drawn at random.
+/// Returns chains, stars, cliques, unconnected parts, single nodes, an empty graph and random graphs.
 inline std::vector<NamedGraph> manyGraphs() {
   using Pairs = std::vector<std::pair<int, int>>;
   std::vector<NamedGraph> made;

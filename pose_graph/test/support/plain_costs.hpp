@@ -9,8 +9,7 @@
 
 namespace pose_graph::test {
 
-/// An edge's cost as r^T W r, written down from the definitions (data sets' README, "Costs"), with nothing of the
-/// solver.
+/// An edge's cost as r^T W r from the definitions (data sets' README, "Costs"), independent of the solver.
 struct PlainResidual {
   Eigen::VectorXd r;
   Eigen::MatrixXd W;
@@ -25,7 +24,7 @@ PlainResidual plainChordal(const Edge<D>& edge, const Rigid<D>& from, const Rigi
     const Eigen::Matrix3d of_quaternion = 4.0 * edge.information.template bottomRightCorner<3, 3>();
     kappa = 3.0 / (2.0 * of_quaternion.inverse().trace());
   }
-  // Seen from Z's child, as e is: the same lengths, and nothing changes when both poses move as one body.
+  // In the axes of Z's child, as e is: lengths are unchanged, and so is the cost under a common motion of both poses.
   const Eigen::Matrix<double, D, D> child = (from.R * edge.Z.R).transpose();
   const Eigen::Matrix<double, D, D> turn = child * (to.R - from.R * edge.Z.R);
   PlainResidual made;

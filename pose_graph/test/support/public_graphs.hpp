@@ -9,15 +9,15 @@
 
 namespace pose_graph::test {
 
-/// What is known of the optima of a public graph (data sets' README).
+/// A public graph and its known optima (data sets' README).
 struct PublicGraph {
   std::string name;
   int dimension = 0;
   double chordal = 0.0, g2o = 0.0;
 };
-/// Empty where URBAN_NAV_DATA names no folder with graphs.
+/// Returns the public graphs; empty if URBAN_NAV_DATA contains none.
 std::vector<PublicGraph> publicGraphs();
-/// Empty without the program xz.
+/// Reads a public graph; nullopt without the program xz.
 std::optional<urban_nav_core::G2oGraph> readPublic(const std::string& name);
 
 }  // namespace pose_graph::test

@@ -8,7 +8,7 @@
 
 namespace pose_graph::test {
 
-/// A closed ring of equal steps, all measured exactly, with poses that turn `rounds` times on their way round.
+/// Returns a closed ring of equal, exactly measured steps, with initial poses that make `rounds` full turns.
 inline Problem<2> ring(int poses, int rounds) {
   Problem<2> made;
   Edge<2> step;

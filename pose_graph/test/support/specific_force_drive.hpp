@@ -12,15 +12,15 @@ namespace pose_graph::testing {
 constexpr double kGravity = 9.81, kStep = 0.05;  // m/s2, s
 constexpr urban_nav_core::StampNs kStepNs = 50'000'000;
 
-/// A drive over hills, in a level world: it turns at a steady rate, sways and rocks.
+/// A drive over hills in a level world: it rotates at a constant rate, sways and rocks.
 struct Drive {
   double turning = 0.3;  // rad/s
   double rocking = 1.0;
   int frames = 2000;
   Eigen::Matrix3d lean =
       urban_nav_core::expSo3(Eigen::Vector3d(0.1, -0.06, 0.0)).toRotationMatrix();  // of the first pose
-  Eigen::Vector3d fault = Eigen::Vector3d::Zero();                                  // of the accelerometer, m/s2
-  double noise = 0.0;                                                               // m/s2, of each frame's mean
+  Eigen::Vector3d fault = Eigen::Vector3d::Zero();                                  // accelerometer bias, m/s2
+  double noise = 0.0;                                                               // m/s2, of the mean of each frame
 
   Eigen::Vector3d position(double t) const {
     const Eigen::Vector3d along =
@@ -36,7 +36,7 @@ struct Drive {
   urban_nav_core::Pose pose(double t) const {
     return urban_nav_core::Pose(Eigen::Quaterniond(rotation(t)), position(t));
   }
-  /// Relative to the first one, as odometry has it.
+  /// Returns the trajectory relative to the first pose, as odometry.
   urban_nav_core::Trajectory trajectory() const {
     urban_nav_core::Trajectory made;
     for (int i = 0; i < frames; ++i) made.append(i * kStepNs, pose(0.0).inverse() * pose(i * kStep));

@@ -15,7 +15,7 @@ namespace {
 using urban_nav_core::testing::Dice;
 
 constexpr int kPoses = 60;
-constexpr double kStepM = 0.02, kStepRad = 0.01, kPriorM = 0.1;  // deviations
+constexpr double kStepM = 0.02, kStepRad = 0.01, kPriorM = 0.1;  // standard deviations
 
 Rigid<2> placeOnSquare(int i) {
   Rigid<2> at;
@@ -32,7 +32,7 @@ std::string numbers(std::initializer_list<double> values) {
   return text;
 }
 
-/// A way whose noise is `honest` times what its information states, in a frame of its own.
+/// Draws a path whose noise is `honest` times the stated one, in its own frame.
 std::string drawChain(Dice& dice, double honest = 1.0) {
   std::string text;
   for (int i = 0; i + 1 < kPoses; ++i) {
@@ -51,7 +51,7 @@ std::string prior(int pose, const Eigen::Vector2d& at) {
          numbers({1.0 / (kPriorM * kPriorM), 0.0, 1.0 / (kPriorM * kPriorM)}) + "\n";
 }
 
-/// Priors every five poses, in a frame that is turned and far away.
+/// Draws priors at every fifth pose, in a frame that is rotated and far away.
 std::string drawPriors(Dice& dice) {
   const Eigen::Rotation2Dd turn(2.0);
   std::string text;
@@ -96,7 +96,7 @@ TEST(FalsePriors, OfTwoNoneIsMoreFalseThanTheOther) {
   EXPECT_GT(found.undecided, 0u);
 }
 
-// The landmark stands at (3, 20) in the frame of the first pose.
+// The landmark is at (3, 20) in the frame of the first pose.
 TEST(FalsePriors, ALandmarkTakenForAnotherIsFound) {
   Dice dice(2);
   std::string text = drawChain(dice);

@@ -17,13 +17,13 @@ using urban_nav_core::ClosureVerdict;
 
 const char* toString(Reason reason) {
   switch (reason) {
-    case Reason::Role: return "not in question";
-    case Reason::Fits: return "agrees with the accepted edges";
-    case Reason::Disagrees: return "disagrees with the accepted edges";
-    case Reason::Unconfirmed: return "too little is known there, and no other closure agrees";
-    case Reason::Slipped: return "odometry slipped: all other edges contradict it";
-    case Reason::Undecided: return "a set of closures without it, or odometry alone, is nearly as likely";
-    case Reason::NoWitness: return "joins two parts, and no second closure agrees";
+    case Reason::Role: return "not subject to selection";
+    case Reason::Fits: return "consistent with the accepted edges";
+    case Reason::Disagrees: return "inconsistent with the accepted edges";
+    case Reason::Unconfirmed: return "too uncertain for a test, and not confirmed by another closure";
+    case Reason::Slipped: return "odometry slip: contradicted by all other edges";
+    case Reason::Undecided: return "a set of closures without it, or odometry only, is nearly as likely";
+    case Reason::NoWitness: return "joins two parts, and not confirmed by a second closure";
   }
   return "";
 }
@@ -49,7 +49,7 @@ std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem) {
 
 namespace {
 
-/// A graph in which edges that are the same to the last bit count once: they are no independent measurements.
+/// A graph in which bit-identical edges, which are not independent measurements, count once.
 template <int D>
 struct UniqueEdges {
   Problem<D> problem;
@@ -61,7 +61,7 @@ template <int D>
 UniqueEdges<D> uniqueEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   UniqueEdges<D> made;
   made.problem = problem.withoutEdges();
-  std::unordered_map<std::uint64_t, int> latest;  // between two poses, and for each the one before
+  std::unordered_map<std::uint64_t, int> latest;  // latest edge between two poses, linked to the previous one
   std::vector<int> before;
   latest.reserve(roles.size());
   for (std::size_t e = 0; e < roles.size(); ++e) {
@@ -100,9 +100,9 @@ double computeCost(const Edge<D>& edge, const std::vector<Rigid<D>>& poses) {
   return edgeCost<Objective::Geodesic, D>(makeTerm(edge), poses[sz(edge.from)], poses[sz(edge.to)]);
 }
 
-// From where the growth left off, which is near as a rule. Where it is at the far end of a long flat valley (over a
-// long way that few closures tie, the cost hardly tells hundreds of metres) the way from no first guess is the shorter
-// one.
+// Relaxes from the result of the selection, which is usually near the minimum. If it is at the end of a long flat
+// valley of the cost (over a long path with few closures, displacements of hundreds of metres hardly change the cost),
+// relaxation from a new initial guess is faster.
 template <int D>
 Solution<D> relaxAccepted(const Problem<D>& part, const std::vector<Rigid<D>>& given, const SolveOptions& options) {
   if (options.start != Start::Auto) return solve(part, options);
@@ -122,7 +122,7 @@ Solution<D> relaxAccepted(const Problem<D>& part, const std::vector<Rigid<D>>& g
 template <int D>
 RobustSolution<D> solutionFrom(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                const SolveOptions& options, SelectedEdges<D> selected) {
-  // The solver of graphs without false edges has the final say, on what is left.
+  // The solver for graphs without false edges computes the final poses from the accepted edges.
   std::vector<char> in;
   for (const EdgeAssessment& verdict : selected.edges) in.push_back(verdict.weight > 0.0);
   RobustSolution<D> made;
@@ -135,8 +135,8 @@ RobustSolution<D> solutionFrom(const Problem<D>& problem, const std::vector<Edge
   return made;
 }
 
-/// Rejects the closures of all poses but those that stay as they are: odometry alone. Those that fitted what was
-/// accepted are undecided.
+/// Rejects the closures of all poses except those in `stays`, which leaves odometry. Closures that fitted the accepted
+/// edges become undecided.
 template <int D>
 void rejectCandidates(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& stays,
                       std::vector<EdgeAssessment>& edges) {
@@ -167,7 +167,7 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
   SelectionReport report;
   report.unweighed = selection.isUnweighed();
   VarianceFactors factors;
-  bool takes_unopposed = false;  // sessions joined by closures that nothing contests
+  bool takes_unopposed = false;  // sessions joined by uncontested closures
   if (selection.wasScored()) {
     report.contested = selection.wasContested();
     report.log_evidence = selection.evidence();

@@ -23,25 +23,26 @@ namespace pose_graph {
 
 namespace {
 
-// A priori one step of a thousand slips.
+// Prior probability that a step slipped: 1/1000.
 const double kLogSlip = std::log(Thresholds::kNegligible);
-constexpr double kDisplaced = 0.01;                   // of the extent
-constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // of a ratio; of logarithms
-constexpr double kComponentsSettled = 0.05;           // of the logarithms of the factors
-constexpr std::size_t kAskedOfMap = 512;  // closures inside, of which the density of chance on a map is asked
+constexpr double kDisplaced = 0.01;                                 // share of the extent
+constexpr double kLargestRatio = 0.9, kLargestExtrapolation = 2.0;  // ratio; logarithm
+constexpr double kComponentsSettled = 0.05;                         // difference of the logarithms of the factors
+// Limit of closures inside evaluated for the density of chance on a map.
+constexpr std::size_t kMostChanceQueries = 512;
 constexpr std::size_t kMostUnconfirmed = 8;
-// Closures that a row of false ones has at most: public ones are drawn in tens, those of real front ends that take one
-// corridor for another come in up to 25.
+// Maximum length of a row of false closures: in public graphs rows have tens of closures, real front ends that confuse
+// two corridors produce up to 25.
 constexpr int kLongestRow = 30;
 
 double logFactorial(double n) { return std::lgamma(n + 1.0); }
 
-// Logarithm of how many sets of `some` of `all` there are, times how many sizes.
+// Returns the log number of sets of `some` of `all` elements, times the number of sizes.
 double logChoices(double all, double some) {
   return logFactorial(all) - logFactorial(some) - logFactorial(all - some) + std::log(all + 1.0);
 }
 
-// See HypothesisEvaluator::largestOdometryFactor().
+// Computes HypothesisEvaluator::largestOdometryFactor().
 template <int D>
 double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   std::vector<const Edge<D>*> step(problem.poses.size(), nullptr);
@@ -63,11 +64,11 @@ double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole
   return kFarFactor * std::max(1.0, *middle);
 }
 
-// Adds to information with directions that say less than that a pose is somewhere in the map, what that says: evidence
-// of what may be anywhere is no number.
+// Adds a weak prior, uniform over the map, to information that constrains some direction less than that, as the
+// evidence of an unbounded direction is undefined.
 template <int D>
 void boundInformation(double extent, TangentMatrix<D>& information) {
-  Tangent<D> deviation;  // of an even spread
+  Tangent<D> deviation;  // of a uniform distribution
   deviation.template head<D>().setConstant(2.0 * extent / std::sqrt(12.0));
   deviation.template tail<kRotationSize<D>>().setConstant(2.0 * M_PI / std::sqrt(12.0));
   const TangentMatrix<D> scaled = deviation.asDiagonal() * information * deviation.asDiagonal();
@@ -75,7 +76,7 @@ void boundInformation(double extent, TangentMatrix<D>& information) {
   information.diagonal() += deviation.cwiseAbs2().cwiseInverse();
 }
 
-// Whether most closures do, to the last bit.
+// Whether most closures are bit-identical.
 template <int D>
 bool stateTheSame(const Problem<D>& problem, const std::vector<int>& candidates) {
   const auto values = [&](int e) {
@@ -90,13 +91,13 @@ bool stateTheSame(const Problem<D>& problem, const std::vector<int>& candidates)
   return 2 * different.size() < candidates.size();
 }
 
-// Where two steps of a slowly converging sequence lead in the end, beyond the second (Aitken 1926).
-double leap(double before, double now) {
-  const double ratio = before * now > 0.0 ? std::min(now / before, kMostLeap) : 0.0;
-  return std::clamp(now * ratio / (1.0 - ratio), -kLeapWithin, kLeapWithin);
+// Extrapolates a slowly converging sequence beyond its second step (Aitken 1926).
+double aitkenExtrapolation(double before, double now) {
+  const double ratio = before * now > 0.0 ? std::min(now / before, kLargestRatio) : 0.0;
+  return std::clamp(now * ratio / (1.0 - ratio), -kLargestExtrapolation, kLargestExtrapolation);
 }
 
-// Whether both ends of two closures are: between two chains partners may be anywhere.
+// Whether both ends of two closures are near each other: between two chains partners may be at any distance.
 template <int D>
 bool areNear(const Edge<D>& a, const Edge<D>& b) {
   return std::abs(std::min(a.from, a.to) - std::min(b.from, b.to)) <= kRowReach &&
@@ -112,12 +113,13 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
   for (std::size_t e = 0; e < roles.size(); ++e) {
     if (roles[e] == EdgeRole::Candidate) candidates_.push_back(static_cast<int>(e));
   }
-  TangentMatrix<D> given = TangentMatrix<D>::Zero(), bounded = given;  // many edges state the same
+  TangentMatrix<D> given = TangentMatrix<D>::Zero(), bounded = given;  // consecutive edges often have equal information
   for (std::size_t e = 0; e < roles.size(); ++e) {
     TangentMatrix<D>& information = problem_.edges[e].information;
     if (e == 0 || information != given || roles[e] != roles[e - 1]) {
       bounded = given = information;
-      // A prior or a fix without information has no effect; a step of odometry without it ends somewhere in the map.
+      // A prior or fix without information has no effect; a step of odometry without information ends somewhere in the
+      // map.
       if (roles[e] != EdgeRole::Asserted || !information.isZero(0.0)) boundInformation<D>(reckoning_.extent, bounded);
     }
     information = bounded;
@@ -133,7 +135,7 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
   const ClosureLoops<D> loops(problem, candidates_, reckoning_);
   row_ = closureRows(loops, roles.size());
   neighbour_.assign(roles.size(), -1);
-  std::vector<int> position(roles.size(), 0);  // in its row
+  std::vector<int> position(roles.size(), 0);  // position in its row
   std::vector<std::size_t> first(loops.size());
   std::iota(first.begin(), first.end(), std::size_t{0});
   log_alike_.assign(roles.size(), 0.0);
@@ -150,7 +152,8 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
       neighbour_[sz(after)] = before;
       position[sz(after)] = position[sz(before)] + 1;
       first[b] = first[a];
-      // Were it false, it would not err like those before it: similar places are parts of the map.
+      // A false closure would not have the error of those before it at this distance: similar places are parts of the
+      // map.
       const bool too_long = loops.metresBetween(first[b], b) > reckoning_.extent;
       if (too_long) first[b] = b;
       log_alike_[sz(after)] =
@@ -160,8 +163,8 @@ HypothesisEvaluator<D>::HypothesisEvaluator(const Problem<D>& problem, const std
 
 template <int D>
 double HypothesisEvaluator<D>::chance(const Hypothesis<D>& hypothesis) const {
-  // A choice for the closures within chains, and one for those between each two chains: how many of them are true has
-  // nothing to do with each other.
+  // The prior counts closures within chains, and closures between each pair of chains, separately: their numbers of
+  // true closures are unrelated.
   struct Choice {
     double starts = 0.0, first_inside = 0.0, followers = 0.0, changes = 0.0;
   };
@@ -191,7 +194,7 @@ double HypothesisEvaluator<D>::chance(const Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::collapsePenalty(const Hypothesis<D>& hypothesis) const {
   std::vector<std::size_t> first;
   double gain = hypothesis.log_inside - log_odometry_;
   for (const int e : candidates_) {
@@ -201,17 +204,17 @@ double HypothesisEvaluator<D>::gainByContraction(const Hypothesis<D>& hypothesis
   }
   if (first.empty() || assertions_) return 0.0;
   ChanceDensity<D> by_chance(reckoning_, hypothesis.poses, candidates_.size());
-  const double log_predicted = gain / static_cast<double>(first.size());  // density of each, on average
-  const std::size_t every = 1 + first.size() / kAskedOfMap;
-  double sum = 0.0, asked = 0.0;
-  for (std::size_t i = 0; i < first.size(); i += every, asked += 1.0) {
+  const double log_predicted = gain / static_cast<double>(first.size());  // average log density per closure
+  const std::size_t every = 1 + first.size() / kMostChanceQueries;
+  double sum = 0.0, queries = 0.0;
+  for (std::size_t i = 0; i < first.size(); i += every, queries += 1.0) {
     const double on_map = by_chance.logAt(problem_.edges[first[i]], std::exp(-log_predicted));
     sum += std::max(0.0, on_map - log_false_[first[i]]);
   }
-  return sum / asked * static_cast<double>(first.size());
+  return sum / queries * static_cast<double>(first.size());
 }
 
-// Sums of squares over redundancy (Förstner 1979), translation and rotation together.
+// Sums of squares over redundancy (Förstner 1979), translation and rotation combined.
 template <int D>
 VarianceFactors HypothesisEvaluator<D>::estimateFactors(const Hypothesis<D>& hypothesis) const {
   const double cost = set_->cost();
@@ -254,13 +257,14 @@ void HypothesisEvaluator<D>::assess(Hypothesis<D>& hypothesis, int rounds) const
     hypothesis.factors = estimateFactors(hypothesis);
     const double steps[2] = {std::log(hypothesis.factors.odometry / last.odometry),
                              std::log(hypothesis.factors.closures / last.closures)};
-    // Poses and redundancies follow from the ratio of the two factors alone.
+    // Poses and redundancies depend only on the ratio of the two factors.
     if (std::abs(steps[0] - steps[1]) < kComponentsSettled) {
-      round = rounds - 1;  // only the poses have to follow
+      round = rounds - 1;  // only the poses remain to be updated
     } else if (round % 2 == 1) {
-      hypothesis.factors.odometry =
-          std::min(hypothesis.factors.odometry * std::exp(leap(steps_before[0], steps[0])), largest_odometry_);
-      hypothesis.factors.closures *= std::exp(leap(steps_before[1], steps[1]));  // 1 where it is not estimated
+      hypothesis.factors.odometry = std::min(
+          hypothesis.factors.odometry * std::exp(aitkenExtrapolation(steps_before[0], steps[0])), largest_odometry_);
+      // Remains 1 if it is not estimated.
+      hypothesis.factors.closures *= std::exp(aitkenExtrapolation(steps_before[1], steps[1]));
     }
     std::copy(steps, steps + 2, steps_before);
   }
@@ -288,7 +292,7 @@ std::vector<std::vector<int>> HypothesisEvaluator<D>::unconfirmedRows(const Hypo
   struct Row {
     std::vector<int> closures;
     int begin = 0, end = 0;
-    std::size_t alone = 0;  // steps
+    std::size_t alone = 0;  // number of steps spanned by this row only
   };
   std::vector<Row> rows;
   std::vector<int> row_of(roles_.size(), -1);
@@ -310,7 +314,7 @@ std::vector<std::vector<int>> HypothesisEvaluator<D>::unconfirmedRows(const Hypo
     number_changes[sz(rows[r].begin)] += static_cast<std::ptrdiff_t>(r);
     number_changes[sz(rows[r].end)] -= static_cast<std::ptrdiff_t>(r);
   }
-  std::ptrdiff_t spanning = 0, numbers = 0;  // rows over a step, and the sum of their numbers
+  std::ptrdiff_t spanning = 0, numbers = 0;  // rows that span a step, and the sum of their numbers
   for (std::size_t step = 0; step + 1 < problem_.poses.size(); ++step) {
     spanning += changes[step];
     numbers += number_changes[step];
@@ -382,7 +386,7 @@ bool HypothesisEvaluator<D>::mayFitLooser(const Hypothesis<D>& hypothesis,
                                           const std::vector<EdgeAssessment>& edges) const {
   const VarianceFactors& found = hypothesis.factors;
   const double scale = std::min(1.0, std::max(found.odometry, found.closures));
-  std::map<int, std::pair<double, double>> rows;  // cost in squares, and worth, of each outside
+  std::map<int, std::pair<double, double>> rows;  // squared residual and log likelihood ratio of each row outside
   double degrees = 0.0;
   for (const int e : candidates_) {
     const EdgeAssessment& edge = edges[sz(e)];

@@ -13,16 +13,16 @@ namespace pose_graph {
 
 namespace {
 
-// Logarithm of the Bayes factor for each row of closures, on average, where variances are beyond kContestedFactor.
+// Log Bayes factor required per row of closures, on average, if variances are beyond kContestedFactor.
 constexpr double kEachDecisive = 2.0;
-constexpr int kRow = 5;  // of closures in a row outside, one in so many stands for the others
-// What takes so many times the work of the best set to factor, and more than a fraction of a second (multiplications of
-// blocks), has false closures between far places that fill the factor: no other set has been worth its minutes.
+constexpr int kRow = 5;  // of the closures of a group outside, one in kRow is used
+// Work limit relative to the best set, and absolute (block multiplications, a fraction of a second). Sets above both
+// contain false closures between distant places that fill the factor; none was better in tests.
 constexpr double kDense = 20.0, kSoonFactored = 1e7;
-// A row that no other confirms is left out if so many others are inside, as in an exchange of groups.
+// Number of other rows per unconfirmed row above which it is left out, as in an exchange of groups.
 constexpr double kOthers = 8.0;
-// Beyond so many poses what nothing contests is not scored, and beyond so many one selection is all that there is time
-// for, weighed where the chains of a graph leave a core that is no larger.
+// Number of poses above which an uncontested set is not scored, and above which only one selection is run; it is
+// scored if the core graph of the chains is not larger than that.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
 
 }  // namespace
@@ -33,7 +33,7 @@ void Selection<D>::run() {
   if (candidates_ == 0) return;
   if (problem_.poses.size() > kManyPoses && !isContested(best_.selected)) return;
   if (problem_.poses.size() > kMostPoses) {
-    weighCore();
+    evaluateReducedGraph();
     return;
   }
   parts_ = sessionParts(problem_, roles_);
@@ -41,17 +41,17 @@ void Selection<D>::run() {
   contested_ = isContested(best_.selected) || between_ > 0;
   evaluator_ = std::make_unique<HypothesisEvaluator<D>>(problem_, roles_);
   odometry_ = evaluator_->evaluateOdometry();
-  weighed_.emplace_back(odometry_.log_evidence, odometry_.in);
+  scored_.emplace_back(odometry_.log_evidence, odometry_.in);
   best_.hypothesis = hypothesisOver(best_.selected, {});
   evaluator_->evaluate(best_.hypothesis);
   readmit(best_);
-  contract(best_.hypothesis);
-  weighed_.emplace_back(best_.hypothesis.log_evidence, best_.members);
+  applyCollapsePenalty(best_.hypothesis);
+  scored_.emplace_back(best_.hypothesis.log_evidence, best_.members);
   if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
   if (!contested_) {
-    // A short slip costs few closures; one alone refutes no step.
+    // A short slip affects few closures; a single one does not contradict a step.
     if (rejected(best_.selected) > 1) proposeSlips({});
-    // False closures fit too where variances are stated far too large.
+    // False closures also fit if the stated variances are far too large.
     if (!evaluator_->areAssertions() && evidence() < kDecisive)
       contested_ = propose({1.0 / kFarFactor, 1.0 / kFarFactor}, slips_);
     if (contested_) repeatWithFactors();
@@ -66,11 +66,11 @@ template <int D>
 bool Selection<D>::isUndecided() const {
   if (contested_ || core_) return !(evidence() >= kDecisive);
   const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
-  // Factors that follow from the rows make them likelier; what is no evidence of them is about as much as of all.
-  if (overOdometry(rowsAlone()) - best_.hypothesis.by_contraction >= loosened) return false;
+  // Factors estimated from the rows make them more likely; the collapse penalty is about that of all closures.
+  if (overOdometry(rowsAlone()) - best_.hypothesis.collapse_penalty >= loosened) return false;
   Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
-  rows.by_contraction = 0.0;  // their volume is another one
-  contract(rows);
+  rows.collapse_penalty = 0.0;  // computed for another volume
+  applyCollapsePenalty(rows);
   const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
   return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
 }
@@ -116,7 +116,7 @@ bool Selection<D>::keepShared() {
   if (core_) return true;
   Hypothesis<D> kept = hypothesisOver(best_.selected, {});
   evaluator_->evaluate(kept);
-  best_.hypothesis.factors = kept.factors;  // without the closures that are left out
+  best_.hypothesis.factors = kept.factors;  // without the closures left out
   return true;
 }
 
@@ -138,7 +138,7 @@ std::optional<std::vector<char>> Selection<D>::findShared() const {
 template <int D>
 bool Selection<D>::shareWithSets(std::vector<char>& shared) const {
   bool has_rival = false;
-  for (const auto& [log_evidence, in] : weighed_) {
+  for (const auto& [log_evidence, in] : scored_) {
     if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
     std::size_t differ = 0;
     for (std::size_t e = 0; e < roles_.size(); ++e)
@@ -159,7 +159,7 @@ bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
   std::vector<int> nearly_as_likely;  // closures of such rows
   double rivals = 0.0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (losses[r] >= 2.0 * kDecisive) continue;  // as good as linearised
+    if (losses[r] >= 2.0 * kDecisive) continue;  // linearisation is sufficiently accurate
     Hypothesis<D> rest = best_.hypothesis;
     for (const int e : rows[r]) rest.in[sz(e)] = 0;
     const Hypothesis<D> without = evaluator_->assessRows(rest, 0);
@@ -168,7 +168,7 @@ bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
     nearly_as_likely.insert(nearly_as_likely.end(), rows[r].begin(), rows[r].end());
     ++rivals;
   }
-  // Among few rows, a lack of confirmation is no sign of an error.
+  // Among few rows, missing confirmation does not indicate an error.
   if (evaluator_->rowsInside(best_.hypothesis) >= kOthers * rivals) {
     for (const int e : nearly_as_likely) shared[sz(e)] = 0;
   }
@@ -198,7 +198,7 @@ Hypothesis<D> Selection<D>::hypothesisOver(const SelectedEdges<D>& selected, con
 }
 
 template <int D>
-bool Selection<D>::isInflated(const Hypothesis<D>& hypothesis) const {
+bool Selection<D>::reliesOnInflatedVariance(const Hypothesis<D>& hypothesis) const {
   if (overOdometry(hypothesis) < kDecisive) return true;
   if (!hypothesis.factors.areBeyond(kContestedFactor)) return false;
   return overOdometry(hypothesis) < kDecisive + kEachDecisive * evaluator_->rowsInside(hypothesis);
@@ -293,23 +293,23 @@ bool Selection<D>::propose(const VarianceFactors& factors, const std::vector<Sli
   made.hypothesis = hypothesisOver(made.selected, factors);
   readmit(made);
   const bool known =
-      std::any_of(weighed_.begin(), weighed_.end(), [&](const auto& other) { return other.second == made.members; });
+      std::any_of(scored_.begin(), scored_.end(), [&](const auto& other) { return other.second == made.members; });
   if (known && !forced && !is_doubtful_link) return false;
   evaluator_->evaluate(made.hypothesis);
-  weighed_.emplace_back(made.hypothesis.log_evidence, made.members);
+  scored_.emplace_back(made.hypothesis.log_evidence, made.members);
   const bool is_new_slip = slips.size() > best_.slips.size();
   const bool likelier = made.hypothesis.log_evidence >
                             best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
                         (!is_new_slip || holdsWithout(made.selected, slips)) &&
                         (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
-  if (likelier || forced) contract(made.hypothesis);
-  if (!forced && (!likelier || isInflated(made.hypothesis))) return false;
+  if (likelier || forced) applyCollapsePenalty(made.hypothesis);
+  if (!forced && (!likelier || reliesOnInflatedVariance(made.hypothesis))) return false;
   best_ = std::move(made);
   return true;
 }
 
 template <int D>
-void Selection<D>::weighCore() {
+void Selection<D>::evaluateReducedGraph() {
   core_ = CoreGraph<D>::of(problem_, roles_);
   unweighed_ = !core_ || core_->problem().poses.size() > kMostPoses;
   if (unweighed_) return;
@@ -332,7 +332,7 @@ void Selection<D>::weighCore() {
   evaluator_->evaluate(made);
   best_.hypothesis = std::move(made);
   odometry_.log_evidence = log_evidence;
-  contract(best_.hypothesis);
+  applyCollapsePenalty(best_.hypothesis);
 }
 
 template <int D>
@@ -365,7 +365,7 @@ void Selection<D>::joinSessions() {
   std::vector<char> tried(roles_.size(), 0);
   for (const int closure : links.doubtful) {
     if (!barred_[sz(closure)] || tried[sz(closure)] || tryLink(closure)) continue;
-    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= weighed_.back().second[e];
+    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= scored_.back().second[e];
   }
 }
 
@@ -418,15 +418,15 @@ void Selection<D>::proposeSlips(const VarianceFactors& factors) {
   const double all_work = graph.work(all, true), in_work = graph.work(in, true);
   if (all_work <= kWork * graph.work(considered, true)) considered = std::move(all);
   if (all_work > kWork * in_work && !may_slip(considered)) return;
-  // Rows of false closures between far places would fill the factor.
+  // Rows of false closures between distant places would fill the factor.
   if (graph.work(considered, true) > kWork * in_work) considered = std::move(some.thinned);
   if (proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, {}, odometry_.poses), factors)) return;
-  // From odometry as it is, a slip that closures nearby seem to bear out is not found. What is no more than chance
-  // refutes nothing.
+  // From odometry, a slip that closures nearby appear to confirm is not found. A set that is no better than chance
+  // contradicts nothing.
   if (evidence() < kDecisive) return;
-  const std::vector<char> doubted = mostRefuted(scaled, proposed_roles_, in, considered);
-  if (!doubted.empty())
-    proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, doubted, odometry_.poses), factors);
+  const std::vector<char> weighted_down = mostContradicted(scaled, proposed_roles_, in, considered);
+  if (!weighted_down.empty())
+    proposeWithoutSlips(findSlips(scaled, proposed_roles_, considered, weighted_down, odometry_.poses), factors);
 }
 
 template <int D>
@@ -454,14 +454,14 @@ void Selection<D>::tryScales() {
     if (!isUnquestioned() && factors.odometry <= evaluator_->largestOdometryFactor()) propose(factors, slips_);
   };
   const bool looser = evidence() < kDecisive || evaluator_->mayFitLooser(best_.hypothesis, best_.selected.edges);
-  if (looser) try_with({kFarFactor, kFarFactor});  // what is too sure of itself shuts true ones out
+  if (looser) try_with({kFarFactor, kFarFactor});  // overconfident information excludes true closures
   if (!isCredible()) {
     if (looser) try_with({kFarFactor, 1.0});
     if (looser) try_with({1.0, kFarFactor});
     try_with({1.0 / kFarFactor, 1.0 / kFarFactor});
   }
   repeatWithFactors();
-  // Where variances were stated too large, a slip stands out only now.
+  // If variances were stated too large, a slip may become apparent only now.
   if (slips_.empty() && evidence() >= kDecisive && !best_.found_with.areWithin(kSameFactor, {}))
     proposeSlips(best_.found_with);
 }

@@ -16,7 +16,7 @@
 
 namespace pose_graph {
 
-/// Proposes sets of edges, and keeps the best.
+/// Generates sets of edges and keeps the most likely one.
 template <int D>
 class Selection {
  public:
@@ -27,27 +27,27 @@ class Selection {
 
   void run();
 
-  /// Whether sets of edges were scored against odometry alone.
+  /// Returns whether sets of edges were scored against odometry only.
   bool wasScored() const { return evaluator_ != nullptr; }
-  /// Whether other sets than the first one were looked at.
+  /// Returns whether sets other than the first one were compared.
   bool wasContested() const { return contested_; }
-  /// Whether the best set is no likelier than chance, or fits because variances were enlarged until it did. A set that
-  /// nothing contests remains unless chance is decidedly the likelier.
+  /// Returns whether the best set is no more likely than chance, or fits only because variances were enlarged. An
+  /// uncontested set is kept unless chance is decisively more likely.
   bool isUndecided() const;
-  /// Poses by all closures, where some join sessions, and none is rejected or fits because variances were enlarged: few
-  /// closures outweigh no chance.
+  /// Solution with all closures, if some of them join sessions, none is rejected and none fits only because of enlarged
+  /// variances; too few closures to be decisive over chance.
   const std::optional<SelectedEdges<D>>& unopposed() const { return unopposed_; }
-  /// By pose, whether no closure of its part, which odometry holds together, is rejected or leads to another part. None
-  /// where closures fit because variances were enlarged.
+  /// Returns by pose whether no closure of its odometry-connected part is rejected or leads to another part. Nowhere
+  /// true if closures fit because variances were enlarged.
   std::vector<char> inUncontestedParts() const;
-  /// Whether sets should have been weighed, and the graph is too large.
+  /// Returns whether sets should have been compared but the graph is too large.
   bool isUnweighed() const { return unweighed_; }
-  /// Rejects the closures of the best set that a rival, another set that is nearly as likely, does not share: they are
-  /// undecided. Where the rest no longer joins the ends of a slip, the step is odometry again. The poses are relaxed
-  /// anew. Returns whether there is a rival.
+  /// Rejects (as undecided) the closures of the best set that a nearly as likely set, a rival, does not contain. A slip
+  /// whose ends are no longer joined by the rest becomes odometry again. Relaxes the poses. Returns whether there is a
+  /// rival.
   bool keepShared();
   bool hasVariances() const { return evaluator_ && !evaluator_->areAssertions(); }
-  /// Whether the variances of odometry and closures are off against each other by far, and that is no chance.
+  /// Returns whether the variance factors of odometry and closures differ by far, with decisive evidence.
   bool isRescaled() const;
   bool isThinlyJoined() const { return between_ < kLeastWeakLink; }
   bool rejectsAny() const { return rejected(best_.selected) > 0; }
@@ -60,27 +60,27 @@ class Selection {
   struct Proposal {
     SelectedEdges<D> selected;
     Hypothesis<D> hypothesis;
-    std::vector<char> members;  // by edge: those inside the hypothesis, and those that readmit() adds
+    std::vector<char> members;  // by edge: inside the hypothesis or added by readmit()
     std::vector<Slip<D>> slips;
     VarianceFactors found_with;
-    std::optional<bool> is_contradicted;  // once it was asked for
+    std::optional<bool> is_contradicted;  // computed on demand
   };
 
-  // Edges that the best set and all its rivals have; none where there is no rival.
+  // Edges common to the best set and all its rivals; empty if there is no rival.
   std::optional<std::vector<char>> findShared() const;
 
-  // The best set by one closure of each row (HypothesisEvaluator::assessRows()), with its own factors.
+  // The best set with one closure per row (HypothesisEvaluator::assessRows()), with its own factors.
   const Hypothesis<D>& rowsAlone() const;
 
-  // Takes out of `shared` what sets nearly as likely have not. Returns whether there are any.
+  // Removes from `shared` the edges that nearly as likely sets do not contain. Returns whether there are such sets.
   bool shareWithSets(std::vector<char>& shared) const;
 
-  // Takes out of `shared` each row of closures that no other confirms, where the map without it is another one, and
-  // nearly as likely. Returns whether there are any.
+  // Removes from `shared` each unconfirmed row of closures if the map without it differs and is nearly as likely.
+  // Returns whether there are such rows.
   bool shareWithoutRows(std::vector<char>& shared) const;
 
   double overOdometry(const Hypothesis<D>& hypothesis) const {
-    return hypothesis.log_evidence - hypothesis.by_contraction - odometry_.log_evidence;
+    return hypothesis.log_evidence - hypothesis.collapse_penalty - odometry_.log_evidence;
   }
   bool isLoosened() const {
     const VarianceFactors& factors = best_.hypothesis.factors;
@@ -95,99 +95,100 @@ class Selection {
   }
   Hypothesis<D> hypothesisOver(const SelectedEdges<D>& selected, const VarianceFactors& factors) const;
 
-  // Takes off what is no evidence, where that decides anything.
-  void contract(Hypothesis<D>& hypothesis) const {
-    if (overOdometry(hypothesis) > 0.0) hypothesis.by_contraction = evaluator_->gainByContraction(hypothesis);
+  // Applies the collapse penalty (HypothesisEvaluator::collapsePenalty()) if it can change the decision.
+  void applyCollapsePenalty(Hypothesis<D>& hypothesis) const {
+    if (overOdometry(hypothesis) > 0.0) hypothesis.collapse_penalty = evaluator_->collapsePenalty(hypothesis);
   }
 
-  // Whether a set fits because variances were changed until it did: each row is then hardly likelier than chance.
-  bool isInflated(const Hypothesis<D>& hypothesis) const;
+  // Whether a set fits only because variances were changed: each of its rows is then hardly more likely than chance.
+  bool reliesOnInflatedVariance(const Hypothesis<D>& hypothesis) const;
 
   bool isBetween(std::size_t e) const {
     return roles_[e] == EdgeRole::Candidate && parts_[sz(problem_.edges[e].from)] != parts_[sz(problem_.edges[e].to)];
   }
 
-  // The same by edge of the proposed graph, which has more: in place of steps between sessions.
+  // Extends values by edge to the proposed graph, which has further edges for links between sessions.
   template <typename Value>
   std::vector<Value> proposedFrom(std::vector<Value> by_edge, typename std::vector<Value>::value_type others) const {
     by_edge.resize(proposed_roles_.size(), others);
     return by_edge;
   }
 
-  // Inner selection over the proposed graph without what is barred.
+  // Runs the inner selection on the proposed graph without barred edges.
   SelectedEdges<D> selectProposed(const VarianceFactors& factors, double most_work) const;
 
-  // Accepts closures that err no more than they state, where the proposed variances are smaller than that: by these
-  // they were rejected, which are not theirs. Those of an accepted row also by the test of what has to leave, which is
-  // wider than that of what enters: their place is not in question.
+  // Accepts closures that fit with their stated variances, where the proposed variances are smaller and led to their
+  // rejection. Closures of an accepted row are accepted by the wider limit for removal, since the association of the
+  // row's places is confirmed.
   void readmit(Proposal& proposal) const;
-  // Accepts those of `some` (by edge) that fit where their own variances are `own` times larger.
+  // Accepts the closures of `some` (by edge) that fit with their own variances larger by the factor `own`.
   void readmit(Proposal& proposal, double own, const std::vector<char>& some) const;
 
-  // Whether accepted edges join the two ends of each slip, also without any one row of closures: where none do, the
-  // step is not refuted, and one row is one place, which may resemble another one.
+  // Whether accepted edges connect both ends of each slip, even without any one row of closures; otherwise the step is
+  // not contradicted, or only by one pair of similar places.
   bool holdsWithout(const SelectedEdges<D>& selected, const std::vector<Slip<D>>& slips) const;
 
-  // Closures between parts that the best set has not.
+  // Number of closures between parts that are inside but not in the best set.
   std::size_t countLinking(const Hypothesis<D>& hypothesis) const;
 
-  // Beyond which a set is given up, in multiplications of blocks.
+  // Work limit for a set, in block multiplications.
   double mostWork() const;
 
-  // Scores the inner selection over the proposed graph with these factors, and keeps the better set. Returns whether it
-  // is this one.
+  // Scores the inner selection on the proposed graph with these factors and keeps the better set. Returns whether the
+  // new set is kept.
   bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false,
                bool is_doubtful_link = false);
 
-  // Weighs the one selection of a large graph against odometry alone, by its core.
-  void weighCore();
+  // Compares the only selection of a large graph with odometry, in its core graph.
+  void evaluateReducedGraph();
 
-  // Takes what a closure between two parts says as given.
+  // Adds a closure between two parts as a trusted edge.
   void addLink(int closure);
 
   // Bars closures between parts that no link joins.
   void barUnlinked();
 
-  // Joins parts that enough closures agree on, and bars all closures between others.
+  // Joins parts by links of consistent closures, and bars all closures between other parts.
   void joinSessions();
 
-  // Joins two parts where the closures that then agree are evidence enough, as a whole. Returns whether they are.
+  // Joins two parts by a closure if all closures consistent with it have sufficient total evidence. Returns whether
+  // the parts were joined.
   bool tryLink(int closure);
 
   struct Considered {
     std::vector<char> confirmed, thinned;  // by edge
   };
 
-  // The closures inside, and those outside that agree with another one near them: all of these, or one in kRow.
+  // The closures inside, and those outside confirmed by a near one: all of these, or one in kRow.
   Considered considerConfirmed(const Problem<D>& scaled) const;
 
-  // Looks for slips where variances are those of the best set, and proposes what follows, with these factors.
+  // Searches for slips with the variances of the best set, and proposes the result with these factors.
   void proposeSlips(const VarianceFactors& factors);
 
-  // Proposes what follows where these steps are what the closures say. Returns whether it is better.
+  // Proposes a selection with slipped steps replaced by the motion that closures imply. Returns whether it is better.
   bool proposeWithoutSlips(std::vector<Slip<D>> slips, const VarianceFactors& factors);
 
   void tryScales();
 
-  // Whether the best set is decisive and no closure of it contradicts the rest where variances are those that follow
-  // from it (contradictsItself()), and its own no less than stated. That it is likelier than odometry alone is not
-  // enough.
+  // Whether the best set is decisive and self-consistent: no closure contradicts the rest with the variances estimated
+  // from it and its own at least as stated (contradictsItself()). Decisive evidence over odometry only does not imply
+  // this.
   bool agreesWithItself();
-  // Whether it takes nearly all closures, too: no other variances find a likelier set.
+  // Whether the best set also contains almost all closures: other variances then yield no better set.
   bool isUnquestioned() { return !rejectsMany(best_.selected) && agreesWithItself(); }
 
-  // Whether the best set explains far more than chance, with variances near those stated.
+  // Whether the best set is decisive with variances near the stated ones.
   bool isCredible() const { return evidence() >= kDecisive && !best_.hypothesis.factors.areBeyond(kContestedFactor); }
 
-  // Whether the best set was found with the variances that follow from it, or none better was.
+  // Whether the best set was found with its own variances, or a repetition with them found no better one.
   bool isSettled() const {
     const VarianceFactors& now = best_.hypothesis.factors;
     return now.areWithin(kSameFactor, best_.found_with) || now.areWithin(kSameFactor, repeated_with_);
   }
 
-  // Whether the variances that follow from the best set are no larger than those it was found with. Where it agrees
-  // with itself, another selection with these gains none, and loses those that err as stated where most err by far
-  // less.
+  // Whether the variances estimated from the best set are not larger than those it was found with. If it is
+  // self-consistent, a repetition with these gains nothing, and rejects closures with errors as stated where most
+  // errors are far smaller.
   bool isTighter() const {
     const VarianceFactors &now = best_.hypothesis.factors, &then = best_.found_with;
     return now.odometry <= then.odometry && now.closures <= then.closures;
@@ -197,20 +198,20 @@ class Selection {
 
   const Problem<D>& problem_;
   const std::vector<EdgeRole>& roles_;
-  Problem<D> proposed_;  // with what takes the place of slips and of steps between sessions
+  Problem<D> proposed_;  // with replacements of slips and links between sessions
   std::vector<EdgeRole> proposed_roles_;
   std::size_t candidates_ = 0, between_ = 0;
-  std::vector<int> parts_;    // by pose, what odometry holds together
-  std::vector<char> barred_;  // by edge: joins parts that too few closures agree on
+  std::vector<int> parts_;    // by pose: part connected by odometry
+  std::vector<char> barred_;  // by edge: joins parts without enough consistent closures
   bool contested_ = false, unweighed_ = false;
   std::optional<SelectedEdges<D>> unopposed_;
-  std::optional<CoreGraph<D>> core_;  // of a graph beyond kMostPoses
+  std::optional<CoreGraph<D>> core_;  // of a graph of more than kMostPoses poses
   std::unique_ptr<HypothesisEvaluator<D>> evaluator_;
   Hypothesis<D> odometry_;
   Proposal best_;
-  mutable std::optional<Hypothesis<D>> rows_alone_;  // once it was asked for
+  mutable std::optional<Hypothesis<D>> rows_alone_;  // computed on demand
   VarianceFactors repeated_with_;
-  std::vector<std::pair<double, std::vector<char>>> weighed_;  // evidence of each set, and its members
+  std::vector<std::pair<double, std::vector<char>>> scored_;  // log evidence of each set, and its members
   std::vector<Slip<D>> slips_;
 };
 

@@ -15,12 +15,12 @@ namespace pose_graph {
 
 namespace {
 
-// Pairs that each density is read off, where few closures are asked for and where many are, and distances in all.
+// Number of pairs for many queries, and limit of distances evaluated in all queries.
 constexpr std::size_t kFewestPairs = 2048, kDistances = 20000000;
-constexpr std::size_t kNearestPairs = 16;  // good to a quarter
+constexpr std::size_t kNearestPairs = 16;  // accurate to a quarter
 constexpr double kEvenShare = 0.1;
-constexpr int kOwnShare = 20;                            // of all poses
-constexpr double kLeastTurn = 0.01, kLeastShare = 1e-3;  // radians; of the extent
+constexpr int kOwnShare = 20;                            // share of all poses
+constexpr double kLeastTurn = 0.01, kLeastShare = 1e-3;  // rad; share of the extent
 constexpr double kLeastSquare = 1e-12;
 
 int octaveBetween(int from, int to) {
@@ -29,7 +29,7 @@ int octaveBetween(int from, int to) {
   return octave;
 }
 
-// Square of the angle between two rotations where it is small; it grows more slowly beyond.
+// Returns the squared rotation angle for small angles; a lower value for large ones.
 template <int D>
 double chordSquare(const Rotation<D>& a, const Rotation<D>& b) {
   return 0.5 * (a - b).squaredNorm();
@@ -85,10 +85,10 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
   const double unit = (kTangentSize<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0) * std::pow(shift_, D) *
                       std::pow(turn_, kRotationSize<D>);  // volume of the ball of radius 1
   const double least = std::max(std::pow(resolved / unit, 2.0 / kTangentSize<D>), kLeastSquare);
-  std::vector<double> nearest;  // a heap of squares, the farthest first
+  std::vector<double> nearest;  // max-heap of squared distances
   std::size_t within = 0;
   double farthest = std::numeric_limits<double>::infinity();
-  const auto look = [&](std::size_t i) {
+  const auto addSample = [&](std::size_t i) {
     const Rigid<D>& pose = poses_[i];
     double square = per_shift * (pose.t - at.t).squaredNorm();
     if (square >= farthest) return;
@@ -106,7 +106,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
     std::push_heap(nearest.begin(), nearest.end());
     if (nearest.size() == kNearestPairs) farthest = std::max(nearest.front(), least);
   };
-  // From the nearest along the widest axis to both sides, as far as any can still be among the nearest.
+  // Visits samples in ascending distance along the widest axis, on both sides, until none can be among the nearest.
   const double middle = at.t[axis_];
   std::size_t above = static_cast<std::size_t>(
       std::lower_bound(poses_.begin(), poses_.end(), middle,
@@ -118,7 +118,7 @@ double PoseSample<D>::logDensity(const Rigid<D>& at, double resolved, const Own&
     const bool up = below == 0 || (above < poses_.size() && distance(above) < distance(below - 1));
     const std::size_t next = up ? above++ : --below;
     if (per_shift * distance(next) * distance(next) >= farthest) break;
-    look(next);
+    addSample(next);
   }
   const double volume = unit * std::pow(farthest, 0.5 * kTangentSize<D>);
   const double share = static_cast<double>(std::max(within, kNearestPairs)) / static_cast<double>(asked);
@@ -144,7 +144,7 @@ PoseSample<D> ChanceDensity<D>::sample(std::optional<int> octave) const {
     pairs.push_back(poses_[from].inverse() * poses_[to]);
     ends.emplace_back(static_cast<int>(from), static_cast<int>(to));
   };
-  if (longest > shortest && n * (longest - shortest) <= pairs_) {  // all there are
+  if (longest > shortest && n * (longest - shortest) <= pairs_) {  // all pairs
     for (std::size_t from = 0; from < n; ++from)
       for (std::size_t to = from + shortest; to < from + longest; ++to) take(from, to);
     return {std::move(pairs), chains_.extent, std::move(ends)};

@@ -12,53 +12,52 @@
 
 namespace pose_graph {
 
-/// Pairs of poses that a density is read off: with 16 within its ball the smallest is a five hundredth.
+/// Number of pairs of poses in a density estimate: 16 neighbours of 8192 resolve a share of 1/512.
 constexpr std::size_t kMostPairs = 8192;
 
-/// Relative poses drawn from what a map offers, and their density anywhere, by the distance to the nearest few
-/// (Loftsgaarden, Quesenberry, A nonparametric estimate of a multivariate density function, 1965).
+/// Density of relative poses in a sample, estimated from the distance to the nearest 16 samples (Loftsgaarden,
+/// Quesenberry, A nonparametric estimate of a multivariate density function, 1965).
 template <int D>
 class PoseSample {
  public:
   PoseSample() = default;
-  /// `extent`: of the map, metres. `ends`: the numbers of the two poses that each lies between, or none.
+  /// `extent`: of the map, m. `ends`: numbers of the two poses of each sample, or empty.
   PoseSample(std::vector<Rigid<D>> poses, double extent, std::vector<std::pair<int, int>> ends = {});
 
-  /// Pairs of poses that are the one in question, more or less: no chance.
+  /// Sampled pairs to exclude: both ends within `reach` poses of `from` and `to`.
   struct Own {
     int from = 0, to = 0, reach = -1;
   };
 
-  /// Logarithm, per metre^D and radian^(directions of rotation), over no less than `volume` of these: what a
-  /// measurement does not resolve tells nothing; without the pair in question. A tenth of it is even over the extent,
-  /// as no sample knows all.
+  /// Returns the log density per metre^D and radian^(directions of rotation), averaged over at least `volume` in these
+  /// units (what the measurement resolves), without the excluded pairs. A tenth of the density is uniform over the
+  /// extent, because the sample is incomplete.
   double logDensity(const Rigid<D>& at, double volume = 0.0, const Own& own = {}) const;
 
  private:
-  // How many lie between the poses in question, more or less.
+  // Number of samples excluded by `own`.
   std::size_t count(const Own& own) const;
 
   std::vector<Rigid<D>> poses_;                      // in the order of axis_
-  std::vector<std::pair<int, int>> ends_, by_ends_;  // of each of them; sorted
-  Eigen::Index axis_ = 0;                            // along which they are spread widest
-  double shift_ = 1.0, turn_ = 1.0;                  // root mean squares of one coordinate, metres and radians
+  std::vector<std::pair<int, int>> ends_, by_ends_;  // of each sample; sorted
+  Eigen::Index axis_ = 0;                            // axis of the widest spread
+  double shift_ = 1.0, turn_ = 1.0;                  // root mean squares of one coordinate, m and rad
   double even_ = 1.0;
 };
 
-/// How likely two poses of a map that have nothing to do with each other lie as a closure measures: the density of
-/// chance agreement, measured on the map itself, over pairs of poses about as far apart in number as the closure's. A
-/// map with streets in two directions has four times as many parallel pairs as an even spread of headings has, and
-/// places on a curved way are alike in heading where they are near. Between two chains, whose frames have nothing to do
-/// with each other, pairs of all distances stand for theirs.
+/// Density of chance agreement: how likely two unrelated poses of a map are related as a closure measures. It is
+/// estimated from the map itself, over pairs of poses about as far apart in number as the closure's. A map with streets
+/// in two directions has four times as many parallel pairs as uniform headings, and nearby places on a curved path have
+/// similar headings. For a closure between two chains, whose frames are unrelated, pairs at all distances are used.
 template <int D>
 class ChanceDensity {
  public:
-  /// Of the map that dead reckoning gives. `closures`: how many will be asked for; of many, each sees fewer pairs.
+  /// Uses the map of dead reckoning. `closures`: number of queries expected; for many, fewer pairs are sampled.
   ChanceDensity(const DeadReckoning<D>& chains, std::size_t closures) : ChanceDensity(chains, chains.pose, closures) {}
-  /// Of the map that these poses are, by the same pairs. Both must outlive it.
+  /// Uses the map given by `poses`, with the same pairs. Both arguments must outlive this object.
   ChanceDensity(const DeadReckoning<D>& chains, const std::vector<Rigid<D>>& poses, std::size_t closures);
 
-  /// As PoseSample::logDensity(), of what an edge measures, over what it resolves and no less than `volume`.
+  /// Returns PoseSample::logDensity() at the measurement of an edge, over its resolution and at least `volume`.
   double logAt(const Edge<D>& edge, double volume = 0.0);
 
  private:
@@ -70,7 +69,7 @@ class ChanceDensity {
   std::map<std::optional<int>, PoseSample<D>> of_octave_;
 };
 
-/// 64 bits that look drawn, from a number alone (splitmix64, Steele, Lea, Flood 2014).
+/// Returns 64 pseudorandom bits as a function of a number (splitmix64, Steele, Lea, Flood 2014).
 inline std::uint64_t scatteredBits(std::uint64_t number) {
   std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -78,7 +77,7 @@ inline std::uint64_t scatteredBits(std::uint64_t number) {
   return z ^ (z >> 31);
 }
 
-/// Evenly over 0...most - 1, from `number` alone.
+/// Returns a uniform index in 0...most - 1 as a function of `number`.
 inline std::size_t drawIndex(std::uint64_t number, std::size_t most) { return scatteredBits(number) % most; }
 
 extern template class PoseSample<2>;

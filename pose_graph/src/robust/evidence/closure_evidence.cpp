@@ -17,7 +17,7 @@ namespace pose_graph {
 namespace {
 
 constexpr int kAtOnce = 8;
-// Of the inverse of a covariance from as many samples (the mean of an inverse Wishart matrix).
+// Correction of the inverse of a covariance estimated from kDisturbances samples (mean of an inverse Wishart matrix).
 template <int D>
 constexpr double kShrink =
     static_cast<double>(ClosureEvaluator<D>::kDisturbances - kTangentSize<D> - 1) / ClosureEvaluator<D>::kDisturbances;
@@ -25,7 +25,7 @@ constexpr double kShrink =
 template <int D>
 using Eight = Eigen::Matrix<double, kTangentSize<D>, kAtOnce, Eigen::RowMajor>;
 
-// Disturbances first...first + 7 of an edge: signs, a bit for each.
+// Returns disturbances first...first + 7 of an edge: pseudorandom signs.
 template <int D>
 Eight<D> disturbances(std::size_t edge, int first) {
   Eight<D> made;
@@ -45,7 +45,7 @@ ClosureEvaluator<D>::ClosureEvaluator(const Problem<D>& problem, const std::vect
   false_log_.reserve(candidates.size());
   for (int e : candidates) {
     const WhitenedEdge<D>& edge = edges_[sz(e)];
-    // A false closure may be anywhere that odometry can have reached, in any heading.
+    // A false closure is uniform over the region that odometry can have reached, with any heading.
     const double reach = chains.of_pose[sz(edge.from)] == chains.of_pose[sz(edge.to)]
                              ? std::abs(chains.way[sz(edge.to)] - chains.way[sz(edge.from)]) + edge.Z.t.norm()
                              : chains.extent;
@@ -109,11 +109,11 @@ void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const Whitened
   const std::size_t e = sz(candidates_[k]);
   const int rank = edges_[e].rank;
   TangentMatrix<D> C = moved.lazyProduct(moved.transpose()) / kDisturbances;
-  for (int a = rank; a < kN; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
+  for (int a = rank; a < kN; ++a) C(a, a) = 1.0;  // unmeasured direction: rows of W and the error are zero
   double log = false_log_[k] - 0.5 * rank * kLogTwoPi;
   if (inside) {
-    // The inverse of what is left of its own unit covariance, R, is the covariance that its residual would have were it
-    // outside: an innovation R^-1 r with covariance R^-1, and with R^-1 + (own - 1) I were its own larger.
+    // Let R be the covariance of the edge's residual. Outside the graph, its innovation would be R^-1 r with covariance
+    // R^-1; with own variance `own`, R^-1 + (own - 1) I.
     log += 0.5 * std::log(std::max(1e-300, C.determinant()));
     if (own != 1.0) {
       const TangentMatrix<D> larger = TangentMatrix<D>::Identity() + (own - 1.0) * C;
@@ -132,7 +132,7 @@ void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const Whitened
   made.likelier[e] = logInlierLikelihood(log, rank, made.chi2[e] * made.variance, made.variance);
 }
 
-// One bias of a whole group: its far ends moved as one body.
+// One common bias of the group: a rigid displacement of its later ends.
 template <int D>
 void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members, const std::vector<Rigid<D>>& poses,
                                         const std::vector<WhitenedJacobians<D>>& at, const std::vector<Samples>& moved,
@@ -157,7 +157,7 @@ void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members,
   TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
   C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
   TangentMatrix<D> with_own = C;
-  if (own != 1.0) {  // as of one closure, whose unit covariance is here the inverse of the weight
+  if (own != 1.0) {  // as for one closure; the inverse of `weight` takes the place of the unit covariance
     weight.diagonal().array() += 1e-12 * weight.diagonal().maxCoeff();
     with_own += (own - 1.0) * C.lazyProduct(urban_nav_core::SmallCholesky<kN>(weight).solve(C)).eval();
   }
@@ -205,7 +205,7 @@ Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vecto
 
 namespace {
 
-constexpr double kAsStated = 0.05;  // share; a hundredth or a fifth moves what is gained by less than two
+constexpr double kAsStated = 0.05;  // share; with 0.01 or 0.2 the log density changes by less than 2
 
 }  // namespace
 

@@ -53,7 +53,7 @@ std::size_t ClosureLoops<D>::nextInRow(std::size_t a) const {
   const Closure& first = closures_[a];
   for (std::size_t b = a + 1; b < closures_.size() && closureChains(closures_[b]) == closureChains(first); ++b) {
     const Closure& other = closures_[b];
-    double left[2];  // variances of both closures less those of odometry
+    double left[2];  // variances of both closures minus those of odometry
     for (int kind = 0; kind < 2; ++kind)
       left[kind] = first.variances[kind] + other.variances[kind] - stepVariance(first.from, other.from, kind);
     const bool near = other.from - first.from <= kRowReach, known = left[0] >= 0.0 && left[1] >= 0.0;
@@ -100,25 +100,25 @@ ClosureLoop ClosureLoops<D>::loop(std::size_t first, std::size_t second) const {
 
 namespace {
 
-constexpr std::size_t kLoops = 500;  // looked at: the factor of so many is good to some hundredths
+constexpr std::size_t kLoops = 500;  // evaluated loops: the factor is then accurate to a few percent
 constexpr int kScaleSteps = 20;
 
-// A mixture of loops of true closures, of false ones that agree with each other more or less, and of others.
+// Mixture of loops of true closures, of false closures that nearly agree, and of other false ones.
 struct Mixture {
-  double factor = 1.0, loose = kLooseFactor;  // of the variances of the first two kinds
+  double factor = 1.0, loose = kLooseFactor;  // variance factors of the first two kinds
   double shares[3] = {0.5, 0.25, 0.25};
   double true_loops = 0.0;
   double log_likelihood = -std::numeric_limits<double>::infinity();
 };
 
-// `rows`: whether false ones may agree with each other; else all of them are anywhere.
+// `rows`: whether the mixture includes false closures that nearly agree.
 Mixture mixtureFrom(const std::vector<ClosureLoop>& loops, int dof, double factor, bool rows) {
   Mixture made;
   if (!rows) made.shares[1] = 0.0;
   made.factor = factor;
   made.loose = kLooseFactor * factor;
   for (int i = 0; i < kScaleSteps; ++i) {
-    // A priori one loop of unit variance.
+    // Prior: one loop of unit variance.
     double squares[2] = {1.0 * dof, dof * made.loose}, numbers[2] = {1.0 * dof, 1.0 * dof};
     double sum[3] = {0.0, 0.0, 0.0};
     made.log_likelihood = 0.0;
@@ -149,7 +149,8 @@ Mixture mixtureFrom(const std::vector<ClosureLoop>& loops, int dof, double facto
   return made;
 }
 
-// From where it begins decides where it ends: from few that fit well, from the middle one, and from what is stated.
+// Fits the mixture from three initial factors and returns the best fit, as the result depends on the initial value: the
+// first quartile, the median, and the stated variances.
 Mixture likeliest(const std::vector<ClosureLoop>& loops, int dof, bool rows) {
   std::vector<double> chi2;
   for (const ClosureLoop& loop : loops) chi2.push_back(loop.chi2);
@@ -177,8 +178,8 @@ InformationScale informationScale(const ClosureLoops<D>& closures) {
   if (loops.empty()) return {};
   const Mixture plain = likeliest(loops, kDof, false);
   InformationScale made{plain.factor, plain.true_loops, plain.shares[0]};
-  // Where false closures that agree with each other outnumber the true ones, theirs is the likelier spread: that
-  // information boasts must be so beside them too.
+  // If false closures that nearly agree outnumber true ones, their variance fits better than that of the true ones.
+  // Hence the information counts as overconfident only if the mixture that includes such closures shows it too.
   if (made.factor > 1.0)
     made.factor = plain.true_loops < kTellingLoops ? 1.0 : std::max(1.0, likeliest(loops, kDof, true).factor);
   return made;
@@ -203,7 +204,7 @@ std::vector<int> closureRows(const ClosureLoops<D>& closures, std::size_t edges)
 
 namespace {
 
-constexpr int kPartners = 20;  // compared with each closure at most: one that agrees is enough
+constexpr int kPartners = 20;  // limit of comparisons per closure: one consistent partner suffices
 
 template <int D>
 bool agree(const ClosureLoop& loop, double variance, const Thresholds& thresholds) {
@@ -216,7 +217,7 @@ bool agree(const ClosureLoop& loop, double variance, const Thresholds& threshold
 }  // namespace
 
 Thresholds::Thresholds(std::size_t candidates, int largest_dof) {
-  // With few candidates the tests stay as strict as with ten.
+  // With fewer than ten candidates the tests are as strict as with ten.
   const double each = kFalseAlarms / static_cast<double>(std::max<std::size_t>(10, candidates));
   early_evidence = std::max(kEvidence, -std::log(each));
   limit.assign(1, 0.0);

@@ -10,36 +10,35 @@
 
 namespace pose_graph {
 
-/// Two closures and the odometry between their ends. The path from one pose along odometry to the next, over one
-/// closure, along odometry again and back over the other closure ends where it began if both are true (Olson, Walter,
-/// Leonard, Teller, Single-cluster graph partitioning for robotics applications, RSS 2005).
+/// The loop over two closures and the odometry between their ends. It ends where it began if both closures are true
+/// (Olson, Walter, Leonard, Teller, Single-cluster graph partitioning for robotics applications, RSS 2005).
 struct ClosureLoop {
-  double chi2 = 0.0;       ///< of the tangent that remains, with all covariances as stated
-  double log_true = 0.0;   ///< logarithm of the density of no remainder at all, were both true
-  double log_false = 0.0;  ///< of any remainder, were one of them anywhere
+  double chi2 = 0.0;       ///< of the loop error, with all covariances as stated
+  double log_true = 0.0;   ///< log density of a zero loop error if both are true
+  double log_false = 0.0;  ///< log density of any loop error if one of them is uniform over the map
 };
 
-/// Closures in the order of their ends, for pairs of near ones.
+/// Closures sorted by their ends, for enumeration of near pairs.
 template <int D>
 class ClosureLoops {
  public:
-  /// `problem` and `chains` must outlive it.
+  /// `problem` and `chains` must outlive this object.
   ClosureLoops(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains);
 
   std::size_t size() const { return closures_.size(); }
   int edge(std::size_t i) const { return closures_[i].edge; }
   double extent() const { return chains_->extent; }
-  /// Costs the number of poses between the ends.
+  /// Cost: linear in the number of poses between the ends.
   ClosureLoop loop(std::size_t a, std::size_t b) const;
 
-  /// Returns the closure after `a` in its row, size() for none: both ends are at most kRowReach poses from its own, or
-  /// so near that odometry between them is known better than the two closures, which then agree in any case.
+  /// Returns the next closure after `a` in its row, or size(). Both ends are at most kRowReach poses from those of `a`,
+  /// or odometry between them is more accurate than the two closures, which are then consistent in any case.
   std::size_t nextInRow(std::size_t a) const;
-  /// Metres of the drive between the ends of two closures, on the side where they are more.
+  /// Returns the path length between the ends of two closures, m; the larger one of the two sides.
   double metresBetween(std::size_t a, std::size_t b) const;
 
-  /// visit(b) for the closures after `a` that are near it, at most `most`: both ends at most kRowReach poses apart;
-  /// between two chains, which nothing else can vouch for, however far apart.
+  /// Calls visit(b) for at most `most` closures after `a` whose ends are both at most kRowReach poses from those of
+  /// `a`; between two chains, at any distance, because no odometry relates them.
   template <typename Visit>
   void partners(std::size_t a, int most, const Visit& visit) const {
     const auto on = closureChains(closures_[a]);
@@ -53,81 +52,81 @@ class ClosureLoops {
   }
 
  private:
-  struct Closure {  // its ends in the order of their numbers
+  struct Closure {  // ends in ascending order
     int edge = 0, from = 0, to = 0;
     Rigid<D> Z;
     TangentMatrix<D> covariance;       // in the frame of `from`
-    double variances[2] = {0.0, 0.0};  // translation and rotation, all axes together
+    double variances[2] = {0.0, 0.0};  // trace for translation and rotation
   };
   static Closure toClosure(const Problem<D>& problem, int edge, double extent);
   std::pair<int, int> closureChains(const Closure& c) const {
     return {chains_->of_pose[static_cast<std::size_t>(c.from)], chains_->of_pose[static_cast<std::size_t>(c.to)]};
   }
 
-  // Variance of the steps between two poses in translation (0) or rotation (1), all axes together.
+  // Returns the variance of the steps between two poses in translation (0) or rotation (1), summed over axes.
   double stepVariance(int from, int to, int kind) const {
     return std::abs(steps_[kind][static_cast<std::size_t>(to)] - steps_[kind][static_cast<std::size_t>(from)]);
   }
 
   const DeadReckoning<D>* chains_;
   std::vector<Closure> closures_;
-  std::vector<double> steps_[2];  // sums of the variances of all steps up to each pose
+  std::vector<double> steps_[2];  // cumulative variances of the steps up to each pose
 };
 
-/// Of variances: false closures that were found in a row err alike, and nearly agree. Loops whose deviations are at
-/// least five times those of true ones are taken for theirs.
+/// Variance factor of false closures in a row: they have similar errors and nearly agree. Loops with at least five
+/// times the deviation of true ones are attributed to them.
 constexpr double kLooseFactor = 25.0;
-/// So many loops tell how large errors are: their sum of squares is good to a sixth in two dimensions (the deviation of
-/// a chi-square of 90 degrees of freedom).
+/// Number of loops that determines the scale of errors: in two dimensions the sum of squares is then accurate to a
+/// sixth (the deviation of a chi-square with 90 degrees of freedom).
 constexpr double kTellingLoops = 30.0;
 
-/// What loops of near closures say of a graph before anything is known of its shape. Their chi-squares come from true
-/// pairs, where they follow their distribution times `factor`, and from false ones, which are anywhere or, found in a
-/// row, err alike; the likeliest mixture of these is found by expectation and maximisation (Dempster, Laird, Rubin
+/// Scale of the information matrices, estimated from loops of near closures before the graph is relaxed. The
+/// chi-squares are a mixture: of true pairs, distributed as chi-square times `factor`, and of false ones, which are
+/// uniform or, in a row, have similar errors. The mixture is fitted by expectation-maximisation (Dempster, Laird, Rubin
 /// 1977).
 struct InformationScale {
-  /// By what the variances differ from those that the information states. Without loops 1; few draw it from there but
+  /// Ratio of the actual variances to those stated by the information. 1 without loops; a few loops change it only a
   /// little.
   double factor = 1.0;
-  double true_loops = 0.0;  ///< of those looked at
+  double true_loops = 0.0;  ///< number among the evaluated loops
   double true_share = 0.0;
 };
 template <int D>
 InformationScale informationScale(const ClosureLoops<D>& loops);
 
-/// Rows of closures, each of which may be one place that resembles another one. Returns for each of so many edges one
-/// closure of its row, -1 for edges that are no candidates. A row longer than the map is wide is several: similar
-/// places are parts of the map.
+/// Finds rows of closures. The closures of a row may all result from one pair of similar places. Returns for each of
+/// `edges` edges one representative closure of its row, -1 for edges that are not candidates. A row longer than the map
+/// is wide is split, because similar places are parts of the map.
 template <int D>
 std::vector<int> closureRows(const ClosureLoops<D>& closures, std::size_t edges);
 
-/// What tells a true closure's residual from a false one's, in numbers.
+/// Thresholds for the tests of closures.
 struct Thresholds {
-  /// The chance that any true closure of the whole graph fails its test (Bonferroni: shared by all).
+  /// Probability that any true closure of the whole graph fails its test (Bonferroni correction).
   static constexpr double kFalseAlarms = 0.05;
-  /// Logarithm of how much likelier than chance a closure must be, log(500): of false ones that fall where a true one
-  /// could be, one in 500 would pass.
+  /// Minimum log likelihood ratio of a closure relative to chance, log(500): of false closures at plausible poses, one
+  /// in 500 would pass.
   static constexpr double kEvidence = 6.214608098422191;
-  /// Chance of a set of links that agree by chance, and of a true residual outside its limit in the end.
+  /// Probability of a set of links that agree by chance, and of a true residual beyond its limit in the final test.
   static constexpr double kChance = 0.01;
-  /// Share of the closures that is next to none, and the one beyond which a selection is contested: Baarda's test finds
-  /// single outliers among many right ones, and starts from the wrong side there.
+  /// Share of closures considered negligible, and share above which a selection is contested: Baarda's test detects
+  /// single outliers among many correct observations, and fails with many outliers.
   static constexpr double kNegligible = 1e-3, kContested = 0.02;
-  /// Closures that agree: one alone neither proves nor contradicts anything.
+  /// Minimum number of consistent closures: a single one neither proves nor contradicts anything.
   static constexpr std::size_t kLeastAgreeing = 2;
 
-  std::vector<double> limit;  ///< of chi-square, by degrees of freedom
-  /// The same while the graph is still vague: of all candidates together, were all false, one would pass with the
-  /// chance kFalseAlarms. What enters then shapes all that follows.
+  std::vector<double> limit;  ///< limit of chi-square, by degrees of freedom
+  /// Minimum evidence in the early rounds: if all candidates were false, one would pass with probability kFalseAlarms.
+  /// Closures admitted early influence all later tests.
   double early_evidence = 0.0;
 
   Thresholds(std::size_t candidates, int largest_dof);
 };
 
-/// Groups of closures that support each other: near ones whose loop closes, with evidence as in Thresholds (Latif,
-/// Cadena, Neira, RRR, RSS 2012). `variance`: factor of all covariances.
+/// Finds groups of mutually consistent closures: near ones whose loop closes, with the evidence required by
+/// `thresholds` (Latif, Cadena, Neira, RRR, RSS 2012). `variance`: factor of all covariances.
 ///
-/// Returns for each of so many edges the number of its group (the first edge of the group), -1 for edges that are no
+/// Returns for each of `edges` edges the number of its group (the first edge of the group), -1 for edges that are not
 /// candidates.
 template <int D>
 std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,

@@ -71,7 +71,7 @@ DeadReckoning<D>::DeadReckoning(const Problem<D>& problem, const std::vector<Edg
   }
   extent = std::max(kLeastExtent, 2.0 * std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, n))));
   Q.assign(n, TangentMatrix<D>::Zero());
-  const Edge<D>* last = nullptr;  // many steps state the same
+  const Edge<D>* last = nullptr;  // consecutive steps often have equal information
   TangentMatrix<D> covariance;
   for (std::size_t i = 1; i < n; ++i) {
     if (!step[i]) continue;
@@ -93,9 +93,9 @@ TangentMatrix<D> DeadReckoning<D>::covariance(int a, int b) const {
 
 namespace {
 
-constexpr double kCopied = 1e-4;  // square of a hundredth of a deviation; six printed digits are a few times less
+constexpr double kCopied = 1e-4;  // squared hundredth of a deviation; larger than the round-off of six printed digits
 
-/// Trusted edges by pose.
+/// Returns the trusted edges of each pose.
 template <int D>
 std::vector<std::vector<const Edge<D>*>> trustedEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   std::vector<std::vector<const Edge<D>*>> edges(problem.poses.size());
@@ -107,7 +107,7 @@ std::vector<std::vector<const Edge<D>*>> trustedEdges(const Problem<D>& problem,
   return edges;
 }
 
-/// Squared distance of two poses in deviations of an information.
+/// Returns the squared Mahalanobis distance of two poses.
 template <int D>
 double squaredDistance(const Rigid<D>& a, const Rigid<D>& b, const TangentMatrix<D>& information) {
   const Rigid<D> difference = a.inverse() * b;

@@ -9,40 +9,41 @@
 
 namespace pose_graph {
 
-/// Metres: the extent of a graph that does not move at all.
+/// Lower bound of the extent of a graph, m.
 constexpr double kLeastExtent = 1e-3;
-/// Poses: about the length of a visit to a place. Closures whose ends are as near are of one row, and one and the same
-/// pair of places more or less; beyond, odometry's own error hides what a pair says.
+/// Reach of a row, in poses: about the length of a visit to a place. Closures whose ends are this near belong to one
+/// row and measure almost the same pair of places; at larger distances the error of odometry dominates their
+/// difference.
 constexpr int kRowReach = 10;
 
-/// Dead reckoning along trusted edges between consecutive poses. Where there is none a new chain begins, in a frame of
-/// its own.
+/// Dead reckoning along trusted edges between consecutive poses. A missing edge starts a new chain with its own frame.
 template <int D>
 struct DeadReckoning {
-  std::vector<int> of_pose;         ///< which chain
-  std::vector<Rigid<D>> pose;       ///< in its chain's frame
-  std::vector<double> way;          ///< metres from its chain's first pose
-  std::vector<TangentMatrix<D>> Q;  ///< covariance of the step from the pose before, in its chain's frame
-  double extent = 0.0;              ///< twice the radius of gyration of the chains about their middles, metres
+  std::vector<int> of_pose;         ///< chain of each pose
+  std::vector<Rigid<D>> pose;       ///< in the frame of its chain
+  std::vector<double> way;          ///< path length from the first pose of its chain, m
+  std::vector<TangentMatrix<D>> Q;  ///< covariance of the step from the previous pose, in the frame of its chain
+  double extent = 0.0;              ///< twice the radius of gyration of the chains about their centroids, m
 
   DeadReckoning(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
-  /// Covariance of the pose of b in the frame of a, by composition; both on one chain. Costs |a - b|.
+  /// Returns the composed covariance of the pose of b in the frame of a; both must be on one chain. Cost: linear in |a
+  /// - b|.
   TangentMatrix<D> covariance(int a, int b) const;
 };
 
-/// T moves a small motion (rho, phi) in the axes of its child to that of its parent.
+/// Returns the adjoint of T, which maps a small motion (rho, phi) in the axes of its child to those of its parent.
 template <int D>
 TangentMatrix<D> adjoint(const Rigid<D>& T);
 
-/// Inverse of an information, with directions that it does not measure as uncertain as can be: a heading lies within a
-/// turn, a place within `extent` metres, evenly (variance of an even spread: its width squared over 12).
+/// Returns the inverse of an information matrix with bounded uncertainty in unmeasured directions: headings are uniform
+/// over a turn and positions uniform within `extent` m (variance of a uniform distribution: width squared over 12).
 template <int D>
 TangentMatrix<D> boundedCovariance(const TangentMatrix<D>& information, double extent);
 
-/// Returns the fixed poses of a problem without those that lie where trusted edges lead from another one, to a
-/// hundredth of the deviation that the last edge states. Such a pose was fixed where odometry had put it: that its
-/// residuals are zero is no evidence of how large the errors of odometry are.
+/// Returns the fixed poses of a problem, without those that equal the prediction of trusted edges from another fixed
+/// pose to a hundredth of the stated deviation of the last edge. Such a pose was fixed at its odometry pose: its zero
+/// residuals are no evidence of the size of odometry errors.
 template <int D>
 std::vector<int> withoutCopiedPoses(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 

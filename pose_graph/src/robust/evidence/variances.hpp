@@ -9,24 +9,23 @@
 
 namespace pose_graph {
 
-/// The deviations of edges are within that factor of what their information states: one standard deviation a priori.
+/// Prior of the deviations of edges: one standard deviation is this factor relative to the stated ones.
 constexpr double kStatedWithin = 3.0;
-/// Of variances; a set whose factors are beyond is contested.
+/// Variance factor beyond which a set of edges is contested.
 constexpr double kContestedFactor = kStatedWithin * kStatedWithin;
-/// Of variances: ten deviations, which errors as they are stated do not reach.
+/// Variance factor of ten deviations, which errors do not reach if stated correctly.
 constexpr double kFarFactor = 100.0;
 
-/// Whether a factor is larger or smaller than 1 by more than that.
+/// Returns whether `factor` is above `limit` or below its inverse.
 inline bool beyond(double factor, double limit) { return factor > limit || factor < 1.0 / limit; }
 
-/// Factors of the variances that the information states: of edges along which the robot moved (Trusted, Asserted) and
-/// of closures (Candidate).
+/// Factors of the stated variances: of odometry (Trusted, Asserted) and of closures (Candidate).
 struct VarianceFactors {
   double odometry = 1.0, closures = 1.0;
 
-  /// Whether one of them is off by more than that.
+  /// Returns whether at least one factor is beyond `limit`.
   bool areBeyond(double limit) const { return beyond(odometry, limit) || beyond(closures, limit); }
-  /// Whether they differ from others by less than that.
+  /// Returns whether both ratios to the factors of `other` are within `limit`.
   bool areWithin(double limit, const VarianceFactors& other) const {
     return !beyond(odometry / other.odometry, limit) && !beyond(closures / other.closures, limit);
   }
@@ -40,30 +39,30 @@ Problem<D> withFactors(Problem<D> problem, const std::vector<EdgeRole>& roles, c
   return problem;
 }
 
-/// Squares of residuals, as the information weighs them, and their redundancy: the number of independent ones.
+/// Weighted squared residuals and their redundancy, the number of independent residuals.
 struct VarianceComponent {
   double squares = 0.0, redundancy = 0.0;
 };
-/// Of odometry and closures (first index 0, 1) in translation and rotation (second index).
+/// First index: odometry (0) and closures (1); second index: translation and rotation.
 struct VarianceComponents {
   VarianceComponent of[2][2];
 };
 
-/// `weights`: of each edge, the inverse of the factor that its group has so far; 0 leaves it out. Where translation and
-/// rotation are correlated, what they share counts in both.
+/// Computes the variance components. `weights`: per edge, the inverse of the current factor of its group; 0 excludes
+/// the edge. If translation and rotation are correlated, their common part counts in both.
 template <int D>
 VarianceComponents varianceComponents(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                       const std::vector<double>& weights, const std::vector<Rigid<D>>& poses);
 
-/// The most likely factor of variances given a component and a prior: the deviations are within a factor of 3 of what
-/// is stated (one standard deviation of the logarithm).
+/// Returns the variance factor that maximises the posterior of a component. Prior: one standard deviation of its
+/// logarithm is a factor of 3 on the deviations.
 double likeliestFactor(const VarianceComponent& component);
-/// Logarithm of that prior, without its constant.
+/// Returns the log of that prior, without its constant.
 double logPriorOfFactor(double factor);
 
-/// Variance of unit weight of the edges that are in, each counted no further than its limit. Starts from what is
-/// expected by `scale` (InformationScale::factor) with the weight of ten observed tangents, so that a few redundant
-/// edges do not decide; false ones that agree with each other are in `scale` too, so that it is no bound from below.
+/// Returns the variance of unit weight of the edges inside, with each square clipped at its limit. The value expected
+/// from `scale` (InformationScale::factor) enters with the weight of ten observed tangents, so that a few redundant
+/// edges do not dominate. `scale` also contains false closures that agree with each other, hence it is no lower bound.
 template <int D>
 double varianceFactor(const ClosureEvaluator<D>& evaluator, const std::vector<char>& in,
                       const std::vector<Rigid<D>>& poses, int unknowns, const Thresholds& thresholds, double scale);

@@ -15,12 +15,12 @@ namespace pose_graph {
 namespace {
 
 constexpr int kGrowthRounds = 30;
-// Share of the candidates: when fewer enter, groups may. It is done when next to none change; when many enter, the
-// graph is still in the making, and only what is certain does.
+// Share of the candidates. If fewer are admitted, groups are admitted too. If many are admitted, the graph is still
+// changing, and only closures with strong evidence are.
 constexpr double kLittle = 0.01;
-constexpr std::size_t kGroup = 20;  // larger groups are no repeated mistake but a way travelled twice
+constexpr std::size_t kGroup = 20;  // a larger group is a path driven twice, not a repeated error
 
-// Groups worth a test for a common bias.
+// Returns the groups that are tested for a common bias.
 std::vector<int> smallGroups(const std::vector<int>& group) {
   std::map<int, std::size_t> size;
   for (int g : group)
@@ -39,7 +39,7 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
                                 const Thresholds& thresholds, const InformationScale& scale, double most_work) {
   AdmissionState<D> state;
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
-    state.in.push_back(evaluator.edge(static_cast<int>(e)).rank > 0);  // a link without information joins nothing
+    state.in.push_back(evaluator.edge(static_cast<int>(e)).rank > 0);  // an edge without information connects nothing
   for (int e : evaluator.candidates()) state.in[sz(e)] = 0;
   Problem<D> part = problem.withoutEdges();
   bool asserted = false;
@@ -83,7 +83,7 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
     }
     if (!few || now.joined || admitOneGroup(evaluator, group, thresholds, tried, graph, state)) continue;
     if (all && std::count(state.in.begin(), state.in.end(), 0) == 0) break;
-    // So few changes that a round would end there are selected where they are settled, and by no round before.
+    // If a round makes so few changes that it would be the last one, the changes are decided at the converged solution.
     std::size_t changes = 0;
     do {
       changes = validateFinally(evaluator, group, small, thresholds, scale, expelled, graph, state);
@@ -95,8 +95,8 @@ AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<Edg
 
 namespace {
 
-constexpr std::size_t kFew = 20;  // so many enter at once
-constexpr int kExpelled = 2;      // times out: stays out
+constexpr std::size_t kFew = 20;  // limit of closures admitted at once
+constexpr int kExpelled = 2;      // removals after which an edge is not readmitted
 
 }  // namespace
 
@@ -153,8 +153,8 @@ void AdmissionRound<D>::admitLikely(const std::vector<int>& times) {
   const double likely = Thresholds::kEvidence - std::max(0.0, std::log(inside / outside));
   for (int e : evaluator_.candidates()) {
     if (!outAndFits(e) || times[sz(e)] >= kExpelled) continue;
-    // Only of those that would not have to leave were they in: as little as modest information asks false ones do as
-    // well.
+    // Only for closures that would not be removed if they were inside: with low information, false closures reach the
+    // lower evidence as well.
     const double least = evidence_.chi2[sz(e)] <= sampledMargin() * limit(e) ? likely : Thresholds::kEvidence;
     if (evidence_.likelier[sz(e)] >= least) let(e);
   }
@@ -202,18 +202,17 @@ void AdmissionRound<D>::join(const AcceptedGraph<D>& graph, const std::vector<in
 
 namespace {
 
-// Trying costs what a graph without false closures costs, and far more where false ones between any places make the
-// factor dense. It is tried where odometry contradicts next to none of them and one by chance, or so many
-// loops of near closures close, if all take at most kWork times the work of those that another one confirms. Where
-// trying is cheap, at most so many multiplications of blocks a pose and an edge, it is tried anyway: over a long way
-// odometry's covariance is that of a straight line while its errors lie on an arc, so that true ones are contradicted
-// too.
+// A trial with all candidates takes as long as a graph without false closures, and much longer if false closures
+// between arbitrary places make the factor dense. It is made if odometry contradicts almost none of them and one by
+// chance, or if this share of the loops of near closures closes, provided that all take at most kWork times the work of
+// the mutually confirmed ones. If the trial is cheap, limited by this number of block multiplications per pose and
+// edge, it is always made: over a long path the covariance of odometry is that of a straight line while its errors lie
+// on an arc, so that true closures are contradicted too.
 constexpr double kClosing = 0.97, kCheap = 30.0;
-// Where enough loops are known to close and fewer than this share of all do, there are false ones, whatever odometry
-// says.
+// Share of closing loops below which false closures exist, given enough loops, regardless of odometry.
 constexpr double kOpen = 0.9;
-// Of what the residuals may be together, times the assumed variance; from so many numbers on that is a matter
-// of chance no more.
+// Limit of the total squared residuals relative to the assumed variance; with at least kFewNumbers degrees of freedom
+// chance no longer explains an excess.
 constexpr double kBentFactor = 1.5, kFewNumbers = 60.0;
 
 }  // namespace
@@ -224,10 +223,12 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
               AdmissionState<D>& state) {
   const auto limit = [&](int e) { return findLimit(thresholds, evaluator.edge(e)); };
   const double candidates = static_cast<double>(evaluator.candidates().size());
-  const auto joins = [&](int e) { return !std::isfinite(state.evidence.chi2[sz(e)]); };  // two parts: not by itself
+  const auto joins = [&](int e) {
+    return !std::isfinite(state.evidence.chi2[sz(e)]);
+  };  // joins two parts: not tested here
   AdmissionState<D> all = state;
   for (int e : evaluator.candidates()) all.in[sz(e)] = evaluator.edge(e).rank > 0 && !joins(e);
-  // Who looks for a better order of something cheap finds none.
+  // A better order is not worth computing for a cheap factorisation.
   if (graph.work(all.in, true) > kCheap * static_cast<double>(state.poses.size() + state.in.size())) {
     double contradicted = 0.0;
     for (int e : evaluator.candidates()) contradicted += !joins(e) && state.evidence.chi2[sz(e)] > limit(e);
@@ -250,7 +251,7 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   all.variance = varianceFactor(evaluator, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
   all.evidence = evaluator.evaluate(graph, all.in, all.poses, all.variance, small_group, kUncontrolled);
 
-  // Among many that are right one more is likely to be, so that less evidence is needed.
+  // Among many true closures another one is likely, hence less evidence is needed.
   double contradicted = 0.0, confident = 0.0, poor = 0.0;
   const auto contradicts = [&](int e) {
     return !(all.evidence.chi2[sz(e)] <= limit(e)) || all.evidence.group_chi2[sz(e)] > thresholds.limit.back();
@@ -263,7 +264,7 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   const double enough = Thresholds::kEvidence - std::max(0.0, std::log((confident + 1.0) / (contradicted + 1.0)));
   for (int e : evaluator.candidates())
     poor += all.in[sz(e)] && (contradicts(e) || !(all.evidence.likelier[sz(e)] >= enough));
-  // Many false ones that bend the graph a little each fit one by one, but not all together.
+  // Many false closures that bend the graph slightly fit individually, but not together.
   double redundancy = -static_cast<double>(graph.unknowns()) * kTangentSize<D>;
   for (std::size_t e = 0; e < all.in.size(); ++e)
     redundancy += all.in[e] ? evaluator.edge(static_cast<int>(e)).rank : 0;

@@ -14,113 +14,114 @@
 
 namespace pose_graph {
 
-/// Which edges are in, where they put the poses, and the evidence for the candidates.
+/// Accepted edges, their relaxed poses, and the evidence for the candidates.
 template <int D>
 struct AdmissionState {
   std::vector<char> in;
   std::vector<Rigid<D>> poses;
   Evidence evidence;
   double variance = 1.0;      ///< RobustSolution::variance_factor
-  bool is_too_dense = false;  ///< given up: what was in took more than the most work to factor
+  bool is_too_dense = false;  ///< aborted: factoring the accepted edges exceeds the work limit
 };
 
-/// Lets closures into the graph by evidence, and out again (pose_graph/robust.hpp). `most_work`: of
-/// AcceptedGraph::work(), beyond which it gives up.
+/// Admits and removes closures in rounds, by evidence (pose_graph/robust.hpp). Aborts if AcceptedGraph::work() exceeds
+/// `most_work`.
 template <int D>
 AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                 const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
                                 const Thresholds& thresholds, const InformationScale& scale, double most_work);
 
-/// Takes all candidates at once, into `state` and `graph`, if hardly any of them is contradicted then: for a graph
-/// without false closures, or with next to none, that is all there is to do. Returns whether it did. `state` holds
-/// what the graph without any candidate says of them; `small_group` as in ClosureEvaluator::evaluate().
+/// Accepts all candidates in `state` and `graph` if almost none is contradicted then. This completes the selection for
+/// a graph with no or almost no false closures. Returns whether all were accepted. `state`: on entry, the evidence from
+/// the graph without candidates. `small_group` as in ClosureEvaluator::evaluate().
 template <int D>
 bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const std::vector<int>& small_group,
               const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph,
               AdmissionState<D>& state);
 
-/// Takes one group that supports itself and does not fit where the graph stands, if it fits where it would put the
-/// graph: over a long way odometry's errors lie on an arc, which linearised covariances do not see. Relaxed with the
-/// group, the graph's cost may rise by as much as chance explains for all of its members together; or few others leave,
-/// a false one that stands in the way of many true ones, and all that remain fit. `tried`: groups that are not worth
-/// another try.
+/// Tries one self-consistent group that contradicts the current graph, since errors of odometry over a long path lie on
+/// an arc, which linearised covariances do not represent. The group is accepted if the cost of the graph relaxed with
+/// it rises by no more than chance explains for all its members, or if few other closures have to leave for it and all
+/// remaining ones fit (a false closure may exclude many true ones). `tried`: groups not to be tried again. Returns
+/// whether a group was accepted.
 template <int D>
 bool admitOneGroup(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const Thresholds& thresholds,
                    std::set<int>& tried, AcceptedGraph<D>& graph, AdmissionState<D>& state);
 
-/// Tests all once more where the graph is settled, so that what hardly anything controls shows too: a group over a
-/// long way that bends the graph until it fits. What is far off leaves, a group only if the graph costs more with it
-/// than chance explains; where none leaves, what is likely enters. Returns how many changed. `expelled`: times each
-/// edge has left.
+/// Tests all closures at the converged solution, which reveals closures that almost nothing controls, such as a group
+/// over a long path that bends the graph until it fits. Outliers are removed; a group is removed only if it raises the
+/// cost by more than chance explains. If none is removed, likely closures are admitted. Returns the number of changes.
+/// `expelled`: number of removals per edge.
 template <int D>
 std::size_t validateFinally(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
                             const std::vector<int>& small_group, const Thresholds& thresholds,
                             const InformationScale& scale, std::vector<int>& expelled, AcceptedGraph<D>& graph,
                             AdmissionState<D>& state);
 
-/// Continues from there with all candidates, their squares truncated, the limit falling from far too wide to the
-/// quantile of 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are
-/// not far off; given up where it takes more than `most_work` to factor.
+/// Continues with all candidates under truncated least squares; the limit decreases from a wide one to the 99 %
+/// quantile. Keeps the result if its truncated cost is lower. Runs only if many rejected closures are close to the
+/// graph; aborts if the work to factor exceeds `most_work`.
 template <int D>
 void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                const ClosureEvaluator<D>& evaluator, double most_work, AdmissionState<D>& state);
 
-/// A round's relaxation: steps at most, and the share of the cost that is left. Residuals then move by less than a
-/// tenth of their noise.
+/// Limits of a round's relaxation: steps, and remaining share of the cost. Residuals then change by less than a tenth
+/// of their noise.
 constexpr int kRoundSteps = 8;
 constexpr double kRoundShare = 0.01;
 
-/// Redundancy below which an edge is not controlled by the others: less of its error than that shows in its residual,
-/// and what a round's relaxation leaves would be taken for it. Where the graph is settled (AcceptedGraph::settle) a
-/// millionth is seen: a closure of a centimetre beside ten metres of odometry's error. A
-/// relaxation that decides on one group ends at that share of the cost, which is good to a number or so.
+/// Redundancy below which an edge is not controlled by the others: less than this share of its error appears in its
+/// residual, and the remaining error of a round's relaxation would be mistaken for it. At the converged solution
+/// (AcceptedGraph::settle) a redundancy of 1e-6 is usable: a closure of 1 cm against an odometry error of 10 m.
+/// kSettled is also the final share of the cost in relaxations that decide on a group, which resolves about 1 in
+/// chi-square.
 constexpr double kUncontrolled = 0.1, kSettled = 1e-6;
 
-/// Share of the candidates that is many.
+/// Share of the candidates that counts as many.
 constexpr double kMany = 0.05;
 
-/// Times the limit: a chi-square from so many samples is good to the root of 2 over their number, 0.29 of its value for
-/// 24, and what leaves is off by two deviations of that.
+/// Factor of the limit for removal. A chi-square from 24 samples has a relative deviation of the root of 2 / 24 = 0.29;
+/// removal requires two such deviations.
 inline double sampledMargin() { return 1.0 + 2.0 * std::sqrt(2.0 / ClosureEvaluator<2>::kDisturbances); }
 
-/// Times the work of factoring the closures that another one confirms: beyond, the others are false, or so many of them
-/// that all together are not worth a trial.
+/// Limit of the work relative to that of factoring the mutually confirmed closures. Above it, the other closures are
+/// false, or so many of them are that a trial of all is not worthwhile.
 constexpr double kWork = 4.0;
 
-/// Chi-square of an edge that may stand by chance.
+/// Returns the largest chi-square of an edge that chance explains.
 template <int D>
 double findLimit(const Thresholds& thresholds, const WhitenedEdge<D>& edge) {
   return thresholds.limit[static_cast<std::size_t>(std::max(1, edge.rank))];
 }
 
-/// Chi-square from which an edge inside has to leave, where `worst` is the largest of all inside: far off ones first,
-/// as they spoil the others.
+/// Returns the chi-square above which an accepted edge is removed. `worst`: the largest one of all accepted edges.
+/// Large outliers are removed first, because they distort the others.
 inline double leavesBeyond(const Thresholds& thresholds, double limit, double worst) {
   return std::max(sampledMargin() * limit, std::sqrt(thresholds.limit.back() * worst));
 }
 
-/// A round of admission: which closures enter and which leave, by the evidence. `in` says what is inside, `next` what
-/// will be.
+/// One round of admission. `in` holds the accepted edges, `next` those after the round.
 template <int D>
 class AdmissionRound {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   AdmissionRound(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const Thresholds& thresholds,
                  const Evidence& evidence, const std::vector<char>& in)
       : next(in), evaluator_(evaluator), group_(group), thresholds_(thresholds), evidence_(evidence), in_(in) {}
 
-  // `times`: how often each edge has left so far; who left twice stays out.
+  // `times`: number of removals per edge; an edge removed twice is not readmitted.
 
-  /// In, and more than chance can explain. Where information is too modest that is not enough: what it states explains
-  /// the residual of one that there is evidence for.
+  /// Removes accepted edges that chance does not explain. If the information is too low, an edge with evidence stays if
+  /// its stated covariance explains its residual.
   void expel(std::vector<int>& times);
-  /// Out, fits, and has evidence: the better half, or all once they are fewer than those inside.
+  /// Admits rejected edges that fit and have the evidence `least`: the better half, or all if they are fewer than the
+  /// accepted ones.
   void admit(const std::vector<int>& times, double least);
-  /// Out, fits, and has evidence, where among many that are right one more is likely to be.
+  /// Admits rejected edges that fit; among many true closures, less evidence is required.
   void admitLikely(const std::vector<int>& times);
-  /// Where odometry is too vague for evidence: the largest groups that support each other and fit as a whole.
+  /// Admits the largest self-consistent groups that fit as a whole, for odometry too uncertain for single evidence.
   void admitGroups(const std::vector<int>& times);
-  /// Two parts that nothing joins: the largest group between them, if there are two.
+  /// Joins two unconnected parts by the largest group of at least two closures between them.
   void join(const AcceptedGraph<D>& graph, const std::vector<int>& times);
 
   std::vector<char> next;

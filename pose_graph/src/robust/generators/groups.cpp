@@ -13,25 +13,25 @@ namespace pose_graph {
 
 namespace {
 
-// Times the limit: beyond, no arc explains a residual. Over a long way odometry's errors lie on an arc, which
-// linearised covariances do not see; the true groups of MIT and kitti_02 lie at up to four times.
+// Factor of the limit up to which an arc explains a residual: errors of odometry over a long path lie on an arc, which
+// linearised covariances do not represent. True groups of MIT and kitti_02 reach 4.
 constexpr double kArc = 10.0;
-// Groups whose test costs a relaxation, at most so many at a time.
+// Limit of groups tested with a relaxation each.
 constexpr std::size_t kTries = 10;
-// So many true ones stand against one false one that is in their way; a false group meets as many true ones as it has
-// members. For fewer no room is made.
+// Number of true closures per false one that excludes them; a false group excludes as many true closures as it has
+// members. Smaller groups exclude none.
 constexpr std::size_t kForOne = 8;
 
-// Continues from a graph with a group that contradicts the others: who is contradicted beside it leaves, the worst
-// ones first. True if all that remain fit, and the group drove out but few for what it is itself. `in`, `poses`: with
-// the group, and after.
+// Continues from a graph with a group that contradicts others. Removes the edges inconsistent with the group, the worst
+// first. Returns true if all remaining ones fit and few were removed for the size of the group. `in`, `poses`: with the
+// group on entry, updated.
 template <int D>
 bool exchangeGroup(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, const std::vector<int>& members,
                    double variance, AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses) {
   if (members.size() < kForOne) return false;
   const std::vector<int> no_groups(in.size(), -1);
   std::size_t gone = 0;
-  for (;;) {  // each round leaves fewer
+  for (;;) {  // decreases in each round
     const Evidence evidence = evaluator.evaluate(graph, in, poses, variance, no_groups, kUncontrolled);
     if (!evidence.known) return false;
     double worst = 0.0;
@@ -53,7 +53,7 @@ bool exchangeGroup(const ClosureEvaluator<D>& evaluator, const Thresholds& thres
   }
 }
 
-// Groups outside that are worth a try, the largest first.
+// Returns the rejected groups worth a trial, the largest first.
 template <int D>
 std::vector<std::vector<int>> groupsToTry(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
                                           const Thresholds& thresholds, const std::set<int>& tried,
@@ -88,7 +88,7 @@ bool admitOneGroup(const ClosureEvaluator<D>& evaluator, const std::vector<int>&
     tried.insert(group[sz(members.front())]);
     std::vector<char> in = state.in;
     int dof = 0;
-    double attainable = -1e300;  // the evidence for the best known of them, were it where it is predicted
+    double attainable = -1e300;  // evidence for the best constrained member, if it were at its predicted pose
     int rank = 0;
     for (int e : members) {
       in[sz(e)] = 1;
@@ -99,17 +99,17 @@ bool admitOneGroup(const ClosureEvaluator<D>& evaluator, const std::vector<int>&
         rank = evaluator.edge(e).rank;
       }
     }
-    // Nothing is likelier than the prediction itself: no relaxation will find enough.
+    // The residual is smallest at the prediction itself: no relaxation can yield sufficient evidence.
     if (attainable < Thresholds::kEvidence) continue;
     std::vector<Rigid<D>> poses = state.poses;
     graph.take(in);
     const double most = urban_nav_core::chiSquareQuantile(1.0 - Thresholds::kFalseAlarms / kTries, dof);
-    // Of what costs more than that it only matters by how much if room could be made.
+    // If the cost exceeds this, its value matters only for an exchange.
     const double far =
         members.size() < kForOne ? before + state.variance * most : std::numeric_limits<double>::infinity();
     graph.relax(poses, kMostSteps, kSettled, true, far);
     const double rise = (graph.cost(poses) - before) / state.variance;
-    // What the members differ among each other is no evidence against the place that they agree on.
+    // Differences among the members are no evidence against their common pose.
     const double against = std::max(0.0, rise - (dof - rank));
     if (rise <= most ? attainable - 0.5 * against < Thresholds::kEvidence
                      : !exchangeGroup(evaluator, thresholds, members, state.variance, graph, in, poses))
@@ -124,11 +124,11 @@ bool admitOneGroup(const ClosureEvaluator<D>& evaluator, const std::vector<int>&
 
 namespace {
 
-// Whether the settled graph costs no more with a group than chance explains for all its members together: where it
-// closes a long way its linearised test sees a straight line, and finds true ones too far off.
+// Returns whether the converged graph with a group costs no more than chance explains for all its members. If the group
+// closes a long path, the linearised test assumes a straight line and rejects true closures.
 template <int D>
-bool stands(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, const std::vector<int>& members,
-            AcceptedGraph<D>& graph, const AdmissionState<D>& state, double cost) {
+bool isExplained(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, const std::vector<int>& members,
+                 AcceptedGraph<D>& graph, const AdmissionState<D>& state, double cost) {
   std::vector<char> in = state.in;
   int dof = 0;
   for (int e : members) {
@@ -142,11 +142,11 @@ bool stands(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, 
   return rise <= urban_nav_core::chiSquareQuantile(1.0 - thresholds.kFalseAlarms / kTries, dof);
 }
 
-// Groups that would leave and that an arc may explain stay if they stand.
+// Keeps groups about to be removed if an arc may explain them and isExplained() confirms them.
 template <int D>
-void reprieve(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const Thresholds& thresholds,
-              const AdmissionState<D>& state, AcceptedGraph<D>& graph, AdmissionRound<D>& round,
-              std::vector<int>& expelled) {
+void keepExplainedGroups(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
+                         const Thresholds& thresholds, const AdmissionState<D>& state, AcceptedGraph<D>& graph,
+                         AdmissionRound<D>& round, std::vector<int>& expelled) {
   std::map<int, std::vector<int>> members, leaving;
   for (int e : evaluator.candidates()) {
     if (!state.in[sz(e)]) continue;
@@ -158,7 +158,7 @@ void reprieve(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   std::size_t tries = 0;
   for (const auto& [name, some] : leaving) {
     if (++tries > kTries) break;
-    if (!stands(evaluator, thresholds, members[name], graph, state, cost)) continue;
+    if (!isExplained(evaluator, thresholds, members[name], graph, state, cost)) continue;
     for (int e : some) {
       round.next[sz(e)] = 1;
       --expelled[sz(e)];
@@ -181,7 +181,7 @@ std::size_t validateFinally(const ClosureEvaluator<D>& evaluator, const std::vec
   if (!state.evidence.known) return 0;
   AdmissionRound<D> round(evaluator, group, thresholds, state.evidence, state.in);
   round.expel(expelled);
-  if (round.changes > 0) reprieve(evaluator, group, thresholds, state, graph, round, expelled);
+  if (round.changes > 0) keepExplainedGroups(evaluator, group, thresholds, state, graph, round, expelled);
   if (round.changes == 0) round.admitLikely(expelled);
   if (round.changes == 0) return 0;
   state.in = std::move(round.next);

@@ -14,8 +14,8 @@ using urban_nav_core::ClosureVerdict;
 
 namespace {
 
-// Edges that cannot stand beside an asserted one: those of what is accepted without any assertion that do not fit once
-// this one is added.
+// Returns the edges inconsistent with an asserted one: edges accepted without assertions that do not fit when it is
+// added.
 template <int D>
 std::vector<int> contradicting(const Problem<D>& problem, int asserted, AdmissionState<D> without,
                                const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds) {
@@ -86,7 +86,7 @@ SelectedEdges<D> selectInGraph(const Problem<D>& problem, const std::vector<Edge
   std::vector<EdgeRole> trusting = roles;
   Problem<D> unasserted = problem;
   for (int e : asserted) {
-    unasserted.edges[sz(e)].information.setZero();  // says nothing, and keeps the numbers of the others
+    unasserted.edges[sz(e)].information.setZero();  // without effect, and edge numbers are unchanged
     trusting[sz(e)] = EdgeRole::Trusted;
   }
   const ClosureEvaluator<D> unasserted_evaluator(unasserted, candidates, reckoning);
@@ -103,8 +103,8 @@ bool sameVerdicts(const std::vector<EdgeAssessment>& a, const std::vector<EdgeAs
   });
 }
 
-// Selects in the core. Its chains are linearised where odometry has them, and once more where the accepted closures put
-// them, until the verdicts no longer change.
+// Selects in the core graph. Its chains are linearised at odometry, and relinearised at the accepted solution until the
+// verdicts no longer change.
 template <int D>
 SelectedEdges<D> selectInCore(CoreGraph<D>& core, const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                               double most_work) {
@@ -131,7 +131,7 @@ SelectedEdges<D> selectInCore(CoreGraph<D>& core, const Problem<D>& problem, con
   made.poses = core.expanded(selected.poses);
   made.edges.resize(roles.size());
   for (EdgeAssessment& verdict : made.edges)
-    verdict.dof = kTangentSize<D>;  // of a chain's: what is singular is in none
+    verdict.dof = kTangentSize<D>;  // for edges of chains, which have full rank
   for (std::size_t e = 0; e < selected.edges.size(); ++e) {
     EdgeAssessment& verdict = selected.edges[e];
     for (int& other : verdict.contradicted_by) other = core.edge(other);
@@ -153,7 +153,7 @@ SelectedEdges<D> selectEdges(const Problem<D>& problem, const std::vector<EdgeRo
 
 namespace {
 
-// A set of closures at rest, and its evidence for each closure whose own variances are `own` times larger.
+// A relaxed set of closures, and its evidence for each closure with own variances larger by `own`.
 template <int D>
 struct SettledSet {
   std::vector<Rigid<D>> poses;

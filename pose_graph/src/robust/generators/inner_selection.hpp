@@ -8,34 +8,34 @@
 
 namespace pose_graph {
 
-/// A selection is repeated with what follows from it so often at most; on public graphs it settles in two.
+/// Limit of repetitions of a selection with its own result; public graphs need two.
 constexpr int kRepeats = 3;
 
-/// Verdicts of all edges, and the poses that follow.
+/// Verdicts of all edges, and the relaxed poses.
 template <int D>
 struct SelectedEdges {
-  std::vector<EdgeAssessment> edges;  ///< chi2 of candidates alone
+  std::vector<EdgeAssessment> edges;  ///< chi2 is set for candidates only
   std::vector<Rigid<D>> poses;
   double variance = 1.0;
-  bool is_too_dense = false;  ///< given up: AdmissionState::is_too_dense
+  bool is_too_dense = false;  ///< aborted, see AdmissionState::is_too_dense
 };
 
-/// The inner selection: admits closures by evidence, with the information taken as it is stated (relaxRobust()), over
-/// the reduced graph where that pays. Gives up where what is accepted takes more than `most_work`
-/// (AcceptedGraph::work()) to factor.
+/// The inner selection: admits closures by evidence with the stated information (relaxRobust()), using the reduced
+/// graph where that is faster. Aborts if AcceptedGraph::work() of the accepted edges exceeds `most_work`.
 template <int D>
 SelectedEdges<D> selectEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                              double most_work = std::numeric_limits<double>::infinity());
 
-/// Whether closures of a set contradict the rest of it, as a row that errs alike (`row`: by edge, one closure of each)
-/// or alone, where the variances are those of `problem`, and their own `own` times larger. Single ones have to be more
-/// than a negligible share (Thresholds::kContested): of thousands, one fails the test by chance.
+/// Returns whether closures of a set contradict the rest of it, as a row with a common error (`row`: by edge, one
+/// representative closure) or individually. Variances are those of `problem`, those of the tested closures larger by
+/// the factor `own`. Individual contradictions count above a share of Thresholds::kContested, since among thousands one
+/// fails by chance.
 template <int D>
 bool contradictsItself(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
                        std::vector<Rigid<D>> poses, const std::vector<int>& row, double own);
 
-/// Which closures outside a set fit it, alone and as rows, where the variances are those of `problem`, and their own
-/// `own` times larger; there has to be evidence for each.
+/// Returns which closures outside a set fit it, individually and as rows, with sufficient evidence each. Variances are
+/// those of `problem`, those of the tested closures larger by the factor `own`.
 template <int D>
 std::vector<char> findFitting(const Problem<D>& problem, const std::vector<EdgeRole>& roles, std::vector<char> in,
                               std::vector<Rigid<D>> poses, const std::vector<int>& row, double own);

@@ -23,8 +23,8 @@ namespace pose_graph {
 namespace {
 
 constexpr std::size_t kMostPerPair = 400;
-constexpr std::size_t kDoubtful = 3;  // links proposed between two parts where too few closures agree pair by pair
-// Pairs whose loop is off by more than this share of the map's extent, or turned by more, are not looked at any closer.
+constexpr std::size_t kDoubtful = 3;  // limit of links proposed for two parts with too few pairwise consistent closures
+// Share of the map's extent and rotation (rad) of a loop error above which a pair is not evaluated.
 constexpr double kRoughShare = 0.2, kRoughTurn = 0.5;
 
 struct BetweenClosure {
@@ -33,7 +33,7 @@ struct BetweenClosure {
 
 struct Agreement {
   bool agrees = false;
-  double support = 0.0;  // logarithm of how much likelier their loop is than by chance; 0 where it is not
+  double support = 0.0;  // log likelihood ratio of their loop relative to chance; 0 if negative
 };
 
 template <int D>
@@ -43,7 +43,8 @@ class PairwiseConsistency {
                       double extent)
       : problem_(problem), poses_(poses), marginals_(marginals), extent_(extent) {}
 
-  /// Whether two closures agree; adds the chance that two random ones would to `chance` where it was worked out.
+  /// Tests two closures for consistency. Adds the probability that two random ones are consistent to `chance` if it was
+  /// computed.
   Agreement compare(const BetweenClosure& a, const BetweenClosure& b) {
     const Rigid<D> Z_a = measured(a), Z_b = measured(b);
     const Rigid<D> along_to = poses_[sz(a.to)].inverse() * poses_[sz(b.to)];
@@ -56,7 +57,7 @@ class PairwiseConsistency {
     ++pairs;
     const bool rough =
         remains.t.norm() <= kRoughShare * extent_ && d.template tail<kRotationSize<D>>().norm() <= kRoughTurn;
-    // Every pair has its share in the chance; few are enough to know it.
+    // The probability is averaged over all pairs; a sample suffices.
     if (!rough && pairs % 37 != 0) return {};
     const Marginal<D> to = marginals_.between(a.to, b.to), from = marginals_.between(b.from, a.from);
     if (to.knowledge != Knowledge::Full || from.knowledge != Knowledge::Full) return {};
@@ -79,8 +80,8 @@ class PairwiseConsistency {
     return {true, std::max(0.0, log_true - log_density_)};
   }
 
-  /// Measures how often the loop of two closures that have nothing to do with each other closes: over these
-  /// measurements, between poses drawn from the two parts.
+  /// Estimates how often the loop of two unrelated closures closes: with these measurements, between poses drawn from
+  /// the two parts.
   void measureChance(const std::vector<BetweenClosure>& closures, const std::vector<int>& froms,
                      const std::vector<int>& tos) {
     std::vector<Rigid<D>> loops;
@@ -110,7 +111,7 @@ class PairwiseConsistency {
     if constexpr (D == 3) made.template bottomRightCorner<3, 3>() = R;
     return made;
   }
-  // Of a motion (rho, phi) in the axes R, at the end of the loop, `lever` away.
+  // Covariance at the end of the loop of a motion (rho, phi) in the axes R, at the lever arm `lever`.
   static TangentMatrix<D> spread(const Rotation<D>& R, const TangentMatrix<D>& covariance,
                                  const Eigen::Matrix<double, D, 1>& lever) {
     TangentMatrix<D> body = TangentMatrix<D>::Identity();
@@ -118,7 +119,7 @@ class PairwiseConsistency {
     const TangentMatrix<D> all = body * blockTurn(R);
     return all * covariance * all.transpose();
   }
-  // Of measured() or its inverse, as (rho, phi) of [Exp(phi) R, t + rho].
+  // Covariance of measured() or its inverse, as (rho, phi) of [Exp(phi) R, t + rho].
   TangentMatrix<D> covariance(const BetweenClosure& closure, bool inverted) const {
     const Edge<D>& edge = problem_.edges[sz(closure.edge)];
     const TangentMatrix<D> turn = blockTurn(edge.Z.R);
@@ -133,7 +134,7 @@ class PairwiseConsistency {
   const std::vector<Rigid<D>>& poses_;
   const Marginals<D>& marginals_;
   double extent_;
-  double log_density_ = 0.0;  // of a loop that closes by chance
+  double log_density_ = 0.0;  // log density of a loop that closes by chance
 
  public:
   std::size_t pairs = 0, counted = 0;
@@ -141,8 +142,8 @@ class PairwiseConsistency {
 };
 
 struct Agreements {
-  std::vector<std::vector<char>> agree;  // by pair
-  std::vector<double> support;           // by closure, of all others
+  std::vector<std::vector<char>> agree;  // of each pair
+  std::vector<double> support;           // of each closure, by all others
 };
 
 template <int D>
@@ -159,7 +160,7 @@ Agreements compareAll(PairwiseConsistency<D>& consistency, const std::vector<Bet
   return made;
 }
 
-// At most kDoubtful, the best one first.
+// Returns at most kDoubtful closures, the best supported first.
 std::vector<std::size_t> bestSupported(const std::vector<double>& support) {
   std::vector<std::size_t> order(support.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -168,7 +169,7 @@ std::vector<std::size_t> bestSupported(const std::vector<double>& support) {
   return order;
 }
 
-// The largest set that is pairwise consistent, grown greedily from each member by how many it agrees with.
+// Returns the largest pairwise consistent set, grown greedily from each member in order of degree.
 std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& agree) {
   const std::size_t n = agree.size();
   std::vector<std::size_t> degree(n, 0), order(n), best;
@@ -187,7 +188,7 @@ std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& agr
   return best;
 }
 
-// Two of one row agree whatever they are.
+// Two closures of one row are consistent whether true or false.
 bool areOneRow(const BetweenClosure& a, const BetweenClosure& b) {
   return std::abs(a.from - b.from) <= kRowReach && std::abs(a.to - b.to) <= kRowReach;
 }

@@ -7,25 +7,25 @@
 
 namespace pose_graph {
 
-/// So many closures that agree join two parts where they are evidence as a whole, but not pair by pair.
+/// Number of consistent closures that join two parts if their total evidence suffices but pairwise tests do not.
 constexpr std::size_t kLeastWeakLink = 3;
 
-/// Closures that put one part of a graph in the frame of another.
+/// Closures that place one part of a graph in the frame of another.
 struct SessionLinks {
-  std::vector<int> agreed;    ///< one between each two parts that join
-  std::vector<int> doubtful;  ///< between parts that pairs alone do not join; best supported first
+  std::vector<int> agreed;    ///< one for each pair of parts to join
+  std::vector<int> doubtful;  ///< between parts that pairwise tests do not join; the best supported first
 };
 
-/// Parts of a graph that trusted and asserted edges hold together: which part each pose is of.
+/// Returns the part of each pose: parts are connected by trusted and asserted edges.
 template <int D>
 std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
-/// Joins parts of a graph that no accepted edge joins, by sets of closures between two parts that are pairwise
-/// consistent (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent measurement set maximization, ICRA 2018).
-/// k of N closures join where C(N, k) p^(k-1) < 0.01, p the probability that two random ones agree on this very map;
-/// one never does, nor two of one row. Where odometry is so uncertain that hardly any pair disagrees, the closures that
-/// others support best are doubtful links: the evidence of all that agree once one of them holds has to decide. Of very
-/// many, some are looked at. The parts are taken as `poses` and the edges that are `in` have them.
+/// Finds links between parts that no accepted edge joins, as sets of pairwise consistent closures between two parts
+/// (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent measurement set maximization, ICRA 2018). k of N
+/// closures join if C(N, k) p^(k-1) < 0.01, with p the probability that two random closures are consistent on this map;
+/// a single closure does not, nor do two of one row. If odometry is so uncertain that almost all pairs are consistent,
+/// the best supported closures are doubtful links, to be decided by the evidence of all closures that are consistent
+/// with one of them. Large sets are subsampled. The parts have the shape given by `poses` and the accepted edges `in`.
 template <int D>
 SessionLinks linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<char>& in,
                           const std::vector<Rigid<D>>& poses);

@@ -22,22 +22,22 @@ namespace pose_graph {
 
 namespace {
 
-// Rounds, as many as these multiplications allow: thousands of false closures that agree with each other make the
-// factor dense, and a hundred rounds would take minutes.
+// Work of all rounds, in multiplications: thousands of false closures that agree with each other make the factor dense,
+// and a hundred rounds would take minutes.
 constexpr double kCauchyWork = 2e11;
 constexpr int kFewestCauchyRounds = 12, kMostCauchyRounds = 100;
 constexpr std::size_t kMostSlips = 20;
-// A step stands out from all others if the few that it is most alike are that much farther from it than those of any
-// other step that would explain the slip as well are from that one.
-constexpr std::size_t kAlike = 3;
-constexpr double kStandsOut = 4.0;  // of squares
-constexpr double kBelieved = 0.5;   // weight under Cauchy's kernel
-constexpr int kSlipReach = 200;     // poses: so far from where it shows a slip is looked for
-constexpr int kDoubtedRounds = 5;   // as many as it takes for what spans a doubted step to agree
-constexpr double kDoubtedWeight = 1e-9;
+// A step stands out if the distance to its few most similar steps exceeds, by this factor, that of every other step
+// that would explain the slip equally well.
+constexpr std::size_t kSimilarSteps = 3;
+constexpr double kStandsOut = 4.0;       // of squared distances
+constexpr double kAcceptedWeight = 0.5;  // weight under Cauchy's kernel above which a closure counts as accepted
+constexpr int kSlipReach = 200;          // search range around the step where a slip appears, in poses
+constexpr int kDownweightedRounds = 5;   // rounds until closures that span a down-weighted step agree
+constexpr double kDownweightedWeight = 1e-9;
 
-/// Steps of odometry between consecutive poses. Of a slip the graph tells no more than which closures span it: steps
-/// that the same closures span, in one run between ends of closures or in several, would explain it alike.
+/// Steps of odometry between consecutive poses. The graph constrains a slip only by the closures that span it: all
+/// steps spanned by the same closures, adjacent or not, explain it equally well.
 template <int D>
 class Steps {
  public:
@@ -48,8 +48,8 @@ class Steps {
       const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
       if (roles[e] != EdgeRole::Candidate) {
         if (last == first + 1 && into_[sz(last)] < 0) into_[sz(last)] = static_cast<int>(e);
-      } else if (weights[e] > kBelieved) {
-        // A closure's number is in the sum of those that span the steps from its first pose on to its last.
+      } else if (weights[e] > kAcceptedWeight) {
+        // A closure contributes its number to the sums of the steps from its first pose to its last.
         const std::uint64_t number = scatteredBits(e);
         for (const int end : {first, last})
           if (end + 1 < static_cast<int>(spanned_.size())) spanned_[sz(end + 1)] ^= number;
@@ -58,15 +58,16 @@ class Steps {
     for (std::size_t i = 1; i < spanned_.size(); ++i) spanned_[i] ^= spanned_[i - 1];
   }
 
-  /// The step that is least like all others, of those that the same closures span as e, where that is plain; else e.
-  int mostUnlike(int e) const {
+  /// Returns the step that clearly differs most from all others, among those spanned by the same closures as e;
+  /// otherwise e.
+  int mostDistinct(int e) const {
     const int at = std::max(problem_.edges[sz(e)].from, problem_.edges[sz(e)].to);
     if (into_[sz(at)] != e) return e;
     int best = e;
     double most = 0.0, second = 0.0;
     const auto compare = [&](int pose) {
       if (spanned_[sz(pose)] != spanned_[sz(at)]) return;
-      const double square = unlikeness(into_[sz(pose)]);
+      const double square = distanceToSimilar(into_[sz(pose)]);
       if (square > most) {
         second = most;
         most = square;
@@ -81,7 +82,7 @@ class Steps {
     return most > kStandsOut * second ? best : e;
   }
 
-  /// T_from_to of `f` where the slip is its and not e's, and the poses between the two move as one body.
+  /// Returns T_from_to of `f` if `f` slipped instead of e, with the poses between the two moved rigidly.
   Rigid<D> motionInstead(int f, int e, const std::vector<Rigid<D>>& poses) const {
     const auto ends = [&](int edge) { return std::minmax(problem_.edges[sz(edge)].from, problem_.edges[sz(edge)].to); };
     const auto [e_from, e_to] = ends(e);
@@ -99,8 +100,8 @@ class Steps {
     return edge.from < edge.to ? edge.Z : edge.Z.inverse();
   }
 
-  // Square of the distance to the kAlike-th nearest other step, in its own deviations.
-  double unlikeness(int e) const {
+  // Squared Mahalanobis distance to the kSimilarSteps-th nearest other step.
+  double distanceToSimilar(int e) const {
     const Rigid<D> own = forward(e);
     std::vector<double> squares;
     for (const int other : into_) {
@@ -111,24 +112,25 @@ class Steps {
       d.template tail<kRotationSize<D>>() = logRotation(difference.R);
       squares.push_back((whitened_[sz(e)].W * d).squaredNorm());
     }
-    if (squares.size() < kAlike) return 0.0;
-    std::nth_element(squares.begin(), squares.begin() + kAlike - 1, squares.end());
-    return squares[kAlike - 1];
+    if (squares.size() < kSimilarSteps) return 0.0;
+    std::nth_element(squares.begin(), squares.begin() + kSimilarSteps - 1, squares.end());
+    return squares[kSimilarSteps - 1];
   }
 
   const Problem<D>& problem_;
   const std::vector<WhitenedEdge<D>>& whitened_;
-  std::vector<int> into_;               // step that ends at a pose, -1 without one
-  std::vector<std::uint64_t> spanned_;  // by the end of a step, sum without carry of the closures that span it
+  std::vector<int> into_;  // step that ends at a pose; -1 if none
+  // By the end of a step: exclusive or of the numbers of the closures that span it.
+  std::vector<std::uint64_t> spanned_;
 };
 
-// Chi-square over its degrees of freedom.
+// Returns chi-square over its degrees of freedom.
 template <int D>
 double squareOver(const WhitenedEdge<D>& edge, const std::vector<Rigid<D>>& poses) {
   return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm() / std::max(1, edge.rank);
 }
 
-// `least` times the middle one of all steps.
+// Returns `least` times the median of all steps.
 template <int D>
 double slipLimit(double least, const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& edges,
                  const std::vector<Rigid<D>>& poses) {
@@ -141,10 +143,10 @@ double slipLimit(double least, const std::vector<EdgeRole>& roles, const std::ve
   return least * std::max(1.0, *middle);
 }
 
-// By pose: of the closures that span the step from it to the next, how many more are outside than inside.
+// Returns by pose the excess of rejected over accepted closures that span the step to the next pose.
 template <int D>
-std::vector<int> countRefuting(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& in, const std::vector<char>& considered) {
+std::vector<int> countContradicting(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                    const std::vector<char>& in, const std::vector<char>& considered) {
   std::vector<int> against(problem.poses.size() + 1, 0);
   for (std::size_t e = 0; e < in.size(); ++e) {
     if (roles[e] != EdgeRole::Candidate || !considered[e]) continue;
@@ -156,8 +158,8 @@ std::vector<int> countRefuting(const Problem<D>& problem, const std::vector<Edge
   return against;
 }
 
-// Steps that two rows of closures more outside than inside span, and one closure of each row outside over any of them:
-// a slip of the step is what two of these have to agree on.
+// Steps spanned by at least two more rows of closures outside the set than inside, and one closure of each outside row
+// over any of these steps. If a step slipped, two of these closures must be consistent.
 template <int D>
 struct ContradictingRows {
   std::vector<int> closures;
@@ -179,7 +181,7 @@ struct ContradictingRows {
       if (!inside.count(name)) span(e, 1);
     for (std::size_t i = 1; i < against.size(); ++i) against[i] += against[i - 1];
     for (const int more : against) contradicted.push_back(more >= static_cast<int>(Thresholds::kLeastAgreeing));
-    std::vector<int> before(contradicted.size() + 1, 0);  // steps before a pose
+    std::vector<int> before(contradicted.size() + 1, 0);  // number of such steps before a pose
     for (std::size_t i = 0; i < contradicted.size(); ++i) before[i + 1] = before[i] + contradicted[i];
     for (const auto& [name, e] : outside) {
       const auto [first, last] = std::minmax(problem.edges[sz(e)].from, problem.edges[sz(e)].to);
@@ -196,8 +198,8 @@ struct ContradictingRows {
   }
 };
 
-// The loop of two closures that span one step does not lead over it: where that step slipped, they agree all the same
-// on how the two sides lie, as far as the other edges know each side.
+// Returns whether any two closures over one step are consistent. Their loop does not include the step: if it slipped,
+// they still agree on the relative pose of its two sides, within the accuracy of the other edges.
 template <int D>
 bool anyAgree(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const ContradictingRows<D>& rows,
               const std::vector<Rigid<D>>& poses) {
@@ -226,9 +228,9 @@ bool maySlip(const Problem<D>& problem, const std::vector<EdgeRole>& roles, cons
 }
 
 template <int D>
-std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                              const std::vector<char>& in, const std::vector<char>& considered) {
-  const std::vector<int> against = countRefuting(problem, roles, in, considered);
+std::vector<char> mostContradicted(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                   const std::vector<char>& in, const std::vector<char>& considered) {
+  const std::vector<int> against = countContradicting(problem, roles, in, considered);
   const int most = *std::max_element(against.begin(), against.end());
   std::vector<char> made;
   if (most < static_cast<int>(Thresholds::kLeastAgreeing)) return made;
@@ -241,7 +243,7 @@ std::vector<char> mostRefuted(const Problem<D>& problem, const std::vector<EdgeR
 
 template <int D>
 std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                               const std::vector<char>& considered, const std::vector<char>& doubted,
+                               const std::vector<char>& considered, const std::vector<char>& weighted_down,
                                const std::vector<Rigid<D>>& odometry) {
   const std::vector<WhitenedEdge<D>> edges = whitened(problem.edges);
   std::vector<char> in;
@@ -255,16 +257,16 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   const int rounds =
       static_cast<int>(std::clamp<double>(kCauchyWork / std::max(1.0, work), kFewestCauchyRounds, kMostCauchyRounds));
   for (int round = 0; round < rounds; ++round) {
-    const bool is_doubted = round < kDoubtedRounds && !doubted.empty();
+    const bool is_downweighted = round < kDownweightedRounds && !weighted_down.empty();
     double cost = 0.0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       weights[e] = 0.0;
       if (!in[e]) continue;
       const double square = squareOver(edges[e], poses);
-      weights[e] = is_doubted && doubted[e] ? kDoubtedWeight : 1.0 / (1.0 + square);
+      weights[e] = is_downweighted && weighted_down[e] ? kDownweightedWeight : 1.0 / (1.0 + square);
       cost += std::log1p(square);
     }
-    if (round > 0 && !is_doubted && std::abs(last - cost) <= kEndShare * cost) break;
+    if (round > 0 && !is_downweighted && std::abs(last - cost) <= kEndShare * cost) break;
     last = cost;
     graph.take(in, weights);
     graph.relax(poses, 1, 0.0, false);
@@ -274,11 +276,11 @@ std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<Edge
   const Steps<D> steps(problem, roles, edges, weights);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (roles[e] != EdgeRole::Trusted || !(squareOver(edges[e], poses) > limit)) continue;
-    const int likeliest = steps.mostUnlike(static_cast<int>(e));
+    const int likeliest = steps.mostDistinct(static_cast<int>(e));
     if (std::any_of(made.begin(), made.end(), [&](const Slip<D>& slip) { return slip.edge == likeliest; })) continue;
     made.push_back({likeliest, steps.motionInstead(likeliest, static_cast<int>(e), poses)});
   }
-  if (made.size() > kMostSlips) made.clear();  // odometry as a whole is not what its information says
+  if (made.size() > kMostSlips) made.clear();  // odometry as a whole does not have the stated accuracy
   return made;
 }
 
@@ -290,7 +292,7 @@ bool joinEndsWithoutAnyRow(const Problem<D>& problem, const std::vector<EdgeRole
   joined.joinAll(problem.fixed);
   for (std::size_t e = 0; e < in.size(); ++e)
     if (roles[e] != EdgeRole::Candidate && in[e]) joined.join(problem.edges[e].from, problem.edges[e].to);
-  // Two rows between two stretches are enough: without any one of them another one is left.
+  // Two rows between two sections suffice: without one of them another one remains.
   std::map<std::pair<int, int>, std::set<int>> rows;
   for (std::size_t e = 0; e < in.size(); ++e) {
     const int a = joined.root(problem.edges[e].from), b = joined.root(problem.edges[e].to);
@@ -298,7 +300,7 @@ bool joinEndsWithoutAnyRow(const Problem<D>& problem, const std::vector<EdgeRole
     std::set<int>& between = rows[std::minmax(a, b)];
     if (between.size() < Thresholds::kLeastAgreeing) between.insert(row[e]);
   }
-  std::set<int> all = {-1};  // none
+  std::set<int> all = {-1};  // no row removed
   for (const auto& [stretches, between] : rows) all.insert(between.begin(), between.end());
   return std::all_of(all.begin(), all.end(), [&](int one) {
     DisjointSets without = joined;
@@ -315,10 +317,10 @@ template bool maySlip<2>(const Problem<2>&, const std::vector<EdgeRole>&, const 
                          const std::vector<char>&, const std::vector<int>&, const std::vector<Rigid<2>>&);
 template bool maySlip<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                          const std::vector<char>&, const std::vector<int>&, const std::vector<Rigid<3>>&);
-template std::vector<char> mostRefuted<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                          const std::vector<char>&);
-template std::vector<char> mostRefuted<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,
-                                          const std::vector<char>&);
+template std::vector<char> mostContradicted<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                               const std::vector<char>&, const std::vector<char>&);
+template std::vector<char> mostContradicted<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                               const std::vector<char>&, const std::vector<char>&);
 template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&, const std::vector<char>&,
                                            const std::vector<char>&, const std::vector<Rigid<2>>&);
 template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&, const std::vector<char>&,

@@ -9,10 +9,10 @@ namespace pose_graph {
 
 namespace {
 
-constexpr double kWideFactor = 64.0;  // times the limit: eight standard deviations for each that will count in the end
-constexpr double kNarrower =
-    1.25;                 // each step; at 1.6 the graph with the most doubtful closures (tuc) still ends elsewhere
-constexpr int kLast = 6;  // steps at the final limit, or until nothing changes
+constexpr double kWideFactor = 64.0;  // factor of the limit: eight standard deviations
+// Ratio of successive limits; at 1.6 the graph with the most ambiguous closures (tuc) ends at another solution.
+constexpr double kNarrower = 1.25;
+constexpr int kLast = 6;  // limit of steps at the final limit
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<Edge
     return sum;
   };
 
-  // Many must be out and within the wide limit, and stay so while it falls.
+  // Many closures must be rejected and within the wide limit, and remain so as it decreases.
   const auto worthIt = [&](const std::vector<Rigid<D>>& poses, double wide) {
     std::size_t near = 0;
     for (int e : evaluator.candidates()) near += !state.in[sz(e)] && toSquare(sz(e), poses) <= wide * findLimit(sz(e));
@@ -65,7 +65,7 @@ void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<Edge
     if (graph.isTooDense()) return;
     graph.relax(poses, 2, 0.0, false);
   }
-  // A lower cost alone may come from throwing more away: there must be more that fit.
+  // A lower cost may result from rejecting more closures; more must fit as well.
   const auto fitting = [&](const std::vector<Rigid<D>>& at) {
     return std::count_if(evaluator.candidates().begin(), evaluator.candidates().end(),
                          [&](int e) { return toSquare(sz(e), at) <= findLimit(sz(e)); });

@@ -11,7 +11,7 @@ namespace {
 
 using urban_nav_core::testing::numericJacobian;
 
-// At large residuals too: the square is the edge's cost, and both derivatives are those of moved poses.
+// At large residuals: the squared residual is the edge's cost, and both derivatives match moved poses.
 template <Objective objective, int D>
 void expectSquareAndDerivatives() {
   constexpr int kN = kTangentSize<D>;

@@ -11,7 +11,7 @@ void expectTheSameOptimum() {
   Dice dice(11);
   for (const Objective objective : {Objective::Geodesic, Objective::Chordal, Objective::G2o}) {
     Problem<D> problem = drawProblem<D>(dice, 60, 40, 0.05, 0.05);
-    problem.edges.back().information.setZero();  // singular counts too
+    problem.edges.back().information.setZero();  // singular information is supported
     SolveOptions options;
     options.objective = objective;
     const Solution<D> ours = solve(problem, options), theirs = solveByCeres(problem, options);

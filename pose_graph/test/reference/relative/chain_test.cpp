@@ -36,7 +36,7 @@ void expectSorted() {
     EXPECT_LE((closure.root.transpose() * closure.root - problem.edges[closure.edge].information).norm(), 1e-12);
 }
 
-TEST(Chain, SortsEdgesByWhatTheySee) {
+TEST(Chain, SeparatesLinkEdgesAndClosures) {
   expectSorted<2>();
   expectSorted<3>();
 }
@@ -48,7 +48,7 @@ TEST(Chain, IsEmptyWherePosesAreFew) {
   EXPECT_EQ(makeChain(one).links, 0);
 }
 
-TEST(Chain, NamesWhatIsWrong) {
+TEST(Chain, ReportsInvalidProblems) {
   const Problem<3> good = smallGraph<3>(6, 2, 0.1, 0.1);
   EXPECT_EQ(catchError(good), "");
   const std::size_t closure = good.edges.size() - 1;
@@ -63,7 +63,7 @@ TEST(Chain, NamesWhatIsWrong) {
   EXPECT_EQ(catchError(bad), name + " is not finite");
   bad = good;
   bad.edges[0].to = 6;
-  EXPECT_EQ(catchError(bad), "edge 0 (0 to 6) names a pose that is not there: allowed 0...5");
+  EXPECT_EQ(catchError(bad), "edge 0 (0 to 6) refers to a missing pose: allowed 0...5");
   bad = good;
   bad.edges[0].to = 0;
   EXPECT_EQ(catchError(bad), "edge 0 (0 to 0) goes from a pose to itself");

@@ -60,7 +60,7 @@ TEST(ConjugateGradients, EndWhereTheyAreAsked) {
   EXPECT_GT(fine, rough);
 }
 
-TEST(ConjugateGradients, EveryStepOfThemPromisesMore) {
+TEST(ConjugateGradients, EveryStepPredictsALargerDecrease) {
   const Problem<3> problem = smallGraph<3>(40, 20, 0.5, 0.5);
   const LinearSystem<3> system(problem, makeChain(problem), makeState(problem.poses));
   const Preconditioner<3> preconditioner(system, 0.0, 0);

@@ -81,7 +81,7 @@ TEST(LinearSystem, AStateIsItsPoses) {
   ASSERT_EQ(state.poses.size(), problem.poses.size());
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     EXPECT_LE((state.poses[i].t - problem.poses[i].t).norm(), 1e-12);
-    EXPECT_LE((state.poses[i].R - problem.poses[i].R).norm(), 1e-12);  // the given ones are the plain products
+    EXPECT_LE((state.poses[i].R - problem.poses[i].R).norm(), 1e-12);  // the given poses are plain products
   }
 }
 

@@ -13,7 +13,7 @@ using test::smallGraph;
 using test::stacked;
 using test::unstacked;
 
-// P as a matrix, column by column.
+// Returns P as a matrix, column by column.
 template <int D>
 Eigen::MatrixXd toMatrix(const Preconditioner<D>& preconditioner, int links) {
   const Eigen::Index size = kTangentSize<D> * links;
@@ -28,7 +28,7 @@ Eigen::MatrixXd toMatrix(const Preconditioner<D>& preconditioner, int links) {
 
 template <int D>
 void expectInverse(double damping) {
-  const Problem<D> problem = smallGraph<D>(12, 8, 0.5, 0.7);  // a third of the closures is singular
+  const Problem<D> problem = smallGraph<D>(12, 8, 0.5, 0.7);  // a third of the closures has singular information
   const LinearSystem<D> system(problem, makeChain(problem), makeState(problem.poses));
   const Eigen::MatrixXd P = toMatrix(Preconditioner<D>(system, damping, 8), 11);
   Increments<D> product, scratch;
@@ -61,8 +61,8 @@ TEST(Preconditioner, IsSymmetricAndPositiveDefiniteWithAnyOfThem) {
   }
 }
 
-TEST(Preconditioner, CouplesTheClosuresOfWhichTheChainKnowsLeast) {
-  // One closure over the whole chain, and many over two links: coupling the one must be what helps.
+TEST(Preconditioner, CouplesTheClosuresLeastConstrainedByTheChain) {
+  // One closure over the whole chain and many over two links: including the long one must be what helps.
   Problem<2> problem = smallGraph<2>(40, 0, 0.0, 0.0);
   const auto add = [&problem](int from, int to) {
     const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);

@@ -19,8 +19,8 @@ double costOfPoses(const Problem<D>& problem, const std::vector<Rigid<D>>& poses
   return computeCost(problem, ChainState<D>{{}, poses});
 }
 
-// The reference: damped Gauss-Newton over the poses themselves, dense, with numeric derivatives; nothing in common with
-// the chain but the residual.
+// Reference: dense damped Gauss-Newton over the poses with numeric derivatives; shares only the residual with the chain
+// solver.
 template <int D>
 double denseCost(const Problem<D>& problem) {
   constexpr Eigen::Index kD = kTangentSize<D>;
@@ -81,7 +81,7 @@ TEST(RelativePcg, ReachesTheCostOfADenseMinimisationOverPoses) {
   expectTheDenseMinimum<3>(0.2, 0.15);
 }
 
-TEST(RelativePcg, CouplingChangesTheWayAndNotTheEnd) {
+TEST(RelativePcg, CouplingChangesThePathAndNotTheResult) {
   const Problem<3> problem = smallGraph<3>(60, 30, 0.1, 0.05);
   RelativePcgOptions options;
   const RelativeSolution<3> all = relaxRelative(problem, options);
@@ -98,7 +98,7 @@ void expectNoCostWithoutNoise() {
   const RelativeSolution<D> still = relaxRelative(smallGraph<D>(200, 20, 0.0, 0.0));
   EXPECT_LE(still.cost, 1e-16);
   EXPECT_EQ(still.ending, Ending::Converged);
-  // Found again from a bent start.
+  // The same minimum from a bent initial guess.
   Problem<D> bent = smallGraph<D>(200, 20, 0.0, 0.0);
   test::Draw<D> draw(8);
   const auto truth = bent.poses;
@@ -136,7 +136,7 @@ TEST(RelativePcg, FewPosesAndNoClosures) {
 }
 
 TEST(RelativePcg, UnknownDirectionsOfClosuresStayUnknown) {
-  // A closure that knows a distance along x alone: the rest of the loop stays as odometry has it.
+  // A closure that measures only a distance along x: the rest of the loop stays at odometry.
   Problem<2> problem = smallGraph<2>(20, 0, 0.0, 0.0);
   for (Edge<2>& edge : problem.edges) edge.information = Eigen::Vector3d(1e4, 1e4, 1e6).asDiagonal();
   Edge<2> closure{0, 19, problem.poses[0].inverse() * problem.poses[19], Eigen::Matrix3d::Zero()};

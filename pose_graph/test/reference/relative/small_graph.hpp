@@ -23,7 +23,7 @@ class Draw {
     return d;
   }
   Rigid<D> rigid(double metres, double radians) { return moved(Rigid<D>(), tangent(metres, radians)); }
-  /// Full, or of rank `rank`.
+  /// Draws information of full rank, or of rank `rank`.
   TangentMatrix<D> information(int rank = kTangentSize<D>) {
     TangentMatrix<D> sum = TangentMatrix<D>::Zero();
     for (int i = 0; i < rank; ++i) {
@@ -40,9 +40,9 @@ class Draw {
   std::normal_distribution<double> normal_;
 };
 
-/// A winding chain of steps of a metre with closures either way, some of low rank, a link measured twice and one
-/// measured backwards; everything disturbed by `metres` and `radians` times a normal number. The poses are the chain as
-/// it was measured.
+/// A winding chain of 1 m steps with closures in both directions, some of low rank, a link measured twice and one
+/// measured backwards. All measurements are disturbed by `metres` and `radians` times a normal number. The poses are
+/// the measured chain.
 template <int D>
 Problem<D> smallGraph(int poses, int closures, double metres, double radians, unsigned seed = 1) {
   Draw<D> draw(seed);
@@ -73,7 +73,7 @@ Problem<D> smallGraph(int poses, int closures, double metres, double radians, un
   return problem;
 }
 
-/// Increments as one vector, and back.
+/// Converts increments to one vector, and back.
 template <int D>
 Eigen::VectorXd stacked(const Increments<D>& step) {
   return Eigen::Map<const Eigen::VectorXd>(step.data(), step.size());
@@ -83,7 +83,7 @@ Increments<D> unstacked(const Eigen::VectorXd& step) {
   return Eigen::Map<const Increments<D>>(step.data(), kTangentSize<D>, step.size() / kTangentSize<D>);
 }
 
-/// The increments of a chain drawn anew.
+/// Draws the increments of a chain.
 template <int D>
 Increments<D> drawIncrements(Draw<D>& draw, int links, double size = 1.0) {
   Increments<D> step(kTangentSize<D>, links);
@@ -91,7 +91,7 @@ Increments<D> drawIncrements(Draw<D>& draw, int links, double size = 1.0) {
   return step;
 }
 
-/// All residuals of a state under each other, in the order of the edges.
+/// Returns all residuals of a state, stacked in the order of the edges.
 template <int D>
 Eigen::VectorXd computeResiduals(const Problem<D>& problem, const ChainState<D>& state) {
   constexpr Eigen::Index kD = kTangentSize<D>;
@@ -104,7 +104,7 @@ Eigen::VectorXd computeResiduals(const Problem<D>& problem, const ChainState<D>&
   return residuals;
 }
 
-/// [H; I] of (19) as a dense matrix, by Richardson's extrapolation of central differences of the residuals.
+/// Returns [H; I] of (19) as a dense matrix, by Richardson extrapolation of central differences of the residuals.
 template <int D>
 Eigen::MatrixXd numericRows(const Problem<D>& problem, const ChainState<D>& state) {
   const Eigen::Index columns = kTangentSize<D> * static_cast<Eigen::Index>(state.links.size());
@@ -121,7 +121,7 @@ Eigen::MatrixXd numericRows(const Problem<D>& problem, const ChainState<D>& stat
   return J;
 }
 
-/// The weights of all residuals, block by block.
+/// Returns the weights of all residuals as a block-diagonal matrix.
 template <int D>
 Eigen::MatrixXd computeWeights(const Problem<D>& problem) {
   constexpr Eigen::Index kD = kTangentSize<D>;

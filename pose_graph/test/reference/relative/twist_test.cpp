@@ -15,7 +15,7 @@ using urban_nav_core::Pose;
 
 Pose corePose(const Rigid<3>& T) { return Pose(T.R, T.t); }
 
-// de / d(link) of an edge from m to q along a chain, by the two factors.
+// Returns de / d(link) of an edge from m to q along a chain, as the product of both factors.
 template <int D>
 TangentMatrix<D> analytic(const Edge<D>& edge, const std::vector<Rigid<D>>& poses, int link) {
   const auto at = [&poses](int i) { return poses[static_cast<std::size_t>(i)]; };
@@ -40,7 +40,7 @@ void expectNumericDerivatives(bool backwards) {
   problem.edges.push_back(backwards ? Edge<D>{5, 1, Z.inverse()} : Edge<D>{1, 5, Z});
   const Eigen::MatrixXd J = test::numericRows(problem, state);
   for (int link = 0; link < 6; ++link) {
-    // (16): blocks with m < k <= q are not zero, here links 1...4, and no others are.
+    // (16): only blocks with m < k <= q are nonzero, here links 1...4.
     const bool inside = link >= 1 && link < 5;
     TangentMatrix<D> expected = TangentMatrix<D>::Zero();
     if (inside) expected = analytic(problem.edges[0], state.poses, link);
@@ -62,7 +62,7 @@ TEST(Twist, TheTwoFactorsAreTheProductOfEquation13) {
   std::vector<Rigid<3>> poses = {draw.rigid(20.0, 1.0)};
   for (int i = 0; i < 6; ++i) poses.push_back(poses.back() * draw.rigid(1.0, 0.5));
   const Edge<3> edge{1, 5, moved(poses[1].inverse() * poses[5], draw.tangent(0.3, 0.3))};
-  // The residual's own derivative by the prediction T_m_q.
+  // The derivative of the residual with respect to the prediction T_m_q.
   const Rigid<3> T_m_q = poses[1].inverse() * poses[5];
   const Matrix6d by_prediction = edgeRow(edge, Rigid<3>(), T_m_q).K * linkMatrix<3>(Rigid<3>(), T_m_q.t);
   for (int r = 2; r <= 5; ++r) {
