@@ -10,19 +10,19 @@
 
 namespace swf_vo {
 
-/// Measures by how much the disparities of the landmarks in both images exceed those that the map of earlier frames
-/// predicts:
+/// Estimates the common difference between the measured disparities of landmarks and those predicted from the map of
+/// earlier frames:
 ///   d - d(T_camera_odom) = (1 + x^2) step + (d(T_camera_odom) / z) t + error,
-/// with x the tangent of the direction along the rows: a turn of the right camera about its y axis by step / fx. t is
-/// an error of the camera's place along its axis, estimated too. Where the rig has not changed since
-/// the landmarks were measured, the step is zero. `matches`: before any was rejected for its disparity;
-/// `T_camera_odom`: mostly by measurements in one image each.
+/// with x the tangent of the direction along the rows. The step corresponds to a rotation of the right camera about its
+/// y axis by step / fx; t, estimated jointly, is the error of the camera position along its optical axis. The step is
+/// zero if the rig has not changed since the landmarks were measured. `matches`: before rejection by disparity;
+/// `T_camera_odom`: mainly from measurements in one image each.
 ///
-/// Huber's weights; matches further apart than kStepOutlier from the median are taken as wrong. The standard deviation
-/// is that of a sandwich over cells of the image, whose matches share errors (Liang and Zeger 1986). A sigma of 0: too
-/// few.
+/// Huber weights; matches further than kStepOutlier from the median are outliers. The standard deviation is that of a
+/// sandwich estimator clustered by image cell, since matches of a cell share errors (Liang and Zeger 1986). A sigma of
+/// 0: too few matches.
 ///
-/// Allocates nothing once it has seen as many matches as come.
+/// Does not allocate once its buffers have grown.
 class DisparityStepMeter {
  public:
   DisparityStep measure(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
@@ -30,8 +30,9 @@ class DisparityStepMeter {
 
   struct Difference {
     double px = 0.0;                                  ///< measured less predicted disparity
-    Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< derivative by the step, and by the place along the axis (1/m)
-    std::size_t cell = 0;                             ///< of the image
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< derivative by the step and by the position along the optical
+                                                      ///< axis (1/m)
+    std::size_t cell = 0;                             ///< image cell
   };
 
  private:
