@@ -79,7 +79,7 @@ void Datum::scaleGrowth(const DriftSandwich::Ratio& ratio) {
   growth_ = scaled;
 }
 
-// G and u = Pi G.
+// Computes G and u = Pi G.
 void Datum::look(const State& state, const Prior& prior) {
   const int n = prior.size();
   gauge::ofPrior(state, prior, origin_, directions_);
@@ -106,7 +106,7 @@ Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
   Eigen::Map<Eigen::VectorXd> border(prior.border.data(), n);
   const Vector6d along = G.transpose() * border;
   per_px = -(covariance * along);
-  // Gradients stay as they are at the estimates.
+  // The gradients at the estimates are preserved.
   double offset_gradient = 0.0;
   prior.deviation(state, deviation_);
   prior.gradient(deviation_, state.disparity_offset, gradient_, offset_gradient);
@@ -149,7 +149,7 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
   for (int i = 0; i < 6; ++i) W(i, i) += i < 3 ? strength_m_ : strength_rad_;
   if (!invert(W, held)) return false;
 
-  // Pi + v (W - M) v^T, and gamma is drawn to where it was drawn before: with d the deviation, gradient = eta - Pi d.
+  // Pi + v (W - M) v^T with unchanged gradient along gamma: with d the deviation, gradient = eta - Pi d.
   prior.deviation(state, deviation_);
   double unchanged = 0.0;
   prior.gradient(deviation_, state.disparity_offset, gradient_, unchanged);

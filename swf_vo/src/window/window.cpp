@@ -21,7 +21,7 @@ class Window::Implementation {
     frames.reserve(static_cast<std::size_t>(std::clamp(chosen.size, 1, 256)) + 2);  // of one landmark
   }
 
-  // An earlier frame's measurement, with something marginalised since.
+  // Returns whether a measurement belongs to an earlier frame and information was marginalised since.
   bool isLate(FrameId frame) const {
     return options.exact_undo && filter.state().toPose(frame) >= 0 && undo.needsReplay(frame);
   }
