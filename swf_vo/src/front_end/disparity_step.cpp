@@ -50,7 +50,7 @@ void listDifferences(const StereoCamera& camera, const Pose& T_camera_odom, cons
   }
 }
 
-/// Removes what is far from the median, and returns the scatter of the rest, px.
+/// Removes outliers with respect to the median, and returns the scatter of the others, px.
 double removeOutliers(std::vector<Difference>& differences, std::vector<double>& values) {
   values.clear();
   for (const Difference& difference : differences) values.push_back(difference.px);
@@ -89,7 +89,7 @@ DisparityStep DisparityStepMeter::measure(const StereoCamera& camera, const Pose
       right += weight * each.px * each.slope;
       scores[each.cell] += weight * error * each.slope;
     }
-    information(1, 1) += 1e-9;  // everything infinitely far
+    information(1, 1) += 1e-9;  // all points at infinity
     const Vector2d next = information.inverse() * right;
     if (!next.allFinite()) return {};
     x = next;

@@ -17,21 +17,21 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 constexpr double kLargestScale = 1.5, kSmallestScale = 0.6;
-constexpr double kSameWarp = 0.02;   // of an entry: 0.1 px at the border of the window
-constexpr double kSameBend = 0.002;  // 1/px, half as much there
+constexpr double kSameWarp = 0.02;   // of an element: 0.1 px at the border of the window
+constexpr double kSameBend = 0.002;  // 1/px, half of that at the border
 constexpr double kRowGate = 9.0;     // chi-square of the difference of the rows, one degree of freedom
-constexpr double kRowSlackPx = 0.3;  // what rectification may be wrong by
-constexpr double kFurther = 1.4;     // a slant is learnt anew each time the camera has moved so much further
+constexpr double kRowSlackPx = 0.3;  // rectification error
+constexpr double kFurther = 1.4;     // the slant is updated each time the camera has moved further by this factor
 constexpr double kSteepest = 20.0;   // change of a surface's slant in one step, tangent
 constexpr double kSameBlur = 0.05;   // px^2 of the level
-// Of the blur that edges show, what it may be off by, and what a blur that is no Gaussian adds: of the displacement
-// that the blur makes.
+// Uncertainty of the displacement caused by blur, as a share of it: errors of the blur measured at edges, and
+// deviations from a Gaussian.
 constexpr double kBlurShare = 0.3;
 constexpr double kLeastGain = 0.2, kLargestGain = 5.0;
-// As the view changes, a template weighs its pixels anew, and what it stands for creeps over the surface, in both
-// images at once, so that disparities do not change. For a change of one its variance grows by this multiple of the
-// alignment's covariance and of kCreepPx^2: a patch of several depths fits worse and worse and creeps the most.
-// Measured in simulated streets (bench/template_drift); patches of one plane creep by half of that at most
+// As the view changes, the pixels of a template are weighted differently, and the point that it represents drifts over
+// the surface, equally in both images, so that disparities do not change. For a view change of one its variance grows
+// by this multiple of the alignment's covariance and of kCreepPx^2: a patch of several depths has increasing residuals
+// and drifts most. Measured in simulated streets (bench/template_drift); planar patches drift by half of that at most
 // (bench/creep).
 constexpr double kCreepPerChange = 4.0, kCreepPx = 0.03;
 
@@ -66,7 +66,7 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
            (its_blur - blur).cwiseAbs().maxCoeff() < kSameBlur;
   };
   if (ready && serves(made, made_blur)) return true;
-  // What is seen from the front looks the same to both eyes.
+  // The template of the other image serves for surfaces that face both cameras.
   ready = others_ready && serves(others, others_blur);
   made_blur = ready ? others_blur : blur;
   if (ready) made = others;
