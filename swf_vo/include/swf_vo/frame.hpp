@@ -71,7 +71,7 @@ struct MotionSensorFault {
   std::string sentence;                          ///< the fault with a figure, and the remedy
 };
 
-/// Returns "wheels are left out from second 3.2 on: " and the sentence. `begin`: stamp of the first frame.
+/// Returns "wheels not used from 3.2 s on: " and the sentence. `begin`: stamp of the first frame.
 std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin);
 
 /// Newest settled step by images compared with motion sensors, after the estimated corrections. A sigma of 0: not

@@ -11,8 +11,8 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr std::size_t kWayLength = 12;  // frames; longer ways hide the image
-constexpr int kSubpixelBits = 4;        // OpenCV draws at 1/16 px with them
+constexpr std::size_t kWayLength = 12;  // frames; longer paths hide the image
+constexpr int kSubpixelBits = 4;        // fractional bits of OpenCV's drawing functions: 1/16 px
 
 cv::Point fixedPoint(const cv::Point2f& pixel) {
   return {cvRound(pixel.x * (1 << kSubpixelBits)), cvRound(pixel.y * (1 << kSubpixelBits))};
