@@ -115,8 +115,7 @@ TEST(State, BelongsToThePartsThatAreSwitchedOff) {
     FAIL();
   } catch (const urban_nav_core::UserError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "state of swf_vo: was made with forget = delete and is to go on with forget = schur: allowed the same "
-              "parameters");
+              "state of swf_vo: created with forget = delete, used with forget = schur: parameters must be equal");
   }
 }
 

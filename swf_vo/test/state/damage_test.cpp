@@ -36,11 +36,11 @@ TEST(State, BelongsToItsParametersAndItsCamera) {
   EXPECT_EQ(catchError(parameters, stereoCamera(), state), "");
   parameters.window = 12;
   EXPECT_EQ(catchError(parameters, stereoCamera(), state),
-            "state of swf_vo: was made with window = 10 and is to go on with window = 12: allowed the same parameters");
+            "state of swf_vo: created with window = 10, used with window = 12: parameters must be equal");
   urban_nav_core::StereoCamera camera = stereoCamera();
   camera.baseline += 1e-6;
   EXPECT_EQ(catchError(Parameters(), camera, state),
-            "state of swf_vo: was made with another calibration: allowed the same camera and extrinsics");
+            "state of swf_vo: created with another calibration: camera and extrinsics must be equal");
 }
 
 TEST(State, IsNamedWhereItIsDamaged) {
