@@ -46,9 +46,9 @@ class Output {
   std::vector<Waiting> waiting_;  // oldest first
   urban_nav_core::StampNs last_settled_ = 0;
   bool any_settled_ = false;
-  urban_nav_core::Pose last_T_odom_camera_;  // of the previous frame, filtered
+  urban_nav_core::Pose last_T_odom_camera_;  // previous frame, filtered
   urban_nav_core::Matrix6d step_covariance_ =
-      urban_nav_core::Matrix6d::Zero();               // of the last settled step of base_link; zero: none yet
+      urban_nav_core::Matrix6d::Zero();               // last settled step of base_link; zero: none yet
   std::vector<std::pair<LandmarkId, FrameId>> born_;  // sorted by landmark: ids only grow
 };
 

@@ -245,7 +245,7 @@ class SwfVo::Implementation {
   struct Predicted {
     ProcessInput u;                        // at constant velocity, or with the mean by sensors
     Pose steady;                           // at constant velocity
-    std::optional<ProcessInput> reckoned;  // by sensors only
+    std::optional<ProcessInput> reckoned;  // motion by sensors only
     ProcessInput with_sensors;             // fusion of both
   };
   Predicted predict(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Pose& last,
@@ -372,7 +372,7 @@ class SwfVo::Implementation {
   bool started_ = false;
   bool degraded_ = true;
   FrameId frame_ = 0;
-  LandmarkId newest_known_ = -1;  // of the last frame linked to the first one by measurements
+  LandmarkId newest_known_ = -1;  // newest landmark of the last frame linked to the first one by measurements
   urban_nav_core::StampNs stamp_ = 0;
   double seconds_ = 0.0;
   double period_ = 0.0;

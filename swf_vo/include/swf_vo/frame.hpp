@@ -55,8 +55,7 @@ struct Landmark {
 /// Rig constants estimated from images, besides the offsets in Statistics. Until the first measurement, estimates and
 /// standard deviations are those of the priors. A sigma of 0: not estimated.
 struct RigConstants {
-  double roll_rad = 0.0, roll_sigma_rad = 0.0;  ///< of the right camera relative to the left one, about its optical
-                                                ///< axis
+  double roll_rad = 0.0, roll_sigma_rad = 0.0;  ///< right camera relative to the left one, about its optical axis
   double delay_s = 0.0, delay_sigma_s = 0.0;    ///< delay of the right shutter relative to the left one
   /// Standard deviation of the relative scale error common to all lengths of the path: uncertainty of the calibration
   /// (`rig_scale`) and of the disparity offset. Included in the covariance of T_odom_base, not in those of steps.
@@ -79,7 +78,7 @@ std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs beg
 struct MotionComparison {
   urban_nav_core::Vector3d turn_error = urban_nav_core::Vector3d::Zero();  ///< images minus gyroscope, rad
   double turn_sigma = 0.0;                                                 ///< each axis, rad
-  double forward = 0.0, sideways = 0.0;                                    ///< by images, m in base_link
+  double forward = 0.0, sideways = 0.0;                                    ///< motion by images, m in base_link
   double forward_error = 0.0;                                              ///< images minus wheels along x, m
   double forward_sigma = 0.0;                                              ///< m
 };
@@ -109,12 +108,12 @@ struct DisparityStep {
 struct Statistics {
   int corners = 0;                 ///< FAST corners found in the left image, all levels
   int features = 0;                ///< features observed in this frame, new ones included
-  int tracked = 0;                 ///< of these, known from earlier frames and trusted
+  int tracked = 0;                 ///< tracked from earlier frames and trusted
   double track_length_mean = 0.0;  ///< frames, over the features of this frame
   double reprojection_px = 0.0;    ///< root mean square distance in the left image after the update
   int iterations = 0;
   int landmarks = 0;                       ///< in the window
-  int landmarks_in_prior = 0;              ///< of these, observed from frames that have left the window
+  int landmarks_in_prior = 0;              ///< observed from frames that have left the window
   double disparity_offset_px = 0.0;        ///< current estimate of the camera's disparity offset, a calibration error
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
   double row_offset_px = 0.0;              ///< row in the right image minus row in the left one, current estimate

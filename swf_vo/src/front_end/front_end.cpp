@@ -210,7 +210,7 @@ class FrontEnd::Implementation {
     track.sharper = !widening(track.born_edges, edges_.left.cwiseMax(edges_.right)).isZero();
   }
 
-  /// Matches the map with the tracks; ends what is in only one of them.
+  /// Matches the map with the tracks; ends landmarks and tracks without a counterpart.
   void gather(const std::vector<MapPoint>& map) {
     matches_.clear();
     for (const MapPoint& point : map) {
@@ -468,7 +468,7 @@ class FrontEnd::Implementation {
   RowOffset rows_;
   RigRows rig_;
   Replenisher replenisher_;
-  std::vector<PatchResidualTest> residual_test_;  // of tracked landmarks, by level
+  std::vector<PatchResidualTest> residual_test_;  // for tracked landmarks, by level
   FrontEndResult result_;
   std::vector<Match> matches_, spare_;
   std::vector<LandmarkId> orphans_;
@@ -478,8 +478,8 @@ class FrontEnd::Implementation {
   Edges edges_;
   bool astray_ = false;  // the previous pose is known by prediction only
   FrameId frame_ = -2;
-  Pose T_odom_localised_;  // of the frame processed last, as estimated here
-  Pose T_window_odom_;     // of the previous frame, current estimate of the window
+  Pose T_odom_localised_;  // estimate of the frame processed last
+  Pose T_window_odom_;     // previous frame, current estimate of the window
 };
 
 FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera, bool subpixel)

@@ -16,12 +16,12 @@ namespace swf_vo {
 
 /// Result of the front end for one stereo pair (Newman et al. 2009, section 2.4).
 struct FrontEndResult {
-  std::vector<Observation> tracked;  ///< of landmarks of the map, without outliers
+  std::vector<Observation> tracked;  ///< tracked landmarks of the map, without outliers
   std::vector<Observation> fresh;    ///< first observations of new landmarks, with new ids
   std::vector<LandmarkId> ended;     ///< landmarks that are no longer tracked
   std::vector<LandmarkId>
       refuted;  ///< landmarks that move or were mismatched: their earlier measurements should be withdrawn as well
-  urban_nav_core::Pose T_odom_camera;  ///< by m-estimation over the matches; the prediction if there were too few
+  urban_nav_core::Pose T_odom_camera;  ///< m-estimate over the matches; the prediction if there were too few
   bool localised = false;              ///< T_odom_camera is estimated from matches
   urban_nav_core::Pose T_odom_turned;  ///< the prediction, with the rotation estimated from this image and the previous
                                        ///< one
@@ -29,7 +29,7 @@ struct FrontEndResult {
   int corners = 0;                     ///< FAST corners in the left image
   int candidates = 0;                  ///< matches before outlier rejection
   double inlier_share = 0.0;
-  double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
+  double reprojection_px = 0.0;  ///< root mean square of the inliers in the left image
   double row_offset_px = 0.0;    ///< RowOffset, current estimate
   double noise_scale = 1.0;      ///< NoiseScale::typical(), in standard deviations
   DisparityStep disparity_step;  ///< sigma 0: not measured

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNoiseMemory = 0.98;         // weight of a frame in the next one
 constexpr double kPriorCoordinates = 4;       // weight of the typical scale
-constexpr double kChiSquareMedian = 0.789;    // of 3 degrees of freedom, per degree
+constexpr double kChiSquareMedian = 0.789;    // for 3 degrees of freedom, per degree
 constexpr std::size_t kFewestResiduals = 12;  // landmarks required for the typical scale
 constexpr double kSlowest = 0.1;              // weight of a frame in the typical scale, after the first ten
 // Limit of a residual in units of the typical one: larger ones are outliers.

@@ -16,7 +16,7 @@ class NoiseScale {
  public:
   /// Residual statistics of one landmark; older frames have less weight.
   struct Own {
-    double squares = 0.0;      ///< of residuals, in standard deviations of their alignments
+    double squares = 0.0;      ///< squared residuals, in standard deviations of their alignments
     double coordinates = 0.0;  ///< expected value of `squares`
   };
 
@@ -36,7 +36,7 @@ class NoiseScale {
  private:
   double typical_ = 1.0;
   double rate_ = 1.0;           // weight of the newest frame: a mean over the first frames, then exponential forgetting
-  std::vector<double> scales_;  // of this frame, one for each measurement
+  std::vector<double> scales_;  // scales of this frame, one for each measurement
 };
 
 }  // namespace swf_vo

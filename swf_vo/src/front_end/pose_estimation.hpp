@@ -14,7 +14,7 @@ struct PoseEstimate {
   urban_nav_core::Pose T_camera_odom;
   bool found = false;  ///< enough inliers; else the pose is the first start
   int candidates = 0, inliers = 0;
-  double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
+  double reprojection_px = 0.0;  ///< root mean square of the inliers in the left image
 };
 
 struct PoseEstimatorOptions {

@@ -17,7 +17,7 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 constexpr double kLargestScale = 1.5, kSmallestScale = 0.6;
-constexpr double kSameWarp = 0.02;   // of an element: 0.1 px at the border of the window
+constexpr double kSameWarp = 0.02;   // difference of an element: 0.1 px at the border of the window
 constexpr double kSameBend = 0.002;  // 1/px, half of that at the border
 constexpr double kRowGate = 9.0;     // chi-square of the difference of the rows, one degree of freedom
 constexpr double kRowSlackPx = 0.3;  // rectification error

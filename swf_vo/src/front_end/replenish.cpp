@@ -22,8 +22,8 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double kSlack = 2.0;              // of the quadtree
-constexpr double kLargestDisparity = 0.16;  // of the image's width: nearer points pass too fast to be useful
+constexpr double kSlack = 2.0;              // tolerance of the quadtree
+constexpr double kLargestDisparity = 0.16;  // share of the image's width: nearer points pass too fast to be useful
 constexpr int kLowestDisparity = -2;        // px of the level: far points, including the error of rectification
 constexpr double kLeastDisparityPx = -1.0;  // after refinement, level 0
 constexpr float kLevelPreference = 0.3F;    // features are localised in pixels of their own level

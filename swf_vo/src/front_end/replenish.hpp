@@ -45,7 +45,7 @@ class Replenisher {
   bool subpixel_;
   urban_nav_core::FeatureQuadtree quadtree_;
   std::vector<Candidate> candidates_;
-  std::vector<PatchResidualTest> residual_test_;  // by level: noise decreases with the level
+  std::vector<PatchResidualTest> residual_test_;  // one per level: noise decreases with the level
 };
 
 }  // namespace swf_vo

@@ -32,7 +32,7 @@ class RigRows {
   /// Measurement of one landmark.
   struct Difference {
     double px = 0.0;                                      ///< row in the right image minus row in the left one
-    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< of the landmark: (x, y) / z
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< direction of the landmark: (x, y) / z
     double flow_px_s = 0.0;                               ///< velocity of its row in the left image
   };
 
@@ -66,7 +66,7 @@ class RigRows {
   const urban_nav_core::StereoCamera& camera_;
   std::array<Cell, kColumns * kRows> cells_;
   Cell all_;
-  double count_ = 0.0, variance_ = 0.0;     // of residuals, px^2
+  double count_ = 0.0, variance_ = 0.0;     // weight and variance of residuals, px^2
   Vector3d estimate_ = Vector3d::Zero();    // offset (px), roll (rad), delay (s)
   Matrix3d covariance_ = Matrix3d::Zero();  // zero: no measurement yet
 };

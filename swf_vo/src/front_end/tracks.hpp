@@ -32,15 +32,15 @@ struct Track {
   int disagreed = 0;                                ///< consecutive frames with a good match that contradicts the
                                                     ///< motion
   urban_nav_core::Pose T_born_odom;                 ///< transform from odom to the left camera of its first frame
-  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< of the template's centre in that camera, z = 1
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< direction of the template's centre in that camera, z = 1
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< its surface there: plane . X = 1 (1/m); zero: at infinity
   urban_nav_core::Slope slant;                      ///< slant measured from pixels: plane.x and plane.y fx / fy, 1/m
   double slant_reach =
       0.0;  ///< baseline effective for the slant at its last update (m)
   Eigen::Matrix2d seen_as = Eigen::Matrix2d::Identity();  ///< warp to the left image of its last trusted measurement
-  double sigma_disparity = 1.0;  ///< of the first observation, px
+  double sigma_disparity = 1.0;  ///< sigma of the first observation, px
   Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< last trusted measurement: u_left, v, u_right (px)
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of `z`, from its alignments (1/px^2)
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< information of `z`, from its alignments (1/px^2)
   FrameId measured = -1;                                  ///< frame of `z`
   urban_nav_core::PatchSource source;
   urban_nav_core::PatchTemplate in_left, in_right;  ///< last warped templates
@@ -50,7 +50,7 @@ struct Track {
   /// which the warped templates were made.
   Eigen::Vector2d blur = Eigen::Vector2d::Zero();
   Eigen::Vector2d made_blur_left = Eigen::Vector2d::Zero(), made_blur_right = Eigen::Vector2d::Zero();
-  double row_difference_px = 0.0;  ///< of its first observation: row in the right image minus row in the left one
+  double row_difference_px = 0.0;  ///< row in the right image minus row in the left one, first observation
   bool sharper = false;  ///< the current images are much sharper than that one: no match possible
 };
 
@@ -97,7 +97,7 @@ class Tracks {
   std::vector<Entry>::iterator lowerBound(LandmarkId id);
 
   std::vector<Track> places_;
-  std::vector<Entry> order_;  // by id
+  std::vector<Entry> order_;  // ordered by id
   std::vector<std::size_t> free_;
   LandmarkId next_ = 0;
 };

@@ -38,8 +38,8 @@ class CorruptRowRepair {
 
   int width_, height_;
   std::vector<std::uint8_t> left_, right_;
-  std::vector<unsigned> roughness_;  // of the rows, in one segment
-  std::vector<bool> corrupted_;      // of the rows, in one segment
+  std::vector<unsigned> roughness_;  // per row, in one segment
+  std::vector<bool> corrupted_;      // per row, in one segment
 };
 
 }  // namespace swf_vo

@@ -19,7 +19,7 @@ namespace {
 constexpr int kCellColumns = 10, kCellRows = 8;
 constexpr int kContrastThreshold = 12;       // grey levels, of FAST
 constexpr int kRowsToSearch = 24;            // px to both sides
-constexpr double kFarthestDisparity = 0.16;  // of the image's width, as in Replenisher
+constexpr double kFarthestDisparity = 0.16;  // share of the image's width, as in Replenisher
 constexpr int kNearestDisparity = -8;        // px: converging cameras
 constexpr double kUniqueShare = 0.85;        // best over second best, more than two pixels away
 constexpr double kContrastShare = 0.75;      // best over the patch's own contrast

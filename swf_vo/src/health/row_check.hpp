@@ -37,7 +37,7 @@ class RowCheck {
   int pairs_until_next_ = 0;
   std::optional<double> last_;
   urban_nav_core::Fast fast_;
-  std::vector<urban_nav_core::Corner> strongest_;  // of each cell
+  std::vector<urban_nav_core::Corner> strongest_;  // strongest corners of the cells
   std::vector<int> costs_;
   std::vector<double> differences_;
 };

@@ -59,7 +59,7 @@ class LiveOdometry {
   urban_nav_core::Status status_;
   Statistics statistics_;
   MotionEstimates motion_;
-  urban_nav_core::StampNs begin_ = 0;  // of the session
+  urban_nav_core::StampNs begin_ = 0;  // start of the session
   double process_ms_ = 0.0;
   std::int64_t frames_ = 0, lost_frames_ = 0, sessions_ = 0;
   std::string waiting_ = "no images yet", fault_;

@@ -129,7 +129,7 @@ class Integration {
 
   const MotionEvidence& evidence_;
   Matrix3d R_base_odom_;
-  Vector3d normal_;  // of the ground, in base_link at `from`
+  Vector3d normal_;  // normal of the ground, in base_link at `from`
   Quaterniond q_ = Quaterniond::Identity();
   Vector3d t_ = Vector3d::Zero();
   Matrix6d covariance_ = Matrix6d::Zero();

@@ -24,7 +24,7 @@ struct GyroscopeStep {
   urban_nav_core::Vector3d error = urban_nav_core::Vector3d::Zero();   ///< rad
   urban_nav_core::Matrix3d bias = urban_nav_core::Matrix3d::Zero();    ///< s
   urban_nav_core::Vector3d offset = urban_nav_core::Vector3d::Zero();  ///< rad/s
-  double variance = 0.0;                                               ///< of the noise about an axis, rad^2
+  double variance = 0.0;                                               ///< noise about an axis, rad^2
 };
 
 /// Difference between a step by images and by wheels, as in GyroscopeStep: along x (m), and about z (rad).
@@ -79,7 +79,7 @@ class MotionCalibration {
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  static constexpr int kEnds = 5;  // of a frame: rotation, forward, and yaw by wheels
+  static constexpr int kEnds = 5;  // end states of a frame: rotation, forward, and yaw by wheels
   static constexpr int kAll = MotionStates::kSize + 2 * kEnds;
   using Row = Eigen::Matrix<double, kAll, 1>;
   using Joint = Eigen::Matrix<double, kAll, kAll>;
@@ -92,7 +92,7 @@ class MotionCalibration {
 
   MotionStates states_;
   Joint P_ = Joint::Zero();                          // states, ends of the previous frame, ends of this frame
-  Row change_ = Row::Zero();                         // of the estimates in a step; ends are zero before
+  Row change_ = Row::Zero();                         // change of the estimates in a step; ends are zero before
   Eigen::Vector2d noise_ = Eigen::Vector2d::Ones();  // gyroscope, wheels
 };
 

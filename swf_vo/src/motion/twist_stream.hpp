@@ -13,7 +13,8 @@ namespace swf_vo {
 /// Motion at a constant twist between two stamps, as stated by a sensor.
 struct TwistSpan {
   urban_nav_core::StampNs from = 0, to = 0;
-  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();  ///< of base_link in its axes: m/s, then rad/s
+  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();  ///< twist of base_link in its axes: m/s, then
+                                                                      ///< rad/s
   /// Variances of the increments of forward, sideways, height, roll, pitch and yaw per second, m^2/s and rad^2/s; 0:
   /// not stated.
   urban_nav_core::Vector6d density = urban_nav_core::Vector6d::Zero();

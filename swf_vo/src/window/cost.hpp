@@ -27,7 +27,8 @@ struct NormalEquations {
   std::vector<Eigen::Matrix3d> landmark;                ///< Lambda_m(i, i), by slot
   std::vector<Eigen::Vector3d> landmark_gradient;       ///< g_m(i), by slot
   std::vector<Matrix63d> cross;                         ///< Lambda_pm(j, i), by slot and then by pose
-  std::vector<int> first_cross;                         ///< by slot; landmarks of known position have none
+  std::vector<int> first_cross;                         ///< index in `cross` by slot; landmarks of known position have
+                                                        ///< no entry
   Border border;                                        ///< row of the disparity offset
   double cost = 0.0;                                    ///< robust cost of sensor and process terms
 };
@@ -39,7 +40,7 @@ struct SensorTerm {
   Eigen::Matrix3d landmark;
   urban_nav_core::Vector6d pose_gradient, pose_border;
   Eigen::Vector3d landmark_gradient, landmark_border;
-  double border_information = 0.0, border_gradient = 0.0;  ///< of the disparity offset
+  double border_information = 0.0, border_gradient = 0.0;  ///< terms of the disparity offset
 };
 
 /// Contribution of one process term: blocks of the earlier (last) and the later (next) pose.

@@ -28,7 +28,7 @@ namespace swf_vo {
 class DriftSandwich {
  public:
   struct Ratio {
-    double translation = 1.0, rotation = 1.0;  // of variances
+    double translation = 1.0, rotation = 1.0;  // ratios of variances
   };
 
   /// Decreases the weight of earlier scores after a view change (rad).
@@ -45,7 +45,7 @@ class DriftSandwich {
     ImageRegion place = {0, 0};
     urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();        // sum w g
     urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();  // sum of I, of lives that overlap
-    std::array<double, 2> share = {0.0, 0.0};                                 // of all information
+    std::array<double, 2> share = {0.0, 0.0};                                 // share of all information
     void archive(urban_nav_core::Archive& archive);
   };
   Region& find(const Eigen::Vector2d& direction);

@@ -109,7 +109,7 @@ class Filter {
   Datum datum_;
   LandmarkScores scores_;
   std::optional<urban_nav_core::Matrix6d>
-      oldest_information_;   // of the oldest pose on itself at the last update, until it leaves
+      oldest_information_;   // information of the oldest pose on itself at the last update, until it leaves
   bool has_known_ = false;   // landmarks of known position
   bool gauge_free_ = false;  // no information on the pose in odom
 };

@@ -33,7 +33,7 @@ class History {
     std::vector<double> offset;          ///< 3 or 6
     std::vector<double> gain;            ///< column-major, offset.size() rows
     double disparity_offset = 0.0;       ///< estimate at that time
-    std::vector<double> disparity_gain;  ///< of the disparity offset, offset.size()
+    std::vector<double> disparity_gain;  ///< gain for the disparity offset, offset.size()
   };
 
   std::vector<Row> rows;  ///< in order of marginalisation

@@ -17,7 +17,7 @@ class LandmarkProcessNoise {
  public:
   struct Step {
     int block;                   ///< landmark of the prior
-    Eigen::Matrix2d covariance;  ///< of its bearing (a, b), positive definite
+    Eigen::Matrix2d covariance;  ///< covariance of its bearing (a, b), positive definite
   };
 
   /// Adds the steps to the prior, each block at most once. Transforms `departed`, the gain of the last marginalised

@@ -15,7 +15,7 @@ struct DriftScore {
   double offset_score = 0.0, offset_information = 0.0;
   urban_nav_core::Vector6d offset_cross = urban_nav_core::Vector6d::Zero();
   double life = 0.0;                                    ///< view change (rad) from the first to the last measurement
-  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< of the landmark in that camera: (x, y) / z
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< direction of the landmark in that camera: (x, y) / z
 };
 
 /// Score of a constant-rate camera drift over the landmark's lifetime.
@@ -46,7 +46,7 @@ class LandmarkScore {
   double born_ = 0.0, last_ = 0.0;                       // view change, rad
   Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();  // theta at which score_ is taken
   Anchor anchor_;                                        // xi is about its origin
-  Matrix10d information_ = Matrix10d::Zero();            // of theta, xi, offset
+  Matrix10d information_ = Matrix10d::Zero();            // states: theta, xi, offset
   Vector10d score_ = Vector10d::Zero();
 };
 

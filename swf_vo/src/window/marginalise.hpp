@@ -75,7 +75,7 @@ class Marginaliser {
   }
 
   std::vector<int> kept_, dying_;  // slots
-  std::vector<int> place_;         // by slot: remaining: 3 i; eliminated: -1 - 3 i; neither: unused
+  std::vector<int> place_;         // index by slot: remaining: 3 i; eliminated: -1 - 3 i; neither: unused
   std::vector<Run> runs_;
   int eliminated_ = 0, remaining_ = 0;  // sizes: e and n
   int stride_ = 0;
@@ -87,7 +87,7 @@ class Marginaliser {
   double offset_information_ = 0.0, offset_gradient_ = 0.0;
   std::vector<double> d_, g_;
   std::vector<Block> blocks_;                    // eliminated ones, in order
-  std::vector<urban_nav_core::Matrix6d> roots_;  // of each: G with G G^T = (pseudo-)inverse of its pivot
+  std::vector<urban_nav_core::Matrix6d> roots_;  // G with G G^T = (pseudo-)inverse of the pivot, for each block
   Departed departed_;
   std::vector<double> times_root_;
   std::vector<double> directions_;               // G, (e + n) x 6

@@ -33,7 +33,7 @@ class PoseElimination {
 
  private:
   struct Link {
-    urban_nav_core::Matrix6d L;     ///< of this pose
+    urban_nav_core::Matrix6d L;     ///< Cholesky factor of this pose
     urban_nav_core::Matrix6d next;  ///< rows of the next pose, multiplied by L^-T
     bool held[6];
   };

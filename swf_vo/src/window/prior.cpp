@@ -16,8 +16,7 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kDegreesOfFreedom = 4.0;  // of the distribution of calibration errors: common choice for data with
-                                           // outliers
+constexpr double kDegreesOfFreedom = 4.0;  // Student's t for calibration errors: common choice for data with outliers
 
 }  // namespace
 

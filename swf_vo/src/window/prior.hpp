@@ -32,7 +32,7 @@ struct Prior {
   bool has_offset = false;                                        ///< the disparity offset is a state; else a constant
   std::vector<double> border;                                     ///< 3 slots.size() + 6
   double offset_information = 0.0, offset_eta = 0.0;              ///< from measurements
-  double calibrated_offset = 0.0, calibration_information = 0.0;  ///< of the calibration
+  double calibrated_offset = 0.0, calibration_information = 0.0;  ///< calibrated value and its information
 
   int landmarkSize() const { return 3 * static_cast<int>(slots.size()); }
   int size() const { return has_pose ? landmarkSize() + 6 : 0; }

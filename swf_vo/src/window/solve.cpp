@@ -21,7 +21,7 @@ constexpr double kLeastSolvePivot = 1e-12;
 constexpr double kWorthChanging = 0.7;
 // Columns of eliminated landmarks processed together.
 constexpr int kSolvePanel = 48;
-constexpr std::size_t kMostRows = 1 << 20;  // of an archived factor
+constexpr std::size_t kMostRows = 1 << 20;  // limit for an archived factor
 // Arbitrary; this value gives the oldest pose a negligible variance.
 constexpr double kDatumStrength = 1e3;
 // The disparity offset is estimated from the change of disparities with distance, as are all errors that the models of

@@ -88,7 +88,7 @@ class Solver {
   StripProduct product_;
   std::vector<double> columns_;
   DenseCholesky cholesky_;
-  std::vector<Eigen::Matrix3d> inverse_root_;  // by slot: R with R^T R = Lambda_m(i, i)^-1, lower triangular
+  std::vector<Eigen::Matrix3d> inverse_root_;  // R with R^T R = Lambda_m(i, i)^-1, lower triangular, by slot
   std::vector<Matrix63d> eliminated_;          // cross R^T, indexed as NormalEquations::cross
   Elimination elimination_;
   bool poses_first_ = false;
@@ -107,7 +107,7 @@ class Solver {
     std::vector<double> rows;               // Lambda^-1 border: landmarks of the prior, then poses
     std::vector<Eigen::Vector3d> landmark;  // ... by slot
     double pivot = 1.0;                     // remaining information of the offset
-    double calibration = 0.0;               // of this, from the calibration
+    double calibration = 0.0;               // calibration's part of it
     double caution = 1.0;                   // divisor of the measured information
   } border_;
 };

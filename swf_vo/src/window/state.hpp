@@ -28,8 +28,8 @@ struct Measurement {
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Matrix2d template_drift_covariance =
-      Eigen::Matrix2d::Zero();  ///< of the bearing, since the previous measurement
-  double sigma_px = 0.0;        ///< of the alignment only
+      Eigen::Matrix2d::Zero();  ///< for the bearing, since the previous measurement
+  double sigma_px = 0.0;        ///< standard deviation of the alignment only
   double inflation = 1.0;       ///< Observation::inflation
   double weight = 1.0;          ///< robust weight at the last linearisation; 0: not in front of the camera
   bool solved = false;          ///< this measurement was in the last solve
@@ -43,7 +43,7 @@ struct LandmarkBlock {
   Eigen::Vector3d linearised = Eigen::Vector3d::Zero();
   int prior = -1;  ///< index of the landmark in the prior; -1: not in the prior
   Eigen::Matrix2d template_drift_covariance =
-      Eigen::Matrix2d::Zero();  ///< of the bearing, since the last update of the prior
+      Eigen::Matrix2d::Zero();  ///< for the bearing, since the last update of the prior
   bool used = false;            ///< false: the slot is free
   bool known = false;           ///< known position: a constant, not a state
   bool followed = true;         ///< still tracked
@@ -60,8 +60,8 @@ void archive(urban_nav_core::Archive& archive, LandmarkBlock& landmark);
 class State {
  public:
   std::vector<PoseBlock> poses;          ///< oldest first
-  std::int64_t first_step = 0;           ///< of poses.front()
-  std::vector<LandmarkBlock> landmarks;  ///< by slot
+  std::int64_t first_step = 0;           ///< step of poses.front()
+  std::vector<LandmarkBlock> landmarks;  ///< indexed by slot
   double disparity_offset = 0.0;         ///< px, of the camera (StereoCamera): one number for all frames
 
   std::int64_t newestStep() const { return first_step + static_cast<std::int64_t>(poses.size()) - 1; }

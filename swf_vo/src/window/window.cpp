@@ -18,7 +18,8 @@ using urban_nav_core::StereoCamera;
 class Window::Implementation {
  public:
   Implementation(const WindowOptions& chosen, const StereoCamera& camera) : options(chosen), filter(chosen, camera) {
-    frames.reserve(static_cast<std::size_t>(std::clamp(chosen.size, 1, 256)) + 2);  // of one landmark
+    frames.reserve(static_cast<std::size_t>(std::clamp(chosen.size, 1, 256)) + 2);  // frames with measurements of one
+                                                                                    // landmark
   }
 
   // Returns whether a measurement belongs to an earlier frame and information was marginalised since.

@@ -29,9 +29,9 @@ struct WindowOptions {
   double tolerance = 1e-5;  ///< stops once the predicted decrease of the cost (chi-square) of a step is below this
   bool exact_undo =
       true;  ///< withdraw and late observe give the exact result (undo.hpp); false: only the measurement is inserted or
-             ///< removed, and what was marginalised since keeps its linearisation points
+             ///< removed, and marginalised terms keep their linearisation points
   double datum_ratio = 100.0;  ///< once the variance of the pose of the whole window exceeds this multiple of that of a
-                               ///< single frame, the gauge is fixed anew and the difference carried separately
+                               ///< single frame, the gauge is fixed again and the difference carried separately
                                ///< (datum.hpp); affects rounding only
   double disparity_offset =
       0.0;  ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
@@ -57,11 +57,11 @@ struct SettledPose {
   urban_nav_core::PoseWithCovariance T_odom_camera;  ///< previous pose times T_previous_camera, to the last bit
   urban_nav_core::Pose T_previous_camera;            ///< from the previous settled pose; identity for the first
   urban_nav_core::Matrix6d relative_covariance =
-      urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`, both at settling
+      urban_nav_core::Matrix6d::Zero();  ///< covariance of T_previous_camera, in `previous`, both at settling
   urban_nav_core::Matrix6d drift_covariance =
       urban_nav_core::Matrix6d::Zero();  ///< the part that accumulates over steps; equal to relative_covariance if the
                                          ///< filter does not separate the gauge (datum.hpp)
-  urban_nav_core::ConsideredConstants constants;  ///< of T_previous_camera, in `previous`
+  urban_nav_core::ConsideredConstants constants;  ///< sensitivity of T_previous_camera, in `previous`
 };
 
 struct UpdateReport {
@@ -69,7 +69,7 @@ struct UpdateReport {
   bool converged = false;
   int observations = 0;          ///< in the window, without dropped ones
   int downweighted = 0;          ///< with a robust weight below one half
-  int dropped = 0;               ///< of landmarks behind a camera or not finite: without influence
+  int dropped = 0;               ///< landmarks behind a camera or not finite: without influence
   double reprojection_px = 0.0;  ///< root mean square over the newest frame, left image
   int landmarks = 0;
   int landmarks_in_prior = 0;
@@ -119,7 +119,7 @@ class Window {
   /// Returns the newest pose; before update() the prediction, or the initial estimate of the process input. Requires
   /// start().
   urban_nav_core::PoseWithCovariance newest() const;
-  urban_nav_core::Pose pose(FrameId frame) const;  ///< of an active frame
+  urban_nav_core::Pose pose(FrameId frame) const;  ///< pose of an active frame
   bool hasPose(FrameId frame) const;
   std::size_t poses() const;  ///< number of active poses
   /// Current estimate of the camera's disparity offset, px, and its standard deviation (0 if it is a constant).
@@ -129,7 +129,8 @@ class Window {
   double scaleSigma() const;
   /// Tracked landmarks, in order of id; valid until the next change.
   const std::vector<MapPoint>& map() const;
-  /// Returns the robust weight of the newest observation of a landmark in the last update (0...1); 1 if there is none.
+  /// Returns the robust weight of the newest observation of a landmark in the last update (0...1); 1 without
+  /// observation.
   double weight(LandmarkId landmark) const;
 
   /// Returns landmarks that are not static (drifting_landmarks.hpp) according to the last update: to be withdrawn and
