@@ -11,8 +11,8 @@
 
 namespace urban_nav_registration {
 
-/// Returns the first and the last frame of odometry within `way` m of travel before and after a stamp, at most 20 s
-/// from it.
+/// Returns the first and the last frame of odometry within a distance of `way` (m) driven before and after a stamp, and
+/// within 20 s of it.
 std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs> stretchAround(const urban_nav_core::OdometryChain& odometry,
                                                                           urban_nav_core::StampNs at, double way);
 
@@ -25,9 +25,9 @@ struct LaserScans {
       forEach;
 };
 
-/// Returns the points of the lasers on the stretch around a stamp, rendered beam by beam along odometry, with the
+/// Returns the points of the lasers within that distance of a stamp, computed beam by beam along odometry, with the
 /// origins of the beams, in base_link at the stamp (Newman et al. 2009, section 4.2). Empty if odometry does not cover
-/// the stamp. At most 400 000 points, evenly thinned.
+/// the stamp. Evenly thinned to at most 400 000 points.
 urban_nav_core::PointCloud localCloud(const urban_nav_core::OdometryChain& odometry, urban_nav_core::StampNs at,
                                       double way, const std::vector<LaserScans>& lasers);
 
