@@ -23,7 +23,7 @@ urban_nav_core::Row<Parameters> withOldName(urban_nav_core::Row<Parameters> row,
 
 Parameters::Parameters() { table().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on a separate line.
 // clang-format off
 const Table<Parameters>& table() {
   using P = Parameters;

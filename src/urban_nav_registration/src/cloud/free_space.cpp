@@ -9,12 +9,12 @@ using urban_nav_core::PointCloud;
 
 namespace {
 
-constexpr std::size_t kWide = 128, kHigh = 64;  // cubes: 64 m by 64 m by 32 m of half a metre
+constexpr std::size_t kWide = 128, kHigh = 64;  // cubes: 64 m by 64 m by 32 m for cubes of half a metre
 constexpr std::size_t kAcross = kWide, kAbove = kWide * kWide;
 constexpr std::uint8_t kOccupied = 255;
-constexpr std::uint8_t kFewest = 2;         // beams: one alone may have gone by at the cube's edge
-constexpr std::size_t kMostBeams = 40'000;  // a laser's 181 in each of 100 scans over 20 m, twice
-constexpr float kBeforeTheEnd = 2.0F;       // edges
+constexpr std::uint8_t kFewest = 2;         // beams: a single one may have passed at the cube's edge
+constexpr std::size_t kMostBeams = 40'000;  // two lasers with 181 beams in each of 100 scans over 20 m
+constexpr float kBeforeTheEnd = 2.0F;       // edges before the end of a beam
 
 }  // namespace
 

@@ -16,13 +16,13 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs kLongestStay = 20'000'000'000;  // ns: before and after a time, however little the robot moved
-constexpr StampNs kLongestGap = 500'000'000;      // ns without a pose in which beams have no place
-constexpr double kUsualRange = 10.0;              // m: of surfaces beside a street
-constexpr double kLeastBend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s
-constexpr std::size_t kMostPoints = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
+constexpr StampNs kLongestStay = 20'000'000'000;  // ns before and after a stamp, for a slow or standing robot
+constexpr StampNs kLongestGap = 500'000'000;      // ns without a pose, in which beams are dropped
+constexpr double kUsualRange = 10.0;              // m, typical distance of surfaces in a street
+constexpr double kLeastBend = 0.005;              // m: a millisecond of the lasers' clocks at a yaw rate of 0.5 rad/s
+constexpr std::size_t kMostPoints = 400'000;      // per cloud: two lasers of 75 Hz and 181 beams over 15 s
 
-/// Evenly, so that dense clouds stay bounded.
+/// Thins the cloud evenly to kMostPoints.
 void thin(PointCloud& cloud) {
   if (cloud.points.size() <= kMostPoints) return;
   const std::size_t step = (cloud.points.size() + kMostPoints - 1) / kMostPoints;
@@ -73,8 +73,8 @@ PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, con
   return cloud;
 }
 
-// Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is
-// a third of that over a half.
+// Mean deviation of a random walk from end to end after alignment by its mean: a sixth of its variance over the whole
+// length, which is a third of that over a half.
 double deformationSigma(const OdometryChain& odometry, StampNs at, double way) {
   if (!odometry.nearestFrame(at)) return 0.0;
   const auto [first, last] = stretchAround(odometry, at, way);

@@ -16,8 +16,8 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr int kConversionQuality = 95;     // of JPEG: the image has been compressed once before
-constexpr int kLargestCoordinate = 32767;  // px: points are kept in 16 bits
+constexpr int kConversionQuality = 95;     // JPEG quality: the image was compressed once before
+constexpr int kLargestCoordinate = 32767;  // px: points are stored in 16 bits
 
 cv::Matx33d toIntrinsics(const Pinhole& camera) {
   return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
@@ -46,7 +46,7 @@ bool KeyframeConversion::convertPoint(const KeyframePoint& point, KeyframePoint&
   made.u = static_cast<std::int16_t>(rounded.x());
   made.v = static_cast<std::int16_t>(rounded.y());
   if (!to_.left.contains(made.pixel())) return false;
-  // The depth at the whole pixel beside it, along the surface.
+  // Depth at the rounded pixel, along the surface.
   const double scale = its_per_depth / per_depth;
   const double slope_u = scale * static_cast<double>(point.slope_u) * from_.left.fx / to_.left.fx;
   const double slope_v = scale * static_cast<double>(point.slope_v) * from_.left.fy / to_.left.fy;

@@ -12,7 +12,7 @@ namespace urban_nav_registration {
 namespace {
 
 constexpr double kQuaternionTolerance = 1e-3;
-constexpr double kRounding = 1e-6;  // px, m; of a quaternion
+constexpr double kRounding = 1e-6;  // px, m, and quaternion elements
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::string calibrationFingerprint(const urban_nav_core::StereoCamera& camera,
 }
 
 std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& words) {
-  constexpr std::size_t kFewestValues = 12;  // one more if the disparity has an offset
+  constexpr std::size_t kFewestValues = 12;  // one more with a disparity offset
   MountedCamera made;
   urban_nav_core::Pinhole& left = made.camera.left;
   std::istringstream text(words);

@@ -20,17 +20,17 @@ namespace {
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-constexpr double kHuber = 2.5;                              // standard deviations, as swf_vo's
+constexpr double kHuber = 2.5;                              // standard deviations, as in swf_vo
 constexpr double kGateTwo = 13.8, kGateThree = 16.3;        // chi-square, 99.9 %
 constexpr double kMedianTwo = 1.386, kMedianThree = 2.366;  // of chi-square
-constexpr double kExactOffset = 1e6;                        // 1/px: what weighs an offset that is not allowed for
-constexpr int kPartsAcross = 4, kPartsDown = 3;             // of the image, within which errors may be alike
+constexpr double kExactOffset = 1e6;                        // 1/px: information of an offset that is not estimated
+constexpr int kPartsAcross = 4, kPartsDown = 3;             // parts of the image, within which errors may be correlated
 constexpr double kLeastDepthSigmas = 3.0;
 constexpr double kSettledM = 1e-6, kSettledRad = 1e-7;
-// Keeps the pose where matches leave it open; far below what any match says.
+// Constrains the pose in undetermined directions; far below the information of any match.
 constexpr double kAnchor = 1e-6;
 
-/// One sight linearised at its best depth, the depth eliminated.
+/// One sight linearised at its best depth, with the depth eliminated.
 struct Reduced {
   bool visible = false;
   Matrix7d H;
@@ -60,8 +60,8 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
     if (std::abs(d) < 1e-7 || step + 1 == kMostSteps) break;
     rho += d;
   }
-  // A depth that is not distinguishable from infinity has a derivative of noise, which would pass for knowledge of the
-  // translation.
+  // The derivative with respect to a depth indistinguishable from infinity is noise, which would act as information on
+  // the translation.
   if (rho * camera.left.fx * camera.baseline < kLeastDepthSigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
   const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;
   const Eigen::Matrix<double, 8, 8> H = JW * r.J;
@@ -81,7 +81,7 @@ double computeWeight(double chi2, double scale2) {
   return chi > kHuber ? kHuber / chi : 1.0;
 }
 
-/// How much larger squared residuals are than promised, by their median, which outliers do not move.
+/// Returns the ratio of squared residuals to their expected values, by the median, for robustness against outliers.
 double estimateScale(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
                      std::vector<double>& ratios) {
   ratios.clear();
@@ -94,10 +94,10 @@ double estimateScale(const std::vector<Sight>& sights, const std::vector<Reduced
   return std::max(1.0, *middle);
 }
 
-/// How much larger the covariance is than independent errors would have it: errors of neighbours are alike, since they
-/// lie on one surface, under one light, so the scores of each part of the image are summed before they are squared
-/// (Liang and Zeger 1986). One mean over the directions of the translation and one over those of the rotation: from
-/// some ten parts each direction alone would be known to no better than a factor of two.
+/// Ratio of the covariance to that for independent errors. Errors of neighbours are correlated by a common surface and
+/// light, so the scores of each part of the image are summed before they are squared (Liang and Zeger 1986). One mean
+/// over the directions of the translation and one over those of the rotation: for single directions about ten parts
+/// would give an accuracy of a factor of two only.
 struct Inflation {
   double translation = 1.0, rotation = 1.0;
 };
@@ -137,7 +137,7 @@ Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights
   return {mean(0), mean(3)};
 }
 
-/// With errors of all sights in common: as if the other camera were turned, and as if it stood elsewhere.
+/// Adds errors common to all sights: apparent rotation and displacement of the other camera.
 Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const EstimateOptions& options,
                          const Matrix6d& information) {
   Matrix6d spread = Matrix6d::Zero();
@@ -146,7 +146,7 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   // (C + spread spread^T)^-1, without inverting the information, which may be singular
   const Matrix6d seen = information * spread;
   const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
-  // Eigen solves a transposed right side by rows, in another order of sums than solveByLdlt.
+  // Eigen solves a transposed right side by rows, with another order of summation than solveByLdlt.
   const Matrix6d made = information - seen * inner.ldlt().solve(seen.transpose());
   return 0.5 * (made + made.transpose());
 }

@@ -20,25 +20,26 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double kLeastViewCorrelation = 0.8;  // as swf_vo's
+constexpr double kLeastViewCorrelation = 0.8;  // as in swf_vo
 constexpr double kLeastGain = 0.2, kLargestGain = 5.0;
-constexpr double kSmallestScale = 0.3, kLargestScale = 3.5;  // of a patch from view to view: beyond, nothing is alike
-constexpr double kMostStretch = 2.5;                         // of one axis over the other: a wall seen edge-on
+constexpr double kSmallestScale = 0.3, kLargestScale = 3.5;  // scale of a patch between views: beyond, patches are not
+                                                             // similar
+constexpr double kMostStretch = 2.5;                         // ratio of the axes: a wall at a grazing angle
 constexpr int kViewMargin = urban_nav_core::kPatchRadius + 3;
-constexpr double kSamePointPx = 3.0;  // of the level: a corner that the other view chose as well
-constexpr double kOwnWindowPx = 6.0;  // of the level: nearer patches share their pixels
+constexpr double kSamePointPx = 3.0;  // px of the level: a corner that was also detected in the other view
+constexpr double kOwnWindowPx = 6.0;  // px of the level: nearer patches share pixels
 constexpr double kLeastDepthShare =
-    0.02;  // of the inverse depth: what one sight's disparity does not know of the other's
+    0.02;  // of the inverse depth: uncertainty of the disparity of one sight with respect to the other
 constexpr std::size_t kPatchGrain = 32;
 
 struct Found {
   bool visible = false, found = false;
   double likeness = 0.0;
-  double size = 1.0;  // px of level 0 in one of the level it was found at
+  double size = 1.0;  // px of level 0 per pixel of the level of the measurement
   Sight sight;
 };
 
-/// Where a point lies and how it looks from the other view.
+/// Projection of a point into the other view, with the warp of its patch.
 struct PointView {
   PatchWarp warp;
   Eigen::Vector2d pixel;
@@ -55,7 +56,7 @@ std::optional<PointView> findPlace(const StereoCamera& camera, const Eigen::Vect
                    {camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy}};
 }
 
-/// By how much a warp enlarges; empty where it does so too much or too unevenly.
+/// Returns the scale of a warp; nullopt if it is too large, too small or too uneven.
 std::optional<double> enlargement(const Eigen::Matrix2d& A) {
   const double area = A.determinant();
   if (!(area > kSmallestScale * kSmallestScale && area < kLargestScale * kLargestScale)) return std::nullopt;
@@ -76,7 +77,7 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   if (!place) return made;
   const auto scale = enlargement(place->warp.A);
   if (!scale) return made;
-  // Both patches about equally large: from level f to level t.
+  // Levels f and t at which the patches have similar size.
   int f = point.level + options.coarser;
   int t = f + static_cast<int>(std::lround(std::log2(*scale)));
   if (t < 0) {
@@ -85,7 +86,7 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   }
   if (f >= from.pyramid.levels() || t >= to.pyramid.levels()) return made;
   const double from_scale = Pyramid::scale(f), to_scale = Pyramid::scale(t);
-  // The template's middle is a whole pixel of its level, which need not be the point.
+  // The centre of the template is a whole pixel of its level, not the point itself.
   const int u = static_cast<int>(std::lround(point.pixel.x() * from_scale)),
             v = static_cast<int>(std::lround(point.pixel.y() * from_scale));
   const auto source = urban_nav_core::cutSource(from.pyramid.level(f), u, v);
@@ -114,11 +115,11 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   Sight& sight = made.sight;
   sight.size = made.size;
   sight.ray = ray;
-  // the surface goes on to the template's middle
+  // disparity along the surface at the centre of the template
   sight.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
   sight.sigma_disparity = point.sigma_disparity;
   sight.pixel = aligned.position * made.size;
-  // Both images have noise; the alignment knows of one.
+  // Both images have noise; the alignment models that of one.
   sight.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
   sight.covariance *= made.size * made.size;
   return made;

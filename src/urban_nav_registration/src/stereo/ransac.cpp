@@ -14,18 +14,19 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double kCornerPx = 1.0;     // of its level: how well a corner is found again
-constexpr double kDisparityPx = 0.3;  // added to its own deviation: the two corners are not quite one point
+constexpr double kCornerPx = 1.0;     // px of its level: repeatability of corners
+constexpr double kDisparityPx = 0.3;  // px, added to the standard deviation: the two corners are not exactly the same
+                                      // point
 constexpr double kGate = 16.3;        // chi-square, 3 degrees of freedom, 99.9 %
 constexpr double kConfidence = 0.999;
 constexpr int kLeastSamples = 60, kMostSamples = 1500;
-constexpr int kFewestInliers = 8;        // that agree: three fit by definition, and chance finds some more
-constexpr double kLeastZ = 1.0 / 200.0;  // 1/m: of the points of a triple, with depth to speak of
+constexpr int kFewestInliers = 8;        // inliers: three fit by definition, and a few more by chance
+constexpr double kLeastZ = 1.0 / 200.0;  // 1/m: minimum inverse depth of the points of a triple
 
 struct Item {
   Sight sight;
-  Eigen::Vector3d p_a, p_b;  // over their depths: not used for far points
-  bool deep = false;         // has depth on both sides
+  Eigen::Vector3d p_a, p_b;  // in units of their depths: not used for far points
+  bool deep = false;         // depth is significant in both views
   double rho = 0.0, sigma_rho = 0.0, sigma_px = 1.0;
 };
 
@@ -61,7 +62,7 @@ std::vector<Item> makeItems(const StereoCamera& camera, const View& a, const Vie
   return items;
 }
 
-/// Chi-square of a pair with three degrees of freedom; the gate where it is more.
+/// Returns the chi-square of a pair with three degrees of freedom, limited to the gate.
 double misfit(const Item& item, const StereoCamera& camera, const Eigen::Matrix3d& R_b_a,
               const Eigen::Vector3d& t_b_a) {
   const auto& c = camera.left;
@@ -99,7 +100,8 @@ Score computeScore(const std::vector<Item>& items, const StereoCamera& camera, c
   return score;
 }
 
-/// Axes of a triangle: along its first side, in its plane, across it. Empty where the points lie in a row or together.
+/// Returns the axes of a triangle: along its first side, in its plane, normal to it. Empty if the points are collinear
+/// or coincide.
 std::optional<Eigen::Matrix3d> findAxes(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
   const Eigen::Vector3d x = q - p, n = x.cross(r - p);
   if (!(n.norm() > 0.02 * x.norm() * (r - p).norm()) || !(x.norm() > 0.05)) return std::nullopt;
@@ -132,7 +134,7 @@ std::optional<Pose> throughTriple(const std::array<const Item*, 3>& triple, cons
   return refined.T_a_b;
 }
 
-/// From all pairs that agree, until no more join.
+/// Repeats the estimation from all inliers until their number does not increase.
 Pose improve(const std::vector<Item>& items, const StereoCamera& camera, Pose T_a_b, Score& score) {
   for (int round = 0; round < 3; ++round) {
     const Pose T_b_a = T_a_b.inverse();

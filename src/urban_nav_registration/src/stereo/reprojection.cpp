@@ -9,7 +9,7 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double kLeastDepth = 1e-3;  // of z over the depth in its own view
+constexpr double kLeastDepth = 1e-3;  // ratio of z to the depth in its own view
 
 }  // namespace
 
@@ -24,7 +24,7 @@ SightResidual computeResidual(const Sight& sight, const StereoCamera& camera, co
   const double per_depth = c.fx * camera.baseline, rho = inverse_depth;
   const Eigen::Matrix3d R = T_a_b.R();
   const Eigen::Vector3d& t = T_a_b.t();
-  // p: the point in the other view over its depth in its own, so that far points need no special case
+  // p: point in the other view divided by the depth in its own view, so that far points need no special case
   Eigen::Vector3d p, p_by_depth;
   Eigen::Matrix<double, 3, 6> p_by_pose;
   if (sight.of_a) {
