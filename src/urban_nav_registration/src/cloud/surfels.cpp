@@ -184,12 +184,12 @@ class VoxelNeighbours {
 };
 
 /// Plane through the points of a cube and its 26 neighbours; negative planarity: no surface at this scale.
-struct Lie {
+struct LocalPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float planarity = -1.0F;
 };
 
-Lie computeLie(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
+LocalPlane fitLocalPlane(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
   if (all.count < 3.0F) return {};
   const float share = 1.0F / all.count;
   const Eigen::Vector3f mean = share * all.sum;
@@ -205,24 +205,24 @@ Lie computeLie(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
 }
 
 /// Computes the planes of all wanted cubes of a grid, in the order of the grid.
-std::vector<Lie> computeLies(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
-                             const Eigen::Matrix3f& flat) {
+std::vector<LocalPlane> fitLocalPlanes(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
+                                       const Eigen::Matrix3f& flat) {
   constexpr std::size_t kRun = 512;
   const std::vector<Placed> placed = inOrder(grid);
-  std::vector<Lie> lies(placed.size());
+  std::vector<LocalPlane> planes(placed.size());
   urban_nav_core::forEach((placed.size() + kRun - 1) / kRun, 1, [&](std::size_t run) {
     VoxelNeighbours neighbours(grid, placed, edge);
     for (std::size_t i = run * kRun; i < std::min(placed.size(), (run + 1) * kRun); ++i)
       if (wanted[placed[i].number] != 0)
-        lies[placed[i].number] = computeLie(neighbours.around(placed[i].key), edge, flat);
+        planes[placed[i].number] = fitLocalPlane(neighbours.around(placed[i].key), edge, flat);
   });
-  return lies;
+  return planes;
 }
 
 constexpr int kScales = 4;  // cubes of 1, 2, 4, 8 voxels: far from the sensor its beams are metres apart
 
-/// Returns the normal of the plane if all points and the sensor lie in one plane, to a hundredth of the voxel. A plane
-/// below the sensor is ground.
+/// Returns the normal of the plane if all points and the sensor lie in one plane, to a hundredth of the voxel.
+/// A plane below the sensor is ground.
 std::optional<Eigen::Vector3f> findScanPlane(const SurfelGrid& grid, float voxel) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
@@ -270,17 +270,18 @@ Surfels makeSurfels(const PointCloud& cloud, float voxel) {
     }
     std::vector<std::uint8_t> wanted(grid.cubes.size(), 0);
     for (const std::uint32_t i : open) wanted[cube_of[i]] = 1;
-    const std::vector<Lie> lies = computeLies(grid, wanted, edge, flat);
+    const std::vector<LocalPlane> planes = fitLocalPlanes(grid, wanted, edge, flat);
     std::vector<std::uint32_t> still_open;
     for (const std::uint32_t i : open) {
-      const Lie& lie = lies[cube_of[i]];
-      if (lie.planarity < 0.0F) {
+      const LocalPlane& local_plane = planes[cube_of[i]];
+      if (local_plane.planarity < 0.0F) {
         still_open.push_back(i);
         continue;
       }
       Surfel& surfel = surfels.all[i];
-      surfel.normal = lie.normal.dot(surfel.mean) > 0.0F ? Eigen::Vector3f(-lie.normal) : lie.normal;
-      surfel.planarity = lie.planarity;
+      surfel.normal =
+          local_plane.normal.dot(surfel.mean) > 0.0F ? Eigen::Vector3f(-local_plane.normal) : local_plane.normal;
+      surfel.planarity = local_plane.planarity;
     }
     open = std::move(still_open);
   }

@@ -290,20 +290,20 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   const auto explain = [&] {
     if (!pair.explained) pair.explained = explainedBy(source, target, parameters.laser_bias, voxel);
   };
-  const auto look = [&](const Vector3d& centre, const SearchResolution& grain) {
+  const auto findCandidates = [&](const Vector3d& centre, const SearchResolution& grain) {
     return searchGlobally(extractVerticalStructure(surfels[0], grain), extractVerticalStructure(surfels[1], grain),
                           centre, parameters.search_radius, grain);
   };
   if (search == SearchMode::AtOnce) {
     explain();
-    return searched(pair, guess, alignment, nullptr, look(guess.t(), kFineResolution));
+    return searched(pair, guess, alignment, nullptr, findCandidates(guess.t(), kFineResolution));
   }
   const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
   const Alignment local = judged(first, pair, localEvidence(first, pair), alignment);
   if (search == SearchMode::Never || local.verdict == ClosureVerdict::Degenerate) return local;
   const bool failed = local.verdict == ClosureVerdict::Rejected;
-  const std::vector<PoseCandidate> others =
-      failed ? look(guess.t(), kFineResolution) : findRivals(local, look(guess.t(), kCoarseResolution));
+  const std::vector<PoseCandidate> others = failed ? findCandidates(guess.t(), kFineResolution)
+                                                   : findRivals(local, findCandidates(guess.t(), kCoarseResolution));
   if (!failed && others.empty()) return local;
   explain();
   return searched(pair, guess, alignment, &first, others);

@@ -155,27 +155,27 @@ Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pos
   const Points of_target = finite(target), of_source = finite(source);
   cv::Mat canvas(size + kCaptionHeight, 3 * size + 2 * kPanelGap, CV_8UC3, kPaper);
   const Extent extent = computeExtent(of_target, moved(of_source, T_target_source));
-  struct Look {
+  struct Projection {
     const char* title;
     const Pose& T;
     int up;
   };
-  const Look looks[] = {{"before, from above", T_guess, 1},
-                        {"aligned, from above", T_target_source, 1},
-                        {"aligned, from the side", T_target_source, 2}};
+  const Projection projections[] = {{"before, from above", T_guess, 1},
+                                    {"aligned, from above", T_target_source, 1},
+                                    {"aligned, from the side", T_target_source, 2}};
   int left = 0;
-  for (const Look& look : looks) {
+  for (const Projection& projection : projections) {
     cv::Mat area = canvas(cv::Rect(left, 0, size, size));
-    CloudPanel panel(area, extent, 0, look.up);
-    panel.draw(of_target, moved(of_source, look.T));
+    CloudPanel panel(area, extent, 0, projection.up);
+    panel.draw(of_target, moved(of_source, projection.T));
     panel.drawOrigin(Eigen::Vector3d::Zero(), kRed);
-    panel.drawOrigin(look.T.t(), kBlue);
-    if (&look.T == &T_target_source)
+    panel.drawOrigin(projection.T.t(), kBlue);
+    if (&projection.T == &T_target_source)
       for (const urban_nav_core::Vector6d& direction : options.free_directions)
         if (direction.allFinite() && direction.head<3>().norm() > 0.5)
-          panel.drawFree(look.T.t(), direction.head<3>().normalized());
+          panel.drawFree(projection.T.t(), direction.head<3>().normalized());
     panel.drawBar();
-    writeTitle(area, look.title);
+    writeTitle(area, projection.title);
     left += size + kPanelGap;
   }
   cv::Mat below = canvas(cv::Rect(0, size, canvas.cols, kCaptionHeight));

@@ -152,8 +152,8 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
 }
 
 /// Sets the outcome of each sight, the number of inliers and their mean residual.
-void judgeSights(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, double scale2,
-                 const EstimateOptions& options, Estimate& made) {
+void classifySights(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, double scale2,
+                    const EstimateOptions& options, Estimate& made) {
   made.sights.resize(sights.size());
   double total = 0.0;
   for (std::size_t i = 0; i < sights.size(); ++i) {
@@ -224,7 +224,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, kOfOffset);
   made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
   made.information = withCommonError(camera, made.T_a_b, options, made.information);
-  judgeSights(sights, reduced, scale2, options, made);
+  classifySights(sights, reduced, scale2, options, made);
   made.found = made.inliers >= 3 && made.T_a_b.isFinite() && made.information.allFinite();
   return made;
 }

@@ -67,8 +67,8 @@ std::optional<double> enlargement(const Eigen::Matrix2d& A) {
   return std::sqrt(area);
 }
 
-Found look(const StereoCamera& camera, const View& from, const View& to, const ViewPoint& point, const Pose& T_to_from,
-           double offset, const AligningOptions& options) {
+Found alignPoint(const StereoCamera& camera, const View& from, const View& to, const ViewPoint& point,
+                 const Pose& T_to_from, double offset, const AligningOptions& options) {
   Found made;
   const double rho =
       std::max(0.0, (point.disparity - camera.disparity_offset - offset) / (camera.left.fx * camera.baseline));
@@ -125,11 +125,11 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   return made;
 }
 
-std::vector<Found> lookForAll(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
-                              double offset, const AligningOptions& options) {
+std::vector<Found> alignAllPoints(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
+                                  double offset, const AligningOptions& options) {
   std::vector<Found> found(from.points.size());
   urban_nav_core::forEach(from.points.size(), kPatchGrain, [&](std::size_t i) {
-    found[i] = look(camera, from, to, from.points[i], T_to_from, offset, options);
+    found[i] = alignPoint(camera, from, to, from.points[i], T_to_from, offset, options);
     found[i].sight.point = static_cast<int>(i);
   });
   return found;
@@ -140,8 +140,8 @@ std::vector<Found> lookForAll(const StereoCamera& camera, const View& from, cons
 Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, const Pose& T_a_b, double offset,
                    const AligningOptions& options) {
   Aligned made;
-  std::vector<Found> of_a = lookForAll(camera, a, b, T_a_b.inverse(), offset, options);
-  const std::vector<Found> of_b = lookForAll(camera, b, a, T_a_b, offset, options);
+  std::vector<Found> of_a = alignAllPoints(camera, a, b, T_a_b.inverse(), offset, options);
+  const std::vector<Found> of_b = alignAllPoints(camera, b, a, T_a_b, offset, options);
   const auto see = [&made](const Found& found) {
     if (!found.visible) return;
     ++made.visible;

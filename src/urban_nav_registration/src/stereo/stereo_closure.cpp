@@ -156,7 +156,7 @@ class StereoMatcher::Implementation {
   };
 
   /// Aligns all points and updates the motion; leaves it unchanged without a solution.
-  void look(const View& a, const View& b, AligningOptions round, Refined& refined) const {
+  void alignAndEstimate(const View& a, const View& b, AligningOptions round, Refined& refined) const {
     if (round.floor_px == 0.0) round.floor_px = parameters_.pixel_noise_floor;
     Aligned aligned = alignViews(camera_, a, b, refined.T_a_b, refined.found.offset, round);
     if (aligned.sights.size() < 6) return;
@@ -179,7 +179,7 @@ class StereoMatcher::Implementation {
       if (!motion.found) break;
       Refined its;
       its.T_a_b = motion.T_a_b;
-      for (std::size_t round = 0; round < kCoarseRounds; ++round) look(a, b, kRounds[round], its);
+      for (std::size_t round = 0; round < kCoarseRounds; ++round) alignAndEstimate(a, b, kRounds[round], its);
       if (its.worth() > best.worth()) {
         best = std::move(its);
         closure.consensus = motion.inliers;
@@ -191,7 +191,8 @@ class StereoMatcher::Implementation {
   }
 
   StereoClosure refine(const View& a, const View& b, Refined refined, StereoClosure& closure) const {
-    for (std::size_t round = kCoarseRounds; round < kRounds.size(); ++round) look(a, b, kRounds[round], refined);
+    for (std::size_t round = kCoarseRounds; round < kRounds.size(); ++round)
+      alignAndEstimate(a, b, kRounds[round], refined);
     const Estimate& found = refined.found;
     const Aligned& aligned = refined.aligned;
     closure.visible = aligned.visible;
