@@ -168,7 +168,7 @@ class SwfVo::Implementation {
     evidence.gap = periods > kGapPeriods;
     const CorruptRowRepair::Repaired repaired = row_repair_.repair(pair);
     evidence.corrupted = repaired.corrupted;
-    evidence.image = images_.look(repaired.pair, degraded_);
+    evidence.image = images_.check(repaired.pair, degraded_);
     const StereoPair usable =
         evidence.image.exchange ? StereoPair{pair.stamp, repaired.pair.right, repaired.pair.left} : repaired.pair;
 

@@ -60,14 +60,14 @@ CorruptRowRepair::CorruptRowRepair(int width, int height)
 
 CorruptRowRepair::Repaired CorruptRowRepair::repair(const StereoPair& pair) {
   Repaired result{pair, false};
-  const auto mendOne = [&](ImageView& image, std::vector<std::uint8_t>& pixels) {
+  const auto repairOne = [&](ImageView& image, std::vector<std::uint8_t>& pixels) {
     if (image.width != width_ || image.height != height_ || !looksCorrupted(image)) return;
     repair(image, pixels);
     image = {pixels.data(), width_, height_, width_};
     result.corrupted = true;
   };
-  mendOne(result.pair.left, left_);
-  mendOne(result.pair.right, right_);
+  repairOne(result.pair.left, left_);
+  repairOne(result.pair.right, right_);
   return result;
 }
 

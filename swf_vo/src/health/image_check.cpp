@@ -67,7 +67,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   return figures;
 }
 
-ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
+ImageVerdict ImageCheck::check(const StereoPair& pair, bool was_degraded) {
   ImageVerdict verdict;
   const bool same_size = pair.left.width == pair.right.width && pair.left.height == pair.right.height;
   if (pair.left.empty() || pair.right.empty() || !same_size) {
@@ -111,7 +111,7 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   blurred_ = wider ? blurred_ + 1 : 0;
   const bool is_blurred = blurred_ > 0 && blurred_ <= kLongestBlur;
   if (is_blurred) verdict.reason = Reason::Blurred;
-  if ((doubtful || crossed || first) && looksExchanged(pair.left, pair.right)) {
+  if ((was_degraded || crossed || first) && looksExchanged(pair.left, pair.right)) {
     verdict.exchange = true;
     verdict.edges = {right.edges, left.edges};
     verdict.reason = Reason::Swapped;

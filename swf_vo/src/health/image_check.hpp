@@ -27,9 +27,9 @@ struct ImageVerdict {
 /// 512x384.
 class ImageCheck {
  public:
-  /// `doubtful`: the previous frame was not OK. The costly test for exchanged images runs in this case, at the start,
-  /// and if the images are more similar to each other's predecessors than to their own.
-  ImageVerdict look(const urban_nav_core::StereoPair& pair, bool doubtful);
+  /// `was_degraded`: the previous frame was not OK. The costly test for exchanged images runs in this case, at the
+  /// start, and if the images are more similar to each other's predecessors than to their own.
+  ImageVerdict check(const urban_nav_core::StereoPair& pair, bool was_degraded);
   void archive(urban_nav_core::Archive& archive);
 
  private:

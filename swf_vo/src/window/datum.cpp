@@ -64,7 +64,7 @@ void Datum::marginalised(const Matrix6d& loss) {
   const Matrix6d left = symmetric(information_ - loss);
   Matrix6d before, after;
   if (!invert(information_, before) || !invert(left, after)) {
-    giveUp();
+    disable();
     return;
   }
   information_ = left;
@@ -80,7 +80,7 @@ void Datum::scaleGrowth(const DriftSandwich::Ratio& ratio) {
 }
 
 // Computes G and u = Pi G.
-void Datum::look(const State& state, const Prior& prior) {
+void Datum::computeGaugeProducts(const State& state, const Prior& prior) {
   const int n = prior.size();
   gauge::ofPrior(state, prior, origin_, directions_);
   held_.assign(static_cast<std::size_t>(6 * n), 0.0);
@@ -98,7 +98,7 @@ Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
   Vector6d per_px = Vector6d::Zero();
   release_.reset();
   if (!prior.has_offset || !active_) return per_px;
-  look(state, prior);
+  computeGaugeProducts(state, prior);
   const int n = prior.size();
   const Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
   Matrix6d covariance;
@@ -131,7 +131,7 @@ double Datum::scaleSigma() const {
   return std::sqrt(rig_scale_ * rig_scale_ + per_px * per_px * offset_.error());
 }
 
-bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
+bool Datum::fixGauge(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
   Matrix6d covariance;
   strength_m_ = std::max(strength_m_, local.diagonal().head<3>().maxCoeff());
   strength_rad_ = std::max(strength_rad_, local.diagonal().tail<3>().maxCoeff());
@@ -140,7 +140,7 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
                                     covariance.diagonal().tail<3>().maxCoeff() * strength_rad_);
   if (looseness < ratio) return false;
 
-  look(state, prior);
+  computeGaugeProducts(state, prior);
   const int n = prior.size();
   const Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
   const Matrix6d M = symmetric(G.transpose() * u);

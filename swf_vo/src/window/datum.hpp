@@ -11,7 +11,7 @@
 namespace swf_vo {
 
 /// Estimate of the disparity offset, px.
-struct OffsetBelief {
+struct DisparityOffsetEstimate {
   double used = 0.0;                  ///< the estimate used by the poses
   double mean = 0.0, variance = 0.0;  ///< posterior of the true offset
   /// Mean square of the error of the estimate.
@@ -27,7 +27,8 @@ struct OffsetBelief {
 /// the covariance of the shape depends on M; the covariance of a block is that of the shape plus G_b M^-1 G_b^T. Hence
 ///
 /// * M may be replaced by a stronger W at any time, with M^-1 - W^-1 carried separately, without changing any result:
-/// rounding does not erode the information relative to the first pose, and Gauss-Newton has no weak direction (hold);
+/// rounding does not erode the information relative to the first pose, and Gauss-Newton has no weak direction
+/// (fixGauge);
 /// * marginalisation can only reduce M, and the growth of M^-1 is the drift of the step: the part of its error that no
 /// later measurement corrects (growth). It is positive semidefinite, and the drift between two poses is the sum of the
 /// drifts of the steps.
@@ -41,7 +42,7 @@ class Datum {
   void start(const Prior& prior);
   /// Starts with the prior of the first pose; `carried` is additional covariance of that pose, kept outside the window.
   void start(const Prior& prior, const urban_nav_core::Matrix6d& carried);
-  void giveUp() { active_ = false; }
+  void disable() { active_ = false; }
   bool isActive() const { return active_; }
 
   /// Sets the point about which (shift, turn) are expressed; before each marginalisation, near the window.
@@ -68,7 +69,7 @@ class Datum {
   };
   const std::optional<Release>& release() const { return release_; }
   /// Sets the current estimate of the offset, which applies to earlier steps as well.
-  void setOffset(const OffsetBelief& offset) { offset_ = offset; }
+  void setOffset(const DisparityOffsetEstimate& offset) { offset_ = offset; }
   /// Returns the relative standard deviation of all lengths of the path due to the offset's current error and the rig
   /// scale.
   double scaleSigma() const;
@@ -78,7 +79,7 @@ class Datum {
   /// Replaces M by a stronger one once M^-1 exceeds `ratio` times the inverse of `local`, the information of one frame
   /// on its own pose. Returns whether it was replaced: the covariance inside the window has then decreased by G_b
   /// shift() G_b^T.
-  bool hold(const urban_nav_core::Matrix6d& local, double ratio, const State& state, Prior& prior);
+  bool fixGauge(const urban_nav_core::Matrix6d& local, double ratio, const State& state, Prior& prior);
   const urban_nav_core::Matrix6d& shift() const { return shift_; }
 
   /// Returns the covariance of this pose that is not contained in the window.
@@ -86,7 +87,7 @@ class Datum {
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  void look(const State& state, const Prior& prior);
+  void computeGaugeProducts(const State& state, const Prior& prior);
 
   bool active_ = false;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
@@ -99,7 +100,7 @@ class Datum {
   urban_nav_core::Vector6d along_px_ = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Vector6d along_used_ = urban_nav_core::Vector6d::Zero();
   std::optional<Release> release_;
-  OffsetBelief offset_;
+  DisparityOffsetEstimate offset_;
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero();  // origin of the path
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero();   // last displacement of origin(), m
   double rig_scale_ = 0.0;

@@ -29,7 +29,7 @@ constexpr double kDatumSigma = 1e-6;
 constexpr const char* kDisparityConstant = "disparity";
 constexpr const char* kScaleConstant = "scale";
 // Radians: a fifth of the error of a good match in an image of 500 px.
-constexpr double kLeastWander = 5e-5;
+constexpr double kLeastTemplateDrift = 5e-5;
 // Minimum share of drift in a step's covariance, so that it is positive definite without drift: that of one step in a
 // thousand.
 constexpr double kLeastDrift = 1e-3;
@@ -67,7 +67,7 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   Matrix6d root = information;
   gauge_free_ = !has_known_ && !urban_nav_core::choleskyInPlace(root);
   datum_.start(prior_);
-  if (has_known_ || !options_.linearise_first || options_.forget_by_deletion) datum_.giveUp();
+  if (has_known_ || !options_.linearise_first || options_.forget_by_deletion) datum_.disable();
   newest_covariance_ = inverse(information + process_model::floor());
 }
 
@@ -146,7 +146,7 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   const Vector6d per_px = datum_.releaseOffset(state_, prior_);
   departed.offset_gain += (departed.gauge_gain - left) * per_px;
   const std::optional<Matrix6d> own = std::exchange(oldest_information_, std::nullopt);
-  if (!own || !datum_.hold(*own, options_.datum_ratio, state_, prior_)) return;
+  if (!own || !datum_.fixGauge(*own, options_.datum_ratio, state_, prior_)) return;
   // The marginalised pose moves with the window by its gain, not exactly as a rigid part of it: the remainder is added
   // to the step.
   const Matrix6d gain = departed.gauge_gain, slack = gain - left;
@@ -156,7 +156,7 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
 
 // Small steps are accumulated: each landmark costs a pass over the prior.
 void Filter::applyProcessNoise(const Vector3d& origin) {
-  wandered_.clear();
+  drifted_.clear();
   for (LandmarkBlock& landmark : state_.landmarks) {
     if (!landmark.used || landmark.prior < 0) continue;
     if (!landmark.seen.empty()) {
@@ -165,13 +165,13 @@ void Filter::applyProcessNoise(const Vector3d& origin) {
                   landmark.seen.front().template_drift_covariance);
       landmark.seen.front().template_drift_covariance.setZero();
     }
-    if (landmark.template_drift_covariance.trace() < kLeastWander * kLeastWander) continue;
-    wandered_.push_back({landmark.prior, landmark.template_drift_covariance});
+    if (landmark.template_drift_covariance.trace() < kLeastTemplateDrift * kLeastTemplateDrift) continue;
+    drifted_.push_back({landmark.prior, landmark.template_drift_covariance});
     landmark.template_drift_covariance.setZero();
   }
-  if (wandered_.empty()) return;
+  if (drifted_.empty()) return;
   gauge::ofPrior(state_, prior_, origin, directions_);
-  process_noise_.apply(wandered_, directions_, prior_, marginaliser_.departed());
+  process_noise_.apply(drifted_, directions_, prior_, marginaliser_.departed());
 }
 
 SettledPose Filter::settle() {
@@ -251,7 +251,7 @@ bool Filter::fixLandmark(const MapPoint& point) {
   if (!measurements::fixLandmark(state_, point)) return false;
   has_known_ = true;
   gauge_free_ = false;
-  datum_.giveUp();
+  datum_.disable();
   return true;
 }
 
@@ -300,7 +300,7 @@ void Filter::endLandmark(LandmarkId id) {
 UpdateReport Filter::update() {
   if (options_.iterations > 1 && state_.poses.size() > 1) optimiseNewestPose(state_, cost_.sensor(), options_.huber);
   const GaussNewton::Progress progress = gauss_newton_.run(state_, prior_, cost_, gauge_free_);
-  offset_ = judgeOffset();
+  offset_ = estimateOffset();
   datum_.setOffset(offset_);
   newest_covariance_ = computeCovariance(state_.newestStep());
   oldest_information_ = gauss_newton_.ownInformation(0);
@@ -314,19 +314,19 @@ UpdateReport Filter::update() {
 // ratio by their residuals. With I the information, c that of the calibration and rho the ratio, the true offset has
 // precision c + I / rho, and its mean is where the gradient vanishes: at the estimate, that of the measurements is
 // caution c (o - calibrated).
-OffsetBelief Filter::judgeOffset() const {
+DisparityOffsetEstimate Filter::estimateOffset() const {
   const Solver& solver = gauss_newton_.solver();
-  OffsetBelief belief;
-  belief.used = belief.mean = state_.disparity_offset;
-  belief.variance = solver.offsetVariance();
-  if (!options_.robust_drift || !prior_.has_offset || !datum_.isActive() || !(belief.variance > 0.0)) return belief;
+  DisparityOffsetEstimate estimate;
+  estimate.used = estimate.mean = state_.disparity_offset;
+  estimate.variance = solver.offsetVariance();
+  if (!options_.robust_drift || !prior_.has_offset || !datum_.isActive() || !(estimate.variance > 0.0)) return estimate;
   const double ratio = scores_.ofOffset().ratio(solver.offsetCaution()),
-               calibration = prior_.calibrationInformation(belief.used),
+               calibration = prior_.calibrationInformation(estimate.used),
                precision = calibration + solver.offsetInformation() / ratio,
-               pull = (solver.offsetCaution() / ratio - 1.0) * calibration * (belief.used - prior_.calibrated_offset);
-  belief.variance = 1.0 / precision;
-  belief.mean += pull / precision;
-  return belief;
+               pull = (solver.offsetCaution() / ratio - 1.0) * calibration * (estimate.used - prior_.calibrated_offset);
+  estimate.variance = 1.0 / precision;
+  estimate.mean += pull / precision;
+  return estimate;
 }
 
 Matrix6d Filter::computeWindowCovariance(std::int64_t step) const {

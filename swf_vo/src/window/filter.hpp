@@ -55,7 +55,7 @@ class Filter {
     urban_nav_core::Matrix6d newest_covariance;
     Datum datum;
     LandmarkScores scores;
-    OffsetBelief offset;
+    DisparityOffsetEstimate offset;
     std::optional<urban_nav_core::Matrix6d> oldest_information;
   };
   void save(Checkpoint& checkpoint) const;
@@ -83,7 +83,7 @@ class Filter {
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
   urban_nav_core::ConsideredConstants constants(const PoseBlock& oldest,
                                                 const urban_nav_core::Pose& T_previous_camera) const;
-  OffsetBelief judgeOffset() const;
+  DisparityOffsetEstimate estimateOffset() const;
   void applyProcessNoise(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d computeWindowCovariance(std::int64_t step) const;
   urban_nav_core::Matrix6d computeCovariance(std::int64_t step) const;
@@ -95,9 +95,9 @@ class Filter {
   GaussNewton gauss_newton_;
   Marginaliser marginaliser_;
   LandmarkProcessNoise process_noise_;
-  std::vector<LandmarkProcessNoise::Step> wandered_;
+  std::vector<LandmarkProcessNoise::Step> drifted_;
   std::vector<double> directions_;  // gauge directions of the prior
-  OffsetBelief offset_;
+  DisparityOffsetEstimate offset_;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::PoseWithCovariance settled_;  // last settled pose
   std::int64_t settled_step_ = -1;
