@@ -8,11 +8,11 @@
 
 namespace loop_metric {
 
-/// Chooses which stored keyframes around two poses to match, and in which order: at most `most` pairs.
+/// Selects pairs of stored keyframes around two poses for matching, in order of preference: at most `most` pairs.
 ///
-/// With odometry between the poses (`T_a_b`) the keyframes that it places nearest to each other come first, and there
-/// are no pairs if it is certain that the headings differ. Then those nearest to the poses, which were recognised; then
-/// others of a, half of `way` (m) before and after.
+/// With odometry between the poses (`T_a_b`), the keyframes nearest to each other come first, and there are no pairs if
+/// the headings certainly differ. Then the keyframes nearest to the poses, where the place was recognised; then other
+/// keyframes of a, half of `way` (m) before and after.
 struct KeyframePair {
   NearbyKeyframe a, b;
 };
