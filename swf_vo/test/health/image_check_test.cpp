@@ -17,7 +17,7 @@ using urban_nav_core::StereoPair;
 
 constexpr int kCheckedWidth = 512, kCheckedHeight = 384;
 
-/// A wall of random blobs seen by both cameras at one disparity, with noise of its own in every frame.
+/// A wall of random blobs at one disparity in both cameras, with independent noise in every frame.
 struct CheckScene {
   std::vector<std::uint8_t> left, right;
 
@@ -59,7 +59,7 @@ TEST(ImageCheck, PassesUsualPairs) {
   }
 }
 
-// Suddenly white by half: of no use, until it has lasted so long that it is how the scene looks.
+// Sudden saturation of half of the image: unusable, until it lasts and becomes the reference.
 TEST(ImageCheck, WaitsForTheLightToComeBack) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.check(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
@@ -117,7 +117,7 @@ TEST(ImageCheck, NamesAJumpOfExposureOnceAndThenGetsUsedToIt) {
   EXPECT_EQ(check.check(CheckScene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
 }
 
-/// The scene in steps of grey, so that it has edges; then spread over 5 x 5 pixels, `times` times.
+/// The scene with stepped grey levels, so that it has edges; then blurred over 5 x 5 pixels, `times` times.
 CheckScene stepped(unsigned seed, int times) {
   CheckScene scene(seed, 12.0, 1.0, 3.0 * seed, 0.0);
   for (auto* image : {&scene.left, &scene.right}) {

@@ -35,7 +35,7 @@ std::string findFigure(const urban_nav_live::StageReport& report, const std::str
   return "absent";
 }
 
-/// A stage that keeps what it publishes.
+/// A stage that records its output.
 struct Recorded {
   std::vector<Frame> frames;
   std::vector<Settled> settled;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A state that belongs to something else, or is damaged, is named.
+// States of other settings and damaged states are rejected with a message.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -53,7 +53,7 @@ TEST(State, IsNamedWhereItIsDamaged) {
   }
 }
 
-// Damage under a checksum that is right: what is taken all the same still gives frames.
+// Damage with a valid checksum: a state that is accepted still gives frames.
 TEST(State, FuzzedBeyondItsChecksum) {
   const std::string name = "swf_vo";
   const std::vector<Step> some = collectSteps("loop", 20, "black:1000:1");

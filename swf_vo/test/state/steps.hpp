@@ -9,17 +9,16 @@
 
 namespace swf_vo {
 
-/// Where the camera stands in base_link.
+/// Pose of the camera in base_link.
 inline const urban_nav_core::Pose kPlace(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0.1, 0.0, 1.1));
 
-/// What arrives, one after the other.
+/// Input of one step.
 struct Step {
   urban_nav_core::testing::StereoFrame frame;
   std::vector<urban_nav_core::MotionInput> inputs;
 };
 
-/// Frames of a motion with a fault on them (parseFault), of which every twentieth comes twice; with wheels if asked
-/// for.
+/// Frames of a motion with a fault (parseFault), every twentieth repeated; optionally with wheels.
 inline std::vector<Step> collectSteps(const std::string& motion, int count, const std::string& fault,
                                       bool wheels = false) {
   const Recording& recording = inTheRoom(motion, 1.0, count);

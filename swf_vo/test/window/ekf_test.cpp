@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// At window 1, with one iteration and no robust kernel, the filter is the extended Kalman filter (section 2.2.1).
+// At window 1, with one iteration and no robust kernel, the filter equals the extended Kalman filter (section 2.2.1).
 #include <gtest/gtest.h>
 
 #include "window/ekf_reference.hpp"
