@@ -17,7 +17,7 @@ constexpr StampNs kClosureSecond = 1'000'000'000;
 
 Pose closurePose(double x, double y) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, y, 0.0}); }
 
-/// Twice along the same metres, and the closures between each metre of one pass and the same of the other.
+/// Two passes along the same metres, and the closures between corresponding metres of both.
 struct TwoPasses {
   testing::LinePlaceData around;
   std::vector<MetricClosure> closures;

@@ -11,7 +11,7 @@ namespace {
 using urban_nav_core::Pose;
 using urban_nav_core::PoseWithCovariance;
 
-/// Views each metre along x, `before` m before the time to `after` m after it.
+/// Keyframes at each metre along x, from `before` m before the pose to `after` m after it.
 std::vector<NearbyKeyframe> row(const char* session, int before, int after) {
   std::vector<NearbyKeyframe> views;
   for (int i = -before; i <= after; ++i) {
@@ -35,7 +35,7 @@ PoseWithCovariance odometry(double x, double heading, double sigma_m, double sig
 }
 
 TEST(ViewPairs, AViewBesideBothMomentsIsNotMatchedWithItself) {
-  // To and fro within seven metres: the same views lie around both moments.
+  // Back and forth within seven metres: the same keyframes are near both poses.
   auto back = row("a", 6, 6);
   for (NearbyKeyframe& view : back)
     view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.way + 0.3, 0.0, 0.0});

@@ -23,7 +23,7 @@ Evidence::Try toTry(ClosureMethod method, const PoseRef& a, const PoseRef& b) {
   return made;
 }
 
-/// A closure that was tried with views that did not do, and then with those of `a` and `b`.
+/// A closure that was first tried with unsuitable keyframes, and then with those of `a` and `b`.
 MetricClosure toClosure(const PoseRef& a, const PoseRef& b, ClosureMethod method = ClosureMethod::Stereo) {
   MetricClosure made;
   made.method = method;

@@ -51,7 +51,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   EXPECT_LT(off.dot(toInformation(first) * off), 22.5) << "chi2 of 6, one in a thousand";
   EXPECT_GT(toInformation(first).diagonal().minCoeff(), 1.0 / (0.1 * 0.1)) << "and it knows something";
 
-  // The picture shows both clouds: red where the first was, blue where the second.
+  // The picture shows both clouds: red for the first, blue for the second.
   ASSERT_TRUE(Robot::until([&] { return !robot.pictures.empty(); }));
   const sensor_msgs::Image picture = robot.pictures.front();
   EXPECT_EQ(picture.encoding, "bgr8");
@@ -64,7 +64,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   EXPECT_GT(red, 1000U);
   EXPECT_GT(blue, 1000U);
 
-  // Half a metre further on nearly the same beams were seen: what they said is not said again.
+  // Half a metre further on, nearly the same beams are measured: their information is not counted again.
   recognise(a - 5, b + 5);
   ASSERT_TRUE(robot.judged(2));
   const MetricClosure& second = robot.closures[1];

@@ -9,14 +9,14 @@
 
 namespace loop_metric::testing {
 
-/// Sessions whose odometry is exact but for what `noise` says of each step, with views and clouds that a test puts in.
+/// Sessions whose odometry is exact apart from the noise of each step, with keyframes and clouds set by a test.
 class LinePlaceData : public PlaceData {
  public:
   std::map<std::string, urban_nav_core::OdometryChain> odometry;
   std::map<urban_nav_core::PoseRef, urban_nav_registration::Keyframe> keyframes;
   std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> clouds;
 
-  /// A session that is at these poses, one a second from 0; sigmas of one step.
+  /// Adds a session with these poses, one per second from 0; sigmas of one step.
   void drive(const std::string& session, const std::vector<urban_nav_core::Pose>& T_world_base, double sigma_m,
              double sigma_rad) {
     for (std::size_t i = 1; i < T_world_base.size(); ++i) {

@@ -19,7 +19,7 @@ using urban_nav_registration::testing::Photographer;
 
 constexpr double kDistanceDriven = 1.5;  // m
 
-/// Base poses of two days, and the transform between them that is measured with the cameras of both.
+/// Base poses of two days, and the transform between them measured with the cameras of both days.
 class TwoCameras : public ::testing::Test {
  protected:
   /// Returns T_base1_base2 as measured, with the keyframe of the first day converted.

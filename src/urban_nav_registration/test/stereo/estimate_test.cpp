@@ -21,7 +21,7 @@ using urban_nav_core::testing::Dice;
 
 StereoCamera estimateCamera() { return {{390.0, 390.0, 255.0, 195.0, 512, 384}, 0.12}; }
 
-/// Points from 3 to 60 m, seen in both views with noise; the disparities have `offset` in common.
+/// Points from 3 to 60 m, measured in both views with noise; `offset` is common to all disparities.
 std::vector<Sight> sights(const Pose& T_a_b, double noise, double offset, int count, Dice& dice) {
   const StereoCamera c = estimateCamera();
   std::vector<Sight> made;
@@ -76,7 +76,7 @@ TEST(Estimate, InformationIsRightWithAnErrorOfAllDisparities) {
     mean += d.dot(found.information * d) / runs;
     bias += d / runs;
   }
-  // It allows for errors that neighbours share, which these sights do not have: on the safe side, not beyond use.
+  // The covariance includes correlated errors, which these sights do not have: conservative within limits.
   EXPECT_LT(mean, 6.8);
   EXPECT_GT(mean, 2.0);
 }
