@@ -108,13 +108,13 @@ TEST(SwfVo, AllocatesNothingAfterFrame50) {
   if (!countsAllocations()) GTEST_SKIP() << "the sanitizer's allocator cannot be counted";
   const Recording& room = inTheRoom("loop", 1.0, 70);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
-  std::int64_t made = 0;
+  std::int64_t result = 0;
   for (std::size_t i = 0; i < room.frames.size(); ++i) {
     const AllocationCount count;
     filter.process(room.frames[i].pair());
-    if (i >= 50) made += count.sofar();
+    if (i >= 50) result += count.sofar();
   }
-  EXPECT_EQ(made, 0);
+  EXPECT_EQ(result, 0);
 }
 
 struct Effort {

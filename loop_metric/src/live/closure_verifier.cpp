@@ -236,25 +236,25 @@ void ClosureVerifier::followStore() {
 CandidateMeasurement ClosureVerifier::measure(const TopologicalClosure& closure) {
   followStore();
   TopologicalClosure candidate{resolve(closure.a), resolve(closure.b), closure.probability};
-  CandidateMeasurement made;
-  made.metric.a = candidate.a;
-  made.metric.b = candidate.b;
-  made.metric.probability = candidate.probability;
-  made.metric.source = "loop_metric";
+  CandidateMeasurement result;
+  result.metric.a = candidate.a;
+  result.metric.b = candidate.b;
+  result.metric.probability = candidate.probability;
+  result.metric.source = "loop_metric";
   if (!reader_) {
-    reject(made.metric, LoopReason::NothingKept,
+    reject(result.metric, LoopReason::NothingKept,
            "no stored data: " + (store_fault_.empty() ? "no store yet" : store_fault_));
-    return made;
+    return result;
   }
   if (running_.empty() && (closure.a.session.empty() || closure.b.session.empty())) {
-    reject(made.metric, LoopReason::UnknownMoment, "no odometry received: no session is being recorded");
-    return made;
+    reject(result.metric, LoopReason::UnknownMoment, "no odometry received: no session is being recorded");
+    return result;
   }
   if (outdated_) renewPlaceData();
-  made = stage_->measure(candidate, *place_data_);
-  if (!store_fault_.empty() && made.metric.verdict == ClosureVerdict::Rejected)
-    made.metric.sentence += "; the latest data is not in the store: " + store_fault_;
-  return made;
+  result = stage_->measure(candidate, *place_data_);
+  if (!store_fault_.empty() && result.metric.verdict == ClosureVerdict::Rejected)
+    result.metric.sentence += "; the latest data is not in the store: " + store_fault_;
+  return result;
 }
 
 void ClosureVerifier::openReader() {

@@ -28,37 +28,37 @@ class SharedClouds : public ::testing::Test {
     parameters_.registration.cloud_half_length = 10.0;
   }
   void add(int a, int b, ClosureMethod method = ClosureMethod::Icp, ClosureVerdict verdict = ClosureVerdict::Accepted) {
-    MetricClosure made;
-    made.a = {"day", a * StampNs{1'000'000'000}};
-    made.b = {"day", b * StampNs{1'000'000'000}};
-    made.method = method;
-    made.verdict = verdict;
-    made.measured.information = Matrix6d::Identity();
-    closures_.push_back(made);
+    MetricClosure result;
+    result.a = {"day", a * StampNs{1'000'000'000}};
+    result.b = {"day", b * StampNs{1'000'000'000}};
+    result.method = method;
+    result.verdict = verdict;
+    result.measured.information = Matrix6d::Identity();
+    closures_.push_back(result);
   }
   /// Returns the factors by which the information of the closures was divided.
   std::vector<double> sharing() {
     discountSharedClouds(closures_, around_, parameters_);
-    std::vector<double> made;
+    std::vector<double> result;
     for (const MetricClosure& closure : closures_) {
       EXPECT_TRUE(closure.measured.information.isApprox(closure.measured.information(0, 0) * Matrix6d::Identity()));
-      made.push_back(1.0 / closure.measured.information(0, 0));
+      result.push_back(1.0 / closure.measured.information(0, 0));
     }
-    return made;
+    return result;
   }
 
   /// Returns the remaining shares of information for closures in order of arrival.
   std::vector<double> kept() {
-    std::vector<double> made;
+    std::vector<double> result;
     for (std::size_t i = 0; i < closures_.size(); ++i) {
       MetricClosure discounted = closures_[i];
       discountAgainst(discounted, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
                       parameters_);
       EXPECT_TRUE(
           discounted.measured.information.isApprox(discounted.measured.information(0, 0) * Matrix6d::Identity()));
-      made.push_back(discounted.measured.information(0, 0));
+      result.push_back(discounted.measured.information(0, 0));
     }
-    return made;
+    return result;
   }
   double keptTogether() {
     const std::vector<double> each = kept();

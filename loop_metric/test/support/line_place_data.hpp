@@ -38,22 +38,22 @@ class LinePlaceData : public PlaceData {
     return false;
   }
   std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const override {
-    std::vector<NearbyKeyframe> made;
+    std::vector<NearbyKeyframe> result;
     const auto its = odometry.find(at.session);
-    if (its == odometry.end()) return made;
+    if (its == odometry.end()) return result;
     for (const auto& [ref, keyframe] : keyframes) {
       if (ref.session != at.session) continue;
       const double along = its->second.distance(ref.stamp) - its->second.distance(at.stamp);
-      if (std::abs(along) <= way) made.push_back({ref, *its->second.between(at.stamp, ref.stamp), along});
+      if (std::abs(along) <= way) result.push_back({ref, *its->second.between(at.stamp, ref.stamp), along});
     }
-    return made;
+    return result;
   }
   urban_nav_registration::Keyframe keyframe(const urban_nav_core::PoseRef& at) const override {
     const auto its = keyframes.find(at);
-    urban_nav_registration::Keyframe made;
-    if (its != keyframes.end()) made = its->second;
-    made.at = at;
-    return made;
+    urban_nav_registration::Keyframe result;
+    if (its != keyframes.end()) result = its->second;
+    result.at = at;
+    return result;
   }
   double deformationSigma(const urban_nav_core::PoseRef&, double) const override { return 0.0; }
   urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double) const override {

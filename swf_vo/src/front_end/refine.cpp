@@ -55,7 +55,7 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   warp->bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp->bend.norm(), 1e-9));
   const double area = warp->A.determinant();
   if (!(area > kSmallestScale * kSmallestScale && area < kLargestScale * kLargestScale)) return false;
-  PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
+  PatchTemplate &result = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
   bool &ready = is_left ? track.left_ready : track.right_ready,
        &others_ready = is_left ? track.right_ready : track.left_ready;
   Eigen::Vector2d &made_blur = is_left ? track.made_blur_left : track.made_blur_right,
@@ -65,13 +65,13 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
            (patch.warp.bend - warp->bend).cwiseAbs().maxCoeff() < kSameBend &&
            (its_blur - blur).cwiseAbs().maxCoeff() < kSameBlur;
   };
-  if (ready && serves(made, made_blur)) return true;
+  if (ready && serves(result, made_blur)) return true;
   // The template of the other image serves for surfaces that face both cameras.
   ready = others_ready && serves(others, others_blur);
   made_blur = ready ? others_blur : blur;
-  if (ready) made = others;
-  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *warp, made);
-  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *warp, made);
+  if (ready) result = others;
+  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *warp, result);
+  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *warp, result);
   return ready;
 }
 
@@ -79,8 +79,8 @@ PixelMeasurement refine(Side side, const Corners& corners, const Track& track, c
                         double reach) {
   PixelMeasurement sighting;
   const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
-  const PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
-  const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), made, start / size, reach);
+  const PatchTemplate& result = side == Side::Left ? track.in_left : track.in_right;
+  const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), result, start / size, reach);
   if (!a.converged || a.correlation < kLeastCorrelation || a.gain < kLeastGain || a.gain > kLargestGain)
     return sighting;
   sighting.found = true;
@@ -134,11 +134,11 @@ Eigen::Matrix2d whereBorn(const Track& track, const Eigen::Matrix2d& covariance)
 
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {
   const Eigen::Vector2d& blur = in_left ? track.made_blur_left : track.made_blur_right;
-  const PatchTemplate& made = in_left ? track.in_left : track.in_right;
+  const PatchTemplate& result = in_left ? track.in_left : track.in_right;
   PatchTemplate sharp;
-  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, made.warp, sharp)) return Eigen::Matrix2d::Zero();
+  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, result.warp, sharp)) return Eigen::Matrix2d::Zero();
   const Eigen::Vector2d d =
-      kBlurShare * urban_nav_core::displacement(made, sharp) / urban_nav_core::Pyramid::scale(track.level);
+      kBlurShare * urban_nav_core::displacement(result, sharp) / urban_nav_core::Pyramid::scale(track.level);
   return d * d.transpose();
 }
 

@@ -23,7 +23,7 @@ inline std::vector<Step> collectSteps(const std::string& motion, int count, cons
                                       bool wheels = false) {
   const Recording& recording = inTheRoom(motion, 1.0, count);
   urban_nav_core::testing::FaultFilter faults({urban_nav_core::testing::parseFault(fault)}, 1);
-  std::vector<Step> made;
+  std::vector<Step> result;
   urban_nav_core::StampNs last = 0;
   for (int i = 0; i < count; ++i) {
     const urban_nav_core::testing::StereoFrame& frame = recording.frames[static_cast<std::size_t>(i)];
@@ -38,10 +38,10 @@ inline std::vector<Step> collectSteps(const std::string& motion, int count, cons
       step.inputs.push_back(input);
     }
     last = frame.stamp;
-    made.push_back(step);
-    if (i % 20 == 13) made.push_back(step);
+    result.push_back(step);
+    if (i % 20 == 13) result.push_back(step);
   }
-  return made;
+  return result;
 }
 
 }  // namespace swf_vo

@@ -76,37 +76,37 @@ struct Try {
 };
 
 Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t end) {
-  Try made;
-  made.refined = refine(pair.source, pair.target, start, first, end, pair.parameters.iterations);
-  made.fit = computeFit(pair.source.steps()[end - 1], made.refined, pair.parameters);
-  return made;
+  Try attempt;
+  attempt.refined = refine(pair.source, pair.target, start, first, end, pair.parameters.iterations);
+  attempt.fit = computeFit(pair.source.steps()[end - 1], attempt.refined, pair.parameters);
+  return attempt;
 }
 
-Observability computeObservability(const Try& made, const Pair& pair) {
+Observability computeObservability(const Try& attempt, const Pair& pair) {
   const double bias = pair.spaces ? pair.explained->all : pair.parameters.laser_bias;
-  return computeObservability(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters,
+  return computeObservability(attempt.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters,
                               scanPlane(pair));
 }
 
-std::optional<ValidationContext> validationContext(const Try& made, const Pair& pair) {
+std::optional<ValidationContext> validationContext(const Try& attempt, const Pair& pair) {
   if (!pair.explained) return std::nullopt;
-  const RobustScale spread = computeResidualScale(made.refined.matches);
+  const RobustScale spread = computeResidualScale(attempt.refined.matches);
   ValidationContext plausibility;
   plausibility.misfit = spread.all / pair.explained->all;
   plausibility.upright_misfit = spread.upright / pair.explained->upright;
   if (pair.spaces)
     plausibility.seen_through =
         freeSpaceViolation(pair.source_surfels.all, pair.target_surfels.all, pair.spaces->of_source,
-                           pair.spaces->of_target, made.refined, pair.parameters.inlier_distance)
+                           pair.spaces->of_target, attempt.refined, pair.parameters.inlier_distance)
             .share();
   return plausibility;
 }
 
-bool isPossible(const Try& made, const Pair& pair) {
-  const std::optional<ValidationContext> plausibility = validationContext(made, pair);
+bool isPossible(const Try& attempt, const Pair& pair) {
+  const std::optional<ValidationContext> plausibility = validationContext(attempt, pair);
   if (plausibility && !isPlausible(*plausibility, pair.parameters)) return false;
   return !pair.is_possible ||
-         pair.is_possible({made.refined.T_target_source, computeObservability(made, pair).information});
+         pair.is_possible({attempt.refined.T_target_source, computeObservability(attempt, pair).information});
 }
 
 /// Returns whether a candidate is possible within its accuracy.
@@ -119,31 +119,31 @@ bool mayBe(const Pose& candidate, const Pair& pair) {
 }
 
 /// Returns the evidence of an alignment from a guess; its poses are limited by the maximum correspondence distance.
-std::optional<PlanarEvidence> localEvidence(const Try& made, const Pair& pair) {
+std::optional<PlanarEvidence> localEvidence(const Try& attempt, const Pair& pair) {
   if (!pair.is_planar) return std::nullopt;
   constexpr double kBasin = 0.5;  // rad
-  return PlanarEvidence{computePlanarEvidence(made.fit, made.fit.score()),
+  return PlanarEvidence{computePlanarEvidence(attempt.fit, attempt.fit.score()),
                         countPoses(pair, pair.parameters.max_correspondence_distance, kBasin)};
 }
 
 /// Returns the evidence of the best pose of a search against the best different one, with score ratio `second`.
-std::optional<PlanarEvidence> searchEvidence(const Try& made, double second, const Pair& pair) {
+std::optional<PlanarEvidence> searchEvidence(const Try& attempt, double second, const Pair& pair) {
   if (!pair.is_planar) return std::nullopt;
-  const double score = made.fit.score();
-  return PlanarEvidence{computePlanarEvidence(made.fit, score) - computePlanarEvidence(made.fit, second * score),
+  const double score = attempt.fit.score();
+  return PlanarEvidence{computePlanarEvidence(attempt.fit, score) - computePlanarEvidence(attempt.fit, second * score),
                         countPoses(pair, pair.parameters.search_radius, kAllHeadings)};
 }
 
-Alignment judged(const Try& made, const Pair& pair, const std::optional<PlanarEvidence>& planar, Alignment alignment,
+Alignment judged(const Try& attempt, const Pair& pair, const std::optional<PlanarEvidence>& planar, Alignment alignment,
                  bool is_alone = false) {
-  alignment.T_target_source = made.refined.T_target_source;
-  alignment.iterations += made.refined.iterations;
-  const Observability observed = computeObservability(made, pair);
-  std::optional<ValidationContext> plausibility = validationContext(made, pair);
+  alignment.T_target_source = attempt.refined.T_target_source;
+  alignment.iterations += attempt.refined.iterations;
+  const Observability observed = computeObservability(attempt, pair);
+  std::optional<ValidationContext> plausibility = validationContext(attempt, pair);
   if (plausibility) plausibility->is_alone = is_alone;
-  judge(made.fit, plausibility, planar, made.refined, observed, pair.parameters, alignment);
+  judge(attempt.fit, plausibility, planar, attempt.refined, observed, pair.parameters, alignment);
   if (alignment.verdict != ClosureVerdict::Rejected && pair.is_possible &&
-      !pair.is_possible({made.refined.T_target_source, observed.information}))
+      !pair.is_possible({attempt.refined.T_target_source, observed.information}))
     reject(alignment, AlignmentReason::Impossible, "the surfaces fit, but the pose contradicts other information");
   return alignment;
 }
@@ -215,13 +215,13 @@ std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& c
   const auto better = [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); };
   std::stable_sort(coarse.begin(), coarse.end(), better);
   std::vector<Try> tries;
-  for (auto made = coarse.begin(); made != coarse.end(); ++made) {
-    if (made->fit.score() < kFarBelow * coarse.front().fit.score()) break;
+  for (auto attempt = coarse.begin(); attempt != coarse.end(); ++attempt) {
+    if (attempt->fit.score() < kFarBelow * coarse.front().fit.score()) break;
     const auto isSame = [&](const Try& other) {
-      return areOne(made->refined.T_target_source, other.refined.T_target_source);
+      return areOne(attempt->refined.T_target_source, other.refined.T_target_source);
     };
-    if (std::none_of(coarse.begin(), made, isSame))
-      tries.push_back(tryFrom(pair, made->refined.T_target_source, from + 1, end));
+    if (std::none_of(coarse.begin(), attempt, isSame))
+      tries.push_back(tryFrom(pair, attempt->refined.T_target_source, from + 1, end));
   }
   return tries;
 }
@@ -236,7 +236,7 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0, pair.source.steps().size()));
   std::stable_sort(tries.begin(), tries.end(),
                    [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); });
-  const auto is_possible = [&](const Try& made) { return isPossible(made, pair); };
+  const auto is_possible = [&](const Try& attempt) { return isPossible(attempt, pair); };
   const auto found = std::find_if(tries.begin(), tries.end(), is_possible);
   if (found == tries.end()) {
     alignment = judged(tries.front(), pair, searchEvidence(tries.front(), 0.0, pair), alignment);
@@ -246,8 +246,8 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
     return alignment;
   }
   const Alignment first_judged = judged(*found, pair, std::nullopt, alignment);
-  const auto second = std::find_if(found + 1, tries.end(), [&](const Try& made) {
-    return isAnother(made.refined.T_target_source, first_judged) && is_possible(made);
+  const auto second = std::find_if(found + 1, tries.end(), [&](const Try& attempt) {
+    return isAnother(attempt.refined.T_target_source, first_judged) && is_possible(attempt);
   });
   const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
   alignment = share < kNear || pair.is_planar

@@ -88,9 +88,9 @@ bool measureDepth(const StereoCamera& camera, const ImageView& left, const Image
   if (!source) return false;
   // typical slope: a surface at 45 deg to the line of sight
   const double usual_slope = std::max(1.0, (*whole - offset + 0.5) * size) / camera.left.fx;
-  urban_nav_core::PatchTemplate made;
+  urban_nav_core::PatchTemplate warped;
   const auto found =
-      urban_nav_core::alignAcross(right, *source, Eigen::Vector2d(point.u - *whole, point.v), usual_slope, made);
+      urban_nav_core::alignAcross(right, *source, Eigen::Vector2d(point.u - *whole, point.v), usual_slope, warped);
   const auto& alignment = found.alignment;
   if (!alignment.converged || alignment.correlation < kLeastStereoCorrelation ||
       std::abs(alignment.position.y() - point.v) > kSameRow)

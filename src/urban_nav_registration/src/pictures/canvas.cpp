@@ -29,11 +29,11 @@ void writeTitle(cv::Mat& canvas, const std::string& title) {
 }
 
 Picture toPicture(const cv::Mat& canvas) {
-  Picture made;
-  made.width = canvas.cols;
-  made.height = canvas.rows;
-  made.bgr.assign(canvas.datastart, canvas.dataend);
-  return made;
+  Picture result;
+  result.width = canvas.cols;
+  result.height = canvas.rows;
+  result.bgr.assign(canvas.datastart, canvas.dataend);
+  return result;
 }
 
 std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {

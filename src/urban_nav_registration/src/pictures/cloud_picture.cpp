@@ -33,10 +33,10 @@ Points finite(const PointCloud& cloud) {
 }
 
 Points moved(const Points& points, const Pose& T) {
-  Points made;
-  made.reserve(points.size());
-  for (const Eigen::Vector3d& point : points) made.push_back(T * point);
-  return made;
+  Points result;
+  result.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) result.push_back(T * point);
+  return result;
 }
 
 double quantile(std::vector<double>& values, double share) {

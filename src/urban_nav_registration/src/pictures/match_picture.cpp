@@ -54,14 +54,14 @@ struct ViewPanel {
 
 /// `other` provides the size of a view without one.
 ViewPanel makePanel(const Keyframe& keyframe, const Keyframe& other, int widest) {
-  ViewPanel made;
+  ViewPanel result;
   const Keyframe* sized = isPlausible(keyframe) ? &keyframe : isPlausible(other) ? &other : nullptr;
-  made.width = sized != nullptr ? sized->width : kUsualWidth;
-  made.height = sized != nullptr ? sized->height : kUsualHeight;
-  made.scale = std::min(1.0, static_cast<double>(widest) / made.width);
-  made.area = {0, 0, std::max(1, static_cast<int>(std::lround(made.scale * made.width))),
-               std::max(1, static_cast<int>(std::lround(made.scale * made.height)))};
-  return made;
+  result.width = sized != nullptr ? sized->width : kUsualWidth;
+  result.height = sized != nullptr ? sized->height : kUsualHeight;
+  result.scale = std::min(1.0, static_cast<double>(widest) / result.width);
+  result.area = {0, 0, std::max(1, static_cast<int>(std::lround(result.scale * result.width))),
+                 std::max(1, static_cast<int>(std::lround(result.scale * result.height)))};
+  return result;
 }
 
 void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title) {

@@ -99,7 +99,7 @@ std::array<float, kWideGrid * kWideGrid> sampleWindow(const ImageView& image, co
 Eigen::Matrix<float, kDescriptorSize, 1> histograms(const DescriptorGrid& size, const DescriptorGrid& place) {
   static const Weights weights;
   static const Shares shares;
-  Eigen::Matrix<float, kDescriptorSize, 1> made;
+  Eigen::Matrix<float, kDescriptorSize, 1> result;
   // Histograms with a margin of a part on each side, for shares beyond the window.
   std::array<float, (kParts + 2) * (kParts + 2) * kDirections> bins{};
   for (std::size_t j = 0; j < kGrid; ++j)
@@ -123,16 +123,16 @@ Eigen::Matrix<float, kDescriptorSize, 1> histograms(const DescriptorGrid& size, 
   for (int j = 0; j < kParts; ++j)
     for (int i = 0; i < kParts; ++i)
       for (int o = 0; o < kDirections; ++o)
-        made[(j * kParts + i) * kDirections + o] =
+        result[(j * kParts + i) * kDirections + o] =
             bins[static_cast<std::size_t>(((j + 1) * (kParts + 2) + i + 1) * kDirections + o)];
-  return made;
+  return result;
 }
 
 }  // namespace
 
 Eigen::Matrix<float, kDescriptorSize, 1> describe(const Pyramid& pyramid, const Eigen::Vector2d& centre,
                                                   double window) {
-  Eigen::Matrix<float, kDescriptorSize, 1> made = Eigen::Matrix<float, kDescriptorSize, 1>::Zero();
+  Eigen::Matrix<float, kDescriptorSize, 1> result = Eigen::Matrix<float, kDescriptorSize, 1>::Zero();
   const int level = std::clamp(static_cast<int>(std::floor(std::log2(window / kGrid))), 0, pyramid.levels() - 1);
   const ImageView& image = pyramid.level(level);
   const double scale = Pyramid::scale(level);
@@ -148,14 +148,14 @@ Eigen::Matrix<float, kDescriptorSize, 1> describe(const Pyramid& pyramid, const 
       size[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k]);
       contrast += size[k];
     }
-  if (!(contrast > kLeastContrast * kGrid * kGrid)) return made;
+  if (!(contrast > kLeastContrast * kGrid * kGrid)) return result;
   computeDirections(dx, dy, place);
 
-  made = histograms(size, place);
-  made /= made.norm();
-  made = made.cwiseMin(kLargestElement);
-  made /= made.norm();
-  return made;
+  result = histograms(size, place);
+  result /= result.norm();
+  result = result.cwiseMin(kLargestElement);
+  result /= result.norm();
+  return result;
 }
 
 namespace {

@@ -47,16 +47,16 @@ Eigen::Matrix4d computeWeight(const Sight& sight) {
 }
 
 Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset, double& rho) {
-  Reduced made;
+  Reduced result;
   const Eigen::Matrix4d W = computeWeight(sight);
   SightResidual r;
   constexpr int kMostSteps = 4;
   for (int step = 0; step < kMostSteps; ++step) {
     r = computeResidual(sight, camera, T_a_b, offset, rho);
-    if (!r.visible) return made;
+    if (!r.visible) return result;
     const Eigen::Vector4d along = W * r.J.col(kOfDepth);
     const double d = along.dot(r.e) / along.dot(r.J.col(kOfDepth));
-    if (!std::isfinite(d)) return made;
+    if (!std::isfinite(d)) return result;
     if (std::abs(d) < 1e-7 || step + 1 == kMostSteps) break;
     rho += d;
   }
@@ -68,12 +68,12 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
   const Eigen::Matrix<double, 8, 1> b = JW * r.e;
   const double of_rho = H(kOfDepth, kOfDepth);
   const Vector7d cross = H.col(kOfDepth).head<7>();
-  made.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
-  made.b = b.head<7>() - cross * (b[kOfDepth] / of_rho);
-  made.chi2 = r.e.dot(W * r.e) - b[kOfDepth] * b[kOfDepth] / of_rho;
-  made.residual_px = r.e.segment<2>(1).norm() / sight.size;
-  made.visible = made.H.allFinite() && made.b.allFinite();
-  return made;
+  result.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
+  result.b = b.head<7>() - cross * (b[kOfDepth] / of_rho);
+  result.chi2 = r.e.dot(W * r.e) - b[kOfDepth] * b[kOfDepth] / of_rho;
+  result.residual_px = r.e.segment<2>(1).norm() / sight.size;
+  result.visible = result.H.allFinite() && result.b.allFinite();
+  return result;
 }
 
 double computeWeight(double chi2, double scale2) {
@@ -147,35 +147,35 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   const Matrix6d seen = information * spread;
   const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
   // Eigen solves a transposed right side by rows, with another order of summation than solveByLdlt.
-  const Matrix6d made = information - seen * inner.ldlt().solve(seen.transpose());
-  return 0.5 * (made + made.transpose());
+  const Matrix6d result = information - seen * inner.ldlt().solve(seen.transpose());
+  return 0.5 * (result + result.transpose());
 }
 
 /// Sets the outcome of each sight, the number of inliers and their mean residual.
 void classifySights(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, double scale2,
-                    const EstimateOptions& options, Estimate& made) {
-  made.sights.resize(sights.size());
+                    const EstimateOptions& options, Estimate& result) {
+  result.sights.resize(sights.size());
   double total = 0.0;
   for (std::size_t i = 0; i < sights.size(); ++i) {
-    SightOutcome& outcome = made.sights[i];
+    SightOutcome& outcome = result.sights[i];
     if (!reduced[i].visible) continue;
     outcome.chi2 = reduced[i].chi2;
     outcome.residual_px = reduced[i].residual_px;
     outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? kGateThree : kGateTwo) &&
                      outcome.residual_px <= options.largest_residual_px;
     if (!outcome.inlier) continue;
-    ++made.inliers;
+    ++result.inliers;
     total += outcome.residual_px;
   }
-  made.reprojection_px = made.inliers > 0 ? total / made.inliers : 0.0;
+  result.reprojection_px = result.inliers > 0 ? total / result.inliers : 0.0;
 }
 
 }  // namespace
 
 Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, const Pose& start,
                   const EstimateOptions& options) {
-  Estimate made;
-  made.T_a_b = start;
+  Estimate result;
+  result.T_a_b = start;
   std::vector<double> rho(sights.size()), ratios;
   for (std::size_t i = 0; i < sights.size(); ++i) rho[i] = inverseDepth(sights[i], camera);
   std::vector<Reduced> reduced(sights.size());
@@ -183,7 +183,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
       options.sigma_offset > 0.0 ? 1.0 / (options.sigma_offset * options.sigma_offset) : kExactOffset * kExactOffset;
   const auto linearise = [&] {
     for (std::size_t i = 0; i < sights.size(); ++i)
-      reduced[i] = reduce(sights[i], camera, made.T_a_b, made.offset, rho[i]);
+      reduced[i] = reduce(sights[i], camera, result.T_a_b, result.offset, rho[i]);
     return options.scaled ? estimateScale(sights, reduced, ratios) : 1.0;
   };
   const auto sum = [&](double scale2, Matrix7d& H, Vector7d& b) {
@@ -196,7 +196,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
       b += weight * r.b;
     }
     H(kOfOffset, kOfOffset) += offset_weight;
-    b[kOfOffset] -= offset_weight * made.offset;
+    b[kOfOffset] -= offset_weight * result.offset;
   };
   Matrix7d H;
   Vector7d b;
@@ -206,9 +206,9 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
     sum(scale2, H, b);
     H.diagonal().array() += kAnchor;
     const Vector7d d = urban_nav_core::solveByLdlt<7, 1>(H, b);
-    if (!d.allFinite()) return made;
-    made.T_a_b = urban_nav_core::boxPlus(made.T_a_b, d.head<6>());
-    made.offset += d[kOfOffset];
+    if (!d.allFinite()) return result;
+    result.T_a_b = urban_nav_core::boxPlus(result.T_a_b, d.head<6>());
+    result.offset += d[kOfOffset];
     if (d.head<3>().norm() < kSettledM && d.segment<3>(3).norm() < kSettledRad) break;
   }
   scale2 = linearise();
@@ -220,13 +220,13 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
     by.segment<3>(3).setConstant(1.0 / std::sqrt(larger.rotation));
     H = (by.asDiagonal() * H * by.asDiagonal()).eval();
   }
-  made.noise_factor = std::sqrt(scale2);
+  result.noise_factor = std::sqrt(scale2);
   const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, kOfOffset);
-  made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
-  made.information = withCommonError(camera, made.T_a_b, options, made.information);
-  classifySights(sights, reduced, scale2, options, made);
-  made.found = made.inliers >= 3 && made.T_a_b.isFinite() && made.information.allFinite();
-  return made;
+  result.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
+  result.information = withCommonError(camera, result.T_a_b, options, result.information);
+  classifySights(sights, reduced, scale2, options, result);
+  result.found = result.inliers >= 3 && result.T_a_b.isFinite() && result.information.allFinite();
+  return result;
 }
 
 }  // namespace urban_nav_registration

@@ -69,14 +69,14 @@ std::optional<double> enlargement(const Eigen::Matrix2d& A) {
 
 Found alignPoint(const StereoCamera& camera, const View& from, const View& to, const ViewPoint& point,
                  const Pose& T_to_from, double offset, const AligningOptions& options) {
-  Found made;
+  Found result;
   const double rho =
       std::max(0.0, (point.disparity - camera.disparity_offset - offset) / (camera.left.fx * camera.baseline));
   const Eigen::Vector3d plane = urban_nav_core::surfaceAt(point.plane, point.ray, rho);
   const auto place = findPlace(camera, plane, point.ray, T_to_from);
-  if (!place) return made;
+  if (!place) return result;
   const auto scale = enlargement(place->warp.A);
-  if (!scale) return made;
+  if (!scale) return result;
   // Levels f and t at which the patches have similar size.
   int f = point.level + options.coarser;
   int t = f + static_cast<int>(std::lround(std::log2(*scale)));
@@ -84,45 +84,45 @@ Found alignPoint(const StereoCamera& camera, const View& from, const View& to, c
     f -= t;
     t = 0;
   }
-  if (f >= from.pyramid.levels() || t >= to.pyramid.levels()) return made;
+  if (f >= from.pyramid.levels() || t >= to.pyramid.levels()) return result;
   const double from_scale = Pyramid::scale(f), to_scale = Pyramid::scale(t);
   // The centre of the template is a whole pixel of its level, not the point itself.
   const int u = static_cast<int>(std::lround(point.pixel.x() * from_scale)),
             v = static_cast<int>(std::lround(point.pixel.y() * from_scale));
   const auto source = urban_nav_core::cutSource(from.pyramid.level(f), u, v);
-  if (!source) return made;
+  if (!source) return result;
   const Eigen::Vector2d middle = Eigen::Vector2d(u, v) / from_scale;
   const Eigen::Vector3d ray = camera.left.ray(middle);
   const auto of_middle = findPlace(camera, plane, ray, T_to_from);
-  if (!of_middle) return made;
+  if (!of_middle) return result;
   const auto& image = to.pyramid.level(t);
   const Eigen::Vector2d start = of_middle->pixel * to_scale;
   if (!(start.x() >= kViewMargin && start.y() >= kViewMargin && start.x() < image.width - kViewMargin &&
         start.y() < image.height - kViewMargin))
-    return made;
+    return result;
   PatchWarp warp(of_middle->warp.A * (to_scale / from_scale), of_middle->warp.bend / from_scale);
   warp.bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp.bend.norm(), 1e-9));
   PatchTemplate patch;
-  if (!urban_nav_core::warpTemplate(*source, warp, patch)) return made;
-  made.visible = true;
-  made.likeness = urban_nav_core::correlationAt(image, patch, start);
+  if (!urban_nav_core::warpTemplate(*source, warp, patch)) return result;
+  result.visible = true;
+  result.likeness = urban_nav_core::correlationAt(image, patch, start);
   const auto aligned = urban_nav_core::alignPatch(image, patch, start, options.reach);
   if (!aligned.converged || aligned.correlation < kLeastViewCorrelation || aligned.gain < kLeastGain ||
       aligned.gain > kLargestGain || !aligned.covariance.allFinite())
-    return made;
-  made.found = true;
-  made.size = 1.0 / to_scale;
-  Sight& sight = made.sight;
-  sight.size = made.size;
+    return result;
+  result.found = true;
+  result.size = 1.0 / to_scale;
+  Sight& sight = result.sight;
+  sight.size = result.size;
   sight.ray = ray;
   // disparity along the surface at the centre of the template
   sight.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
   sight.sigma_disparity = point.sigma_disparity;
-  sight.pixel = aligned.position * made.size;
+  sight.pixel = aligned.position * result.size;
   // Both images have noise; the alignment models that of one.
   sight.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
-  sight.covariance *= made.size * made.size;
-  return made;
+  sight.covariance *= result.size * result.size;
+  return result;
 }
 
 std::vector<Found> alignAllPoints(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
@@ -139,13 +139,13 @@ std::vector<Found> alignAllPoints(const StereoCamera& camera, const View& from, 
 
 Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, const Pose& T_a_b, double offset,
                    const AligningOptions& options) {
-  Aligned made;
+  Aligned result;
   std::vector<Found> of_a = alignAllPoints(camera, a, b, T_a_b.inverse(), offset, options);
   const std::vector<Found> of_b = alignAllPoints(camera, b, a, T_a_b, offset, options);
-  const auto see = [&made](const Found& found) {
+  const auto see = [&result](const Found& found) {
     if (!found.visible) return;
-    ++made.visible;
-    made.likeness += found.likeness;
+    ++result.visible;
+    result.likeness += found.likeness;
   };
   std::vector<bool> taken(b.points.size(), false);
   for (Found& found : of_a) {
@@ -169,17 +169,17 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
       sight.other_sigma =
           std::hypot(partner->sigma_disparity, per_depth * slope, kLeastDepthShare * sight.other_disparity);
     }
-    made.sights.push_back(sight);
+    result.sights.push_back(sight);
   }
   for (std::size_t j = 0; j < of_b.size(); ++j) {
     if (taken[j]) continue;
     see(of_b[j]);
     if (!of_b[j].found) continue;
-    made.sights.push_back(of_b[j].sight);
-    made.sights.back().of_a = false;
+    result.sights.push_back(of_b[j].sight);
+    result.sights.back().of_a = false;
   }
-  if (made.visible > 0) made.likeness /= made.visible;
-  return made;
+  if (result.visible > 0) result.likeness /= result.visible;
+  return result;
 }
 
 }  // namespace urban_nav_registration

@@ -169,17 +169,17 @@ int samplesFor(int inliers, std::size_t count) {
 
 Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b,
                         const std::vector<DescriptorMatch>& pairs) {
-  Consensus made;
+  Consensus result;
   const std::vector<Item> items = makeItems(camera, a, b, pairs);
   std::vector<const Item*> deep;
   for (const Item& item : items)
     if (item.deep) deep.push_back(&item);
-  if (deep.size() < 3) return made;
+  if (deep.size() < 3) return result;
   Score best{kGate * static_cast<double>(items.size()), 0};
   std::uint32_t state = 12345;
   int wanted = kMostSamples;
   const auto count = static_cast<std::uint32_t>(deep.size());
-  for (; made.samples < wanted; ++made.samples) {
+  for (; result.samples < wanted; ++result.samples) {
     std::array<const Item*, 3> triple{};
     for (auto next = triple.begin(); next != triple.end();) {
       state = state * 1664525U + 1013904223U;
@@ -190,17 +190,17 @@ Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b
     if (!T_a_b) continue;
     Score score = computeScore(items, camera, *T_a_b);
     if (score.cost >= best.cost) continue;
-    made.T_a_b = improve(items, camera, *T_a_b, score);
+    result.T_a_b = improve(items, camera, *T_a_b, score);
     best = score;
     wanted = samplesFor(best.inliers, items.size());
   }
-  made.inliers = best.inliers;
-  made.found = best.inliers >= kFewestInliers;
-  const Pose T_b_a = made.T_a_b.inverse();
+  result.inliers = best.inliers;
+  result.found = best.inliers >= kFewestInliers;
+  const Pose T_b_a = result.T_a_b.inverse();
   const Eigen::Matrix3d R = T_b_a.R();
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (misfit(items[i], camera, R, T_b_a.t()) >= kGate) made.others.push_back(pairs[i]);
-  return made;
+    if (misfit(items[i], camera, R, T_b_a.t()) >= kGate) result.others.push_back(pairs[i]);
+  return result;
 }
 
 }  // namespace urban_nav_registration

@@ -83,15 +83,15 @@ const char* toString(StereoReason reason) {
 
 Constraint betweenBases(const Constraint& lefts, const Pose& T_base_left) {
   // T_basea_baseb = X T X^-1: with box perturbations phi' = Rx phi, rho' = Rx rho + [R' tx] phi'
-  Constraint made;
-  made.T_a_b = T_base_left * lefts.T_a_b * T_base_left.inverse();
+  Constraint result;
+  result.T_a_b = T_base_left * lefts.T_a_b * T_base_left.inverse();
   const Matrix3d Rx = T_base_left.R();
   Matrix6d left_by_base = Matrix6d::Zero();
   left_by_base.topLeftCorner<3, 3>() = left_by_base.bottomRightCorner<3, 3>() = Rx.transpose();
-  left_by_base.topRightCorner<3, 3>() = -Rx.transpose() * urban_nav_core::skew(made.T_a_b.q() * T_base_left.t());
-  made.information = left_by_base.transpose() * lefts.information * left_by_base;
-  made.information = (0.5 * (made.information + made.information.transpose())).eval();
-  return made;
+  left_by_base.topRightCorner<3, 3>() = -Rx.transpose() * urban_nav_core::skew(result.T_a_b.q() * T_base_left.t());
+  result.information = left_by_base.transpose() * lefts.information * left_by_base;
+  result.information = (0.5 * (result.information + result.information.transpose())).eval();
+  return result;
 }
 
 class StereoMatcher::Implementation {

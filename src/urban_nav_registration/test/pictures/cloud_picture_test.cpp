@@ -47,9 +47,9 @@ PointCloud wall() {
 }
 
 PointCloud moved(const PointCloud& cloud, const Pose& T) {
-  PointCloud made;
-  for (const Eigen::Vector3f& point : cloud.points) made.points.push_back((T * point.cast<double>()).cast<float>());
-  return made;
+  PointCloud result;
+  for (const Eigen::Vector3f& point : cloud.points) result.points.push_back((T * point.cast<double>()).cast<float>());
+  return result;
 }
 
 Picture drawn(const PointCloud& source, const PointCloud& target, const Pose& guess, const Pose& T,

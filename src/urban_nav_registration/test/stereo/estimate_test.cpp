@@ -24,8 +24,8 @@ StereoCamera estimateCamera() { return {{390.0, 390.0, 255.0, 195.0, 512, 384}, 
 /// Points from 3 to 60 m, measured in both views with noise; `offset` is common to all disparities.
 std::vector<Sight> sights(const Pose& T_a_b, double noise, double offset, int count, Dice& dice) {
   const StereoCamera c = estimateCamera();
-  std::vector<Sight> made;
-  while (static_cast<int>(made.size()) < count) {
+  std::vector<Sight> result;
+  while (static_cast<int>(result.size()) < count) {
     const double z = std::exp(dice.uniform(std::log(3.0), std::log(60.0)));
     const Vector3d p = c.left.ray({dice.uniform(0.0, 511.0), dice.uniform(0.0, 383.0)}) * z;
     const bool of_a = dice.chance(0.7);
@@ -42,9 +42,9 @@ std::vector<Sight> sights(const Pose& T_a_b, double noise, double offset, int co
       sight.other_sigma = 0.12;
       sight.other_disparity = (*other)[0] - (*other)[2] + offset + noise * sight.other_sigma * dice.normal();
     }
-    made.push_back(sight);
+    result.push_back(sight);
   }
-  return made;
+  return result;
 }
 
 Pose motion(Dice& dice) {

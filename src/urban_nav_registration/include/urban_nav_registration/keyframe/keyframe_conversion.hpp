@@ -23,7 +23,7 @@ class KeyframeConversion {
   const urban_nav_core::Pose& T_base_virtual() const { return T_base_virtual_; }
 
  private:
-  bool convertPoint(const KeyframePoint& point, KeyframePoint& made) const;
+  bool convertPoint(const KeyframePoint& point, KeyframePoint& result) const;
 
   urban_nav_core::StereoCamera from_, to_;
   urban_nav_core::Matrix3d R_to_from_;
