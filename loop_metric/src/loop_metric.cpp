@@ -67,8 +67,8 @@ class Measuring {
     measurement_.metric.b = candidate.b;
     measurement_.metric.probability = candidate.probability;
     measurement_.metric.source = "loop_metric";
-    if (const auto way = place_data.between(candidate.a, candidate.b))
-      gate_.emplace(*way, parameters_.registration.odometry_scale);
+    if (const auto path = place_data.between(candidate.a, candidate.b))
+      gate_.emplace(*path, parameters_.registration.odometry_scale);
   }
 
   CandidateMeasurement run() {
@@ -106,12 +106,13 @@ class Measuring {
   }
 
   bool byStereo() {
-    const double way = parameters_.keyframe_search_distance;
+    const double search_distance = parameters_.keyframe_search_distance;
     std::optional<PoseWithCovariance> T_a_b;
     if (gate_) T_a_b = gate_->T_a_b();
-    for (const KeyframePair& pair : chooseKeyframePairs(place_data_.views(measurement_.metric.a, way),
-                                                        place_data_.views(measurement_.metric.b, way), T_a_b, way,
-                                                        static_cast<std::size_t>(parameters_.stereo_tries))) {
+    for (const KeyframePair& pair :
+         chooseKeyframePairs(place_data_.views(measurement_.metric.a, search_distance),
+                             place_data_.views(measurement_.metric.b, search_distance), T_a_b, search_distance,
+                             static_cast<std::size_t>(parameters_.stereo_tries))) {
       StereoAttempt made{pair.a, pair.b, stage_.match(pair.a, pair.b, place_data_)};
       measurement_.attempts.stereo.push_back(made);
       if (made.result.verdict != ClosureVerdict::Accepted) continue;

@@ -19,7 +19,7 @@ using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
-constexpr double kNearClosureWay = 30.0;          // m: path length over which the error of odometry is a few
+constexpr double kNearPathLength = 30.0;          // m: path length over which the error of odometry is a few
                                                   // centimetres
 constexpr double kClosureMetresPerRadian = 10.0;  // for directions without information in a closure
 constexpr double kNearTime = 120.0;               // s: maximum time for this path
@@ -37,7 +37,7 @@ std::optional<double> computeRing(const MetricClosure& i, const MetricClosure& j
   };
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
   const auto along_a = place_data.between(i.a, j.a), along_b = place_data.between(i.b, j.b);
-  if (!along_a || !along_b || along_a->length > kNearClosureWay || along_b->length > kNearClosureWay)
+  if (!along_a || !along_b || along_a->length > kNearPathLength || along_b->length > kNearPathLength)
     return std::nullopt;
   const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.registration.odometry_scale).T_a_b(),
                            T_bi_bj = OdometryGate(*along_b, parameters.registration.odometry_scale).T_a_b();

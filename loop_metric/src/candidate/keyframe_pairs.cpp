@@ -18,9 +18,9 @@ constexpr double kPairMetresPerRadian = 4.0;  // effect of a rotation on the num
 constexpr double kUsefulSigma = 2.0;          // m: with less accurate odometry, the nearest keyframes are unknown
 constexpr double kDoubts = 3.0;               // standard deviations for certainly different headings
 
-const NearbyKeyframe& nearestView(const std::vector<NearbyKeyframe>& views, double way) {
-  return *std::min_element(views.begin(), views.end(), [way](const NearbyKeyframe& x, const NearbyKeyframe& y) {
-    return std::abs(x.way - way) < std::abs(y.way - way);
+const NearbyKeyframe& nearestView(const std::vector<NearbyKeyframe>& views, double offset) {
+  return *std::min_element(views.begin(), views.end(), [offset](const NearbyKeyframe& x, const NearbyKeyframe& y) {
+    return std::abs(x.path_offset - offset) < std::abs(y.path_offset - offset);
   });
 }
 
@@ -50,7 +50,7 @@ void add(std::vector<KeyframePair>& pairs, const NearbyKeyframe& a, const Nearby
 
 std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>& views_a,
                                               const std::vector<NearbyKeyframe>& views_b,
-                                              const std::optional<PoseWithCovariance>& T_a_b, double way,
+                                              const std::optional<PoseWithCovariance>& T_a_b, double search_distance,
                                               std::size_t most) {
   std::vector<KeyframePair> pairs;
   if (views_a.empty() || views_b.empty()) return pairs;
@@ -73,7 +73,7 @@ std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>&
     if (largestSigma(*T_a_b, 0) < kUsefulSigma) pairs.push_back(*best);
   }
   add(pairs, a, b);
-  for (const double along : {-0.5 * way, 0.5 * way}) add(pairs, nearestView(views_a, along), b);
+  for (const double along : {-0.5 * search_distance, 0.5 * search_distance}) add(pairs, nearestView(views_a, along), b);
   if (pairs.size() > most) pairs.resize(most);
   return pairs;
 }

@@ -43,8 +43,8 @@ double rootMeanDeviation(const Vector6d& d, const Matrix6d& covariance, const Ma
   return std::sqrt(std::max(0.0, d.dot(w) - w.dot(*both * w)) / directions);
 }
 
-OdometryGate::OdometryGate(const PlaceData::Way& way, double scale) : T_a_b_(way.T_a_b) {
-  const double common = scale * way.length;
+OdometryGate::OdometryGate(const PlaceData::OdometryPath& path, double scale) : T_a_b_(path.T_a_b) {
+  const double common = scale * path.length;
   T_a_b_.covariance.diagonal().head<3>().array() += common * common + kLeastSigma * kLeastSigma;
   T_a_b_.covariance.diagonal().tail<3>().array() += kLeastSigma * kLeastSigma;
 }

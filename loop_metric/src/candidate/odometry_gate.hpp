@@ -10,7 +10,7 @@ class OdometryGate {
  public:
   /// `scale`: error common to all steps, as a share of the path length; added to the covariance, as it is not part of
   /// that of the chain.
-  OdometryGate(const PlaceData::Way& way, double scale);
+  OdometryGate(const PlaceData::OdometryPath& path, double scale);
 
   /// Returns odometry with that error included.
   const urban_nav_core::PoseWithCovariance& T_a_b() const { return T_a_b_; }

@@ -24,9 +24,9 @@ bool isOfClouds(const MetricClosure& closure) {
 /// Returns the distance from the cloud around `x` to that around `y` along the path, in lengths of a cloud; nullopt if
 /// they do not overlap.
 std::optional<double> shift(const PoseRef& x, const PoseRef& y, const PlaceData& place_data, double length) {
-  const auto way = place_data.between(x, y);
-  if (!way || !(way->length < length)) return std::nullopt;
-  return (y.stamp < x.stamp ? -1.0 : 1.0) * way->length / length;
+  const auto path = place_data.between(x, y);
+  if (!path || !(path->length < length)) return std::nullopt;
+  return (y.stamp < x.stamp ? -1.0 : 1.0) * path->length / length;
 }
 
 /// Shift of a unit square relative to another one that it overlaps.

@@ -19,7 +19,7 @@ std::vector<NearbyKeyframe> row(const char* session, int before, int after) {
     view.at = {session, 1000 + i};
     view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {static_cast<double>(i), 0.0, 0.0});
     view.T_place_keyframe.covariance.setZero();
-    view.way = i;
+    view.path_offset = i;
     views.push_back(view);
   }
   return views;
@@ -38,7 +38,7 @@ TEST(ViewPairs, AViewBesideBothMomentsIsNotMatchedWithItself) {
   // Back and forth within seven metres: the same keyframes are near both poses.
   auto back = row("a", 6, 6);
   for (NearbyKeyframe& view : back)
-    view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.way + 0.3, 0.0, 0.0});
+    view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.path_offset + 0.3, 0.0, 0.0});
   for (const auto& T_a_b :
        {std::optional<PoseWithCovariance>(odometry(0.0, 0.0, 0.01, 0.001)), std::optional<PoseWithCovariance>()}) {
     const auto pairs = chooseKeyframePairs(row("a", 6, 6), back, T_a_b, 6.0, 5);

@@ -82,7 +82,7 @@ TEST_F(StoredSurroundingsTest, ViewsOfTheWayAroundAMomentInOrder) {
   const auto views = place_data_->views({"day", 10 * kRowSecond + kRowSecond / 2}, 4.0);
   ASSERT_EQ(views.size(), 4U);  // at 8, 10, 12 and 14 m; the one at 6 m is 4.5 m away
   EXPECT_EQ(views.front().at.stamp, 8 * kRowSecond);
-  EXPECT_NEAR(views.front().way, -2.5, 1e-9);
+  EXPECT_NEAR(views.front().path_offset, -2.5, 1e-9);
   EXPECT_NEAR(views.back().T_place_keyframe.pose.t().x(), 3.5, 1e-9);
   EXPECT_TRUE(place_data_->views({"another", 0}, 4.0).empty());
 }
@@ -133,10 +133,10 @@ TEST_F(StoredSurroundingsTest, KnowsItsMomentsAndTheWayBetweenThem) {
   EXPECT_NE(why.find("no frames around"), std::string::npos);
   EXPECT_FALSE(place_data_->knows({"night", 0}, why));
   EXPECT_NE(why.find("there are: day"), std::string::npos);
-  const auto way = place_data_->between({"day", 30 * kRowSecond}, {"day", 10 * kRowSecond});
-  ASSERT_TRUE(way);
-  EXPECT_NEAR(way->T_a_b.pose.t().x(), -20.0, 1e-9);
-  EXPECT_NEAR(way->length, 20.0, 1e-9);
+  const auto path = place_data_->between({"day", 30 * kRowSecond}, {"day", 10 * kRowSecond});
+  ASSERT_TRUE(path);
+  EXPECT_NEAR(path->T_a_b.pose.t().x(), -20.0, 1e-9);
+  EXPECT_NEAR(path->length, 20.0, 1e-9);
   EXPECT_FALSE(place_data_->between({"day", 0}, {"night", 0}));
 }
 

@@ -37,14 +37,14 @@ class LinePlaceData : public PlaceData {
     why = "no data there";
     return false;
   }
-  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const override {
+  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double distance) const override {
     std::vector<NearbyKeyframe> result;
     const auto its = odometry.find(at.session);
     if (its == odometry.end()) return result;
     for (const auto& [ref, keyframe] : keyframes) {
       if (ref.session != at.session) continue;
       const double along = its->second.distance(ref.stamp) - its->second.distance(at.stamp);
-      if (std::abs(along) <= way) result.push_back({ref, *its->second.between(at.stamp, ref.stamp), along});
+      if (std::abs(along) <= distance) result.push_back({ref, *its->second.between(at.stamp, ref.stamp), along});
     }
     return result;
   }
@@ -59,12 +59,13 @@ class LinePlaceData : public PlaceData {
   urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double) const override {
     return clouds ? clouds(at) : urban_nav_core::PointCloud();
   }
-  std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const override {
+  std::optional<OdometryPath> between(const urban_nav_core::PoseRef& a,
+                                      const urban_nav_core::PoseRef& b) const override {
     const auto its = odometry.find(a.session);
     if (its == odometry.end() || a.session != b.session) return std::nullopt;
     const auto T_a_b = its->second.between(a.stamp, b.stamp);
     if (!T_a_b) return std::nullopt;
-    return Way{*T_a_b, std::abs(its->second.distance(b.stamp) - its->second.distance(a.stamp))};
+    return OdometryPath{*T_a_b, std::abs(its->second.distance(b.stamp) - its->second.distance(a.stamp))};
   }
 };
 

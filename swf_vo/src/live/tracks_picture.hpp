@@ -20,17 +20,17 @@ class TracksPicture {
   /// Requires consecutive frames for complete paths. The result (CV_8UC3, BGR) is valid until the next call; it is
   /// empty if there is no left image.
   const cv::Mat& draw(const urban_nav_core::ImageView& left, const Frame& frame);
-  void clear() { ways_.clear(); }
+  void clear() { paths_.clear(); }
 
  private:
-  struct Way {
+  struct Path {
     FrameId last = 0;
     std::vector<cv::Point2f> pixels;  // oldest first
   };
   void follow(const Frame& frame);
 
   double near_disparity_px_;
-  std::unordered_map<LandmarkId, Way> ways_;
+  std::unordered_map<LandmarkId, Path> paths_;
   cv::Mat grey_, picture_, colours_;
 };
 

@@ -40,11 +40,12 @@ class StoredPlaceData : public PlaceData {
   void add(const urban_nav_core::PoseRef& view);
 
   bool knows(const urban_nav_core::PoseRef& at, std::string& why) const override;
-  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const override;
+  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double distance) const override;
   urban_nav_registration::Keyframe keyframe(const urban_nav_core::PoseRef& at) const override;
-  urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double way) const override;
-  double deformationSigma(const urban_nav_core::PoseRef& at, double way) const override;
-  std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const override;
+  urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double distance) const override;
+  double deformationSigma(const urban_nav_core::PoseRef& at, double distance) const override;
+  std::optional<OdometryPath> between(const urban_nav_core::PoseRef& a,
+                                      const urban_nav_core::PoseRef& b) const override;
 
  private:
   const StoredSession* find(const urban_nav_core::PoseRef& at) const;

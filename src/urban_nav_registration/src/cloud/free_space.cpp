@@ -23,10 +23,10 @@ FreeSpace::FreeSpace(const PointCloud& cloud, float edge) : per_m_(1.0F / edge),
   for (const Eigen::Vector3f& point : cloud.points) mark(findCube(point));
   const std::size_t step = std::max<std::size_t>(1, (count + kMostBeams - 1) / kMostBeams);
   for (std::size_t i = 0; i < count; i += step) {
-    const Eigen::Vector3f way = cloud.points[i] - cloud.origins[i];
-    const float length = way.norm();
+    const Eigen::Vector3f beam = cloud.points[i] - cloud.origins[i];
+    const float length = beam.norm();
     if (!(length < 200.0F)) continue;  // NaN too
-    const Eigen::Vector3f along = way * (edge / std::max(length, edge));
+    const Eigen::Vector3f along = beam * (edge / std::max(length, edge));
     Eigen::Vector3f at = cloud.origins[i] + 0.5F * along;
     for (float left = length - 0.5F * edge; left > kBeforeTheEnd * edge; left -= edge, at += along) {
       const std::size_t cube = findCube(at);

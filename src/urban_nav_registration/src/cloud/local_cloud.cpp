@@ -37,25 +37,26 @@ void thin(PointCloud& cloud) {
 
 }  // namespace
 
-std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs at, double way) {
+std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs at, double half_length) {
   const urban_nav_core::Trajectory& frames = odometry.trajectory();
   const double here = odometry.distance(at);
   const std::size_t nearest = frames.nearest(at);
   std::size_t first = nearest, last = nearest;
   while (first > 0 && at - frames[first - 1].stamp <= kLongestStay &&
-         here - odometry.distance(frames[first - 1].stamp) <= way)
+         here - odometry.distance(frames[first - 1].stamp) <= half_length)
     --first;
   while (last + 1 < frames.size() && frames[last + 1].stamp - at <= kLongestStay &&
-         odometry.distance(frames[last + 1].stamp) - here <= way)
+         odometry.distance(frames[last + 1].stamp) - here <= half_length)
     ++last;
   return {frames[first].stamp, frames[last].stamp};
 }
 
-PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, const std::vector<LaserScans>& lasers) {
+PointCloud localCloud(const OdometryChain& odometry, StampNs at, double half_length,
+                      const std::vector<LaserScans>& lasers) {
   PointCloud cloud;
   const std::optional<Pose> T_first_moment = odometry.at(at);
   if (!T_first_moment) return cloud;
-  const auto [first, last] = stretchAround(odometry, at, way);
+  const auto [first, last] = stretchAround(odometry, at, half_length);
   std::vector<urban_nav_core::LaserPoint> points;
   for (const LaserScans& laser : lasers) {
     urban_nav_core::BeamRenderer renderer(odometry.trajectory(), laser.T_base_laser, T_first_moment->inverse(),
@@ -75,9 +76,9 @@ PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, con
 
 // Mean deviation of a random walk from end to end after alignment by its mean: a sixth of its variance over the whole
 // length, which is a third of that over a half.
-double deformationSigma(const OdometryChain& odometry, StampNs at, double way) {
+double deformationSigma(const OdometryChain& odometry, StampNs at, double half_length) {
   if (!odometry.nearestFrame(at)) return 0.0;
-  const auto [first, last] = stretchAround(odometry, at, way);
+  const auto [first, last] = stretchAround(odometry, at, half_length);
   double variance = 0.0;
   for (const StampNs end : {first, last})
     if (const auto T_moment_end = odometry.between(at, end)) {

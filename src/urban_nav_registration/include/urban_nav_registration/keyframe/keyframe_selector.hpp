@@ -14,7 +14,7 @@ namespace urban_nav_registration {
 class KeyframeSelector {
  public:
   explicit KeyframeSelector(const Parameters& parameters)
-      : way_(parameters.keyframe_distance), turn_(parameters.keyframe_angle) {}
+      : distance_(parameters.keyframe_distance), angle_(parameters.keyframe_angle) {}
 
   /// Sets the pose of the last keyframe, relative to which the next ones are selected.
   void keep(const urban_nav_core::Pose& T_odom_base) { last_ = T_odom_base; }
@@ -22,7 +22,7 @@ class KeyframeSelector {
   bool select(const urban_nav_core::Pose& T_odom_base);
 
  private:
-  double way_, turn_;
+  double distance_, angle_;
   std::optional<urban_nav_core::Pose> last_;  // T_odom_base of the last keyframe
 };
 
