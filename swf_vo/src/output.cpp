@@ -30,7 +30,7 @@ Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
   return 0.5 * (result + result.transpose());
 }
 
-// Features and landmarks beyond this distance are not written: their depth is not significant.
+// Landmarks beyond this depth are not written: it is not significant.
 constexpr double kFarAway = 200.0;  // m
 
 // Landmarks whose first frame is stored; beyond this number, those that are no longer in the map are removed.

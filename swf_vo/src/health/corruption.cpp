@@ -17,7 +17,7 @@ constexpr int kCorruptionColumnStep = 64, kCorruptionRowStep = 4;
 // Neighbouring random bytes differ by 85 grey levels on average, and over a segment by more than 60 almost always;
 // below 16 the roughness may be camera noise.
 constexpr unsigned kLeastRough = 16 * kLength, kRandomBytes = 60 * kLength;
-// Geometric mean of the shares in good and in corrupted images (see the header).
+// Threshold between the shares in good and in corrupted images (see the header).
 constexpr double kCorruptedShare = 0.025;
 constexpr int kFewestLines =
     4;  // segments: a small image has a few tens, and one of them may be an edge along the rows

@@ -35,7 +35,7 @@ constexpr double kFarInOneStep = 4.0, kLargeShareOfStep = 0.5;
 constexpr double kBeyond = 2.0, kWellKnown = 0.02, kSignificant = 3.0;
 // Half of the averaging time of rates at the ends of a step, s.
 constexpr double kRateWindow = 0.1;
-// Maximum clock offset before the oldest step that is not settled, ns.
+// Sensor history kept before the newest settled frame, for clock offsets, ns.
 constexpr StampNs kHistory = 1'000'000'000;
 constexpr std::size_t kMostFaults = 20;
 
