@@ -58,8 +58,8 @@ Fit computeFit(const std::vector<Surfel>& source, const Refined& refined, const 
 
 Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters,
                                    const std::optional<Vector3d>& scan_plane) {
-  const Doubt doubt{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation, scan_plane};
-  return observe(refined.matches, std::max(refined.sigma, 1e-4), doubt, kPatchVoxels * voxel);
+  const CloudErrors errors{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation, scan_plane};
+  return observe(refined.matches, std::max(refined.sigma, 1e-4), errors, kPatchVoxels * voxel);
 }
 
 double computePlanarEvidence(const Fit& fit, double share) {

@@ -140,14 +140,14 @@ Eigen::MatrixXd measurableMotions(const std::optional<Vector3d>& scan_plane) {
 
 }  // namespace
 
-Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch) {
+Observability observe(const std::vector<Match>& matches, double sigma, const CloudErrors& errors, double patch) {
   Observability observed;
   const Scaled scaled = scaleMatches(matches, sigma);
   const Sums sums = computeSums(matches, scaled, sigma, patch);
-  const Eigen::MatrixXd motions = measurableMotions(doubt.scan_plane);
+  const Eigen::MatrixXd motions = measurableMotions(errors.scan_plane);
   const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(motions.transpose() * sums.agreed * motions));
-  const double bias = std::max(doubt.bias, 1e-4);
-  const double least = std::pow(bias / doubt.free_deviation, 2);
+  const double bias = std::max(errors.bias, 1e-4);
+  const double least = std::pow(bias / errors.free_deviation, 2);
   Matrix6d free = Matrix6d::Identity() - motions * motions.transpose();  // projector, in scaled coordinates
   std::vector<Vector6d> held_directions;
   for (Eigen::Index i = 0; i < motions.cols(); ++i) {
@@ -172,7 +172,7 @@ Observability observe(const std::vector<Match>& matches, double sigma, const Dou
     const auto count = static_cast<Eigen::Index>(held_directions.size());
     Eigen::MatrixXd basis(6, count);
     for (Eigen::Index i = 0; i < count; ++i) basis.col(i) = held_directions[static_cast<std::size_t>(i)];
-    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(doubt.most, kLeastError));
+    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(errors.most, kLeastError));
     Matrix6d spread = Matrix6d::Zero();
     for (const Vector6d& pull : sums.pull_by_patch) spread += error * error * pull * pull.transpose();
     const auto normal_inverse =

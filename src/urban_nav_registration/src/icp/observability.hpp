@@ -13,12 +13,12 @@ struct Observability {
   Matrix6d covariance = Matrix6d::Zero();   ///< for display
   std::vector<Vector6d> free_directions;    ///< unit, in the same tangent; for planar scans only those in the plane
   std::size_t held = 0;                     ///< number of directions that are not free
-  double weakest = 0.0;  ///< standard deviation due to `Doubt::bias` only, in the weakest direction, m at the mean
-                         ///< distance
+  double weakest = 0.0;  ///< standard deviation due to `CloudErrors::bias` only, in the weakest direction, m at the
+                         ///< mean distance
 };
 
 /// Error model of clouds, m.
-struct Doubt {
+struct CloudErrors {
   double bias = 0.0;            ///< error common to all points of a cloud
   double most = 0.0;            ///< limit of the error common to a patch, if residuals do not determine it
   double free_deviation = 0.0;  ///< a direction that `bias` displaces by more than this is free
@@ -37,6 +37,6 @@ struct Doubt {
 /// The information in the other directions is that of surface patches of `patch` m, each with a common error estimated
 /// from the residuals, plus an error common to all patches, each limited to `most`: the points of a patch share its
 /// normal, its beams and their odometry, so their number is not informative.
-Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch);
+Observability observe(const std::vector<Match>& matches, double sigma, const CloudErrors& errors, double patch);
 
 }  // namespace urban_nav_registration

@@ -30,7 +30,7 @@ constexpr double kSettledM = 1e-6, kSettledRad = 1e-7;
 // Constrains the pose in undetermined directions; far below the information of any match.
 constexpr double kAnchor = 1e-6;
 
-/// One sight linearised at its best depth, with the depth eliminated.
+/// One measurement linearised at its best depth, with the depth eliminated.
 struct Reduced {
   bool visible = false;
   Matrix7d H;
@@ -38,21 +38,22 @@ struct Reduced {
   double chi2 = 0.0, residual_px = 0.0;
 };
 
-Eigen::Matrix4d computeWeight(const Sight& sight) {
+Eigen::Matrix4d computeWeight(const PointMeasurement& measurement) {
   Eigen::Matrix4d W = Eigen::Matrix4d::Zero();
-  W(0, 0) = 1.0 / (sight.sigma_disparity * sight.sigma_disparity);
-  W.block<2, 2>(1, 1) = sight.covariance.inverse();
-  if (sight.other_sigma > 0.0) W(3, 3) = 1.0 / (sight.other_sigma * sight.other_sigma);
+  W(0, 0) = 1.0 / (measurement.sigma_disparity * measurement.sigma_disparity);
+  W.block<2, 2>(1, 1) = measurement.covariance.inverse();
+  if (measurement.other_sigma > 0.0) W(3, 3) = 1.0 / (measurement.other_sigma * measurement.other_sigma);
   return W;
 }
 
-Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset, double& rho) {
+Reduced reduce(const PointMeasurement& measurement, const StereoCamera& camera, const Pose& T_a_b, double offset,
+               double& rho) {
   Reduced result;
-  const Eigen::Matrix4d W = computeWeight(sight);
-  SightResidual r;
+  const Eigen::Matrix4d W = computeWeight(measurement);
+  MeasurementResidual r;
   constexpr int kMostSteps = 4;
   for (int step = 0; step < kMostSteps; ++step) {
-    r = computeResidual(sight, camera, T_a_b, offset, rho);
+    r = computeResidual(measurement, camera, T_a_b, offset, rho);
     if (!r.visible) return result;
     const Eigen::Vector4d along = W * r.J.col(kOfDepth);
     const double d = along.dot(r.e) / along.dot(r.J.col(kOfDepth));
@@ -62,7 +63,8 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
   }
   // The derivative with respect to a depth indistinguishable from infinity is noise, which would act as information on
   // the translation.
-  if (rho * camera.left.fx * camera.baseline < kLeastDepthSigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
+  if (rho * camera.left.fx * camera.baseline < kLeastDepthSigmas * measurement.sigma_disparity)
+    r.J.leftCols<3>().setZero();
   const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;
   const Eigen::Matrix<double, 8, 8> H = JW * r.J;
   const Eigen::Matrix<double, 8, 1> b = JW * r.e;
@@ -71,7 +73,7 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
   result.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
   result.b = b.head<7>() - cross * (b[kOfDepth] / of_rho);
   result.chi2 = r.e.dot(W * r.e) - b[kOfDepth] * b[kOfDepth] / of_rho;
-  result.residual_px = r.e.segment<2>(1).norm() / sight.size;
+  result.residual_px = r.e.segment<2>(1).norm() / measurement.size;
   result.visible = result.H.allFinite() && result.b.allFinite();
   return result;
 }
@@ -82,12 +84,12 @@ double computeWeight(double chi2, double scale2) {
 }
 
 /// Returns the ratio of squared residuals to their expected values, by the median, for robustness against outliers.
-double estimateScale(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
+double estimateScale(const std::vector<PointMeasurement>& measurements, const std::vector<Reduced>& reduced,
                      std::vector<double>& ratios) {
   ratios.clear();
-  for (std::size_t i = 0; i < sights.size(); ++i)
+  for (std::size_t i = 0; i < measurements.size(); ++i)
     if (reduced[i].visible)
-      ratios.push_back(reduced[i].chi2 / (sights[i].coordinates() == 3 ? kMedianThree : kMedianTwo));
+      ratios.push_back(reduced[i].chi2 / (measurements[i].coordinates() == 3 ? kMedianThree : kMedianTwo));
   if (ratios.empty()) return 1.0;
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
@@ -102,19 +104,19 @@ struct Inflation {
   double translation = 1.0, rotation = 1.0;
 };
 
-Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
-                    double scale2, const Matrix7d& H) {
+Inflation inflation(const StereoCamera& camera, const std::vector<PointMeasurement>& measurements,
+                    const std::vector<Reduced>& reduced, double scale2, const Matrix7d& H) {
   std::array<Vector7d, 2 * kPartsAcross * kPartsDown> scores;
   std::array<bool, 2 * kPartsAcross * kPartsDown> used{};
   scores.fill(Vector7d::Zero());
-  for (std::size_t i = 0; i < sights.size(); ++i) {
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
     if (!reduced[i].visible) continue;
-    const Eigen::Vector3d& ray = sights[i].ray;
+    const Eigen::Vector3d& ray = measurements[i].ray;
     const double u = (camera.left.fx * ray.x() + camera.left.cx) / camera.left.width,
                  v = (camera.left.fy * ray.y() + camera.left.cy) / camera.left.height;
     const int column = std::clamp(static_cast<int>(u * kPartsAcross), 0, kPartsAcross - 1),
               row = std::clamp(static_cast<int>(v * kPartsDown), 0, kPartsDown - 1);
-    const auto part = static_cast<std::size_t>(((sights[i].of_a ? 0 : kPartsDown) + row) * kPartsAcross + column);
+    const auto part = static_cast<std::size_t>(((measurements[i].of_a ? 0 : kPartsDown) + row) * kPartsAcross + column);
     scores[part] += computeWeight(reduced[i].chi2, scale2) / scale2 * reduced[i].b;
     used[part] = true;
   }
@@ -137,7 +139,7 @@ Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights
   return {mean(0), mean(3)};
 }
 
-/// Adds errors common to all sights: apparent rotation and displacement of the other camera.
+/// Adds errors common to all measurements: apparent rotation and displacement of the other camera.
 Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const EstimateOptions& options,
                          const Matrix6d& information) {
   Matrix6d spread = Matrix6d::Zero();
@@ -151,17 +153,17 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   return 0.5 * (result + result.transpose());
 }
 
-/// Sets the outcome of each sight, the number of inliers and their mean residual.
-void classifySights(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, double scale2,
-                    const EstimateOptions& options, Estimate& result) {
-  result.sights.resize(sights.size());
+/// Sets the outcome of each measurement, the number of inliers and their mean residual.
+void classifyMeasurements(const std::vector<PointMeasurement>& measurements, const std::vector<Reduced>& reduced,
+                          double scale2, const EstimateOptions& options, Estimate& result) {
+  result.measurements.resize(measurements.size());
   double total = 0.0;
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    SightOutcome& outcome = result.sights[i];
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    MeasurementOutcome& outcome = result.measurements[i];
     if (!reduced[i].visible) continue;
     outcome.chi2 = reduced[i].chi2;
     outcome.residual_px = reduced[i].residual_px;
-    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? kGateThree : kGateTwo) &&
+    outcome.inlier = outcome.chi2 < scale2 * (measurements[i].coordinates() == 3 ? kGateThree : kGateTwo) &&
                      outcome.residual_px <= options.largest_residual_px;
     if (!outcome.inlier) continue;
     ++result.inliers;
@@ -172,19 +174,19 @@ void classifySights(const std::vector<Sight>& sights, const std::vector<Reduced>
 
 }  // namespace
 
-Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, const Pose& start,
+Estimate estimate(const StereoCamera& camera, const std::vector<PointMeasurement>& measurements, const Pose& start,
                   const EstimateOptions& options) {
   Estimate result;
   result.T_a_b = start;
-  std::vector<double> rho(sights.size()), ratios;
-  for (std::size_t i = 0; i < sights.size(); ++i) rho[i] = inverseDepth(sights[i], camera);
-  std::vector<Reduced> reduced(sights.size());
+  std::vector<double> rho(measurements.size()), ratios;
+  for (std::size_t i = 0; i < measurements.size(); ++i) rho[i] = inverseDepth(measurements[i], camera);
+  std::vector<Reduced> reduced(measurements.size());
   const double offset_weight =
       options.sigma_offset > 0.0 ? 1.0 / (options.sigma_offset * options.sigma_offset) : kExactOffset * kExactOffset;
   const auto linearise = [&] {
-    for (std::size_t i = 0; i < sights.size(); ++i)
-      reduced[i] = reduce(sights[i], camera, result.T_a_b, result.offset, rho[i]);
-    return options.scaled ? estimateScale(sights, reduced, ratios) : 1.0;
+    for (std::size_t i = 0; i < measurements.size(); ++i)
+      reduced[i] = reduce(measurements[i], camera, result.T_a_b, result.offset, rho[i]);
+    return options.scaled ? estimateScale(measurements, reduced, ratios) : 1.0;
   };
   const auto sum = [&](double scale2, Matrix7d& H, Vector7d& b) {
     H.setZero();
@@ -214,7 +216,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   scale2 = linearise();
   sum(scale2, H, b);
   if (options.scaled) {
-    const Inflation larger = inflation(camera, sights, reduced, scale2, H);
+    const Inflation larger = inflation(camera, measurements, reduced, scale2, H);
     Vector7d by = Vector7d::Ones();
     by.head<3>().setConstant(1.0 / std::sqrt(larger.translation));
     by.segment<3>(3).setConstant(1.0 / std::sqrt(larger.rotation));
@@ -224,7 +226,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, kOfOffset);
   result.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
   result.information = withCommonError(camera, result.T_a_b, options, result.information);
-  classifySights(sights, reduced, scale2, options, result);
+  classifyMeasurements(measurements, reduced, scale2, options, result);
   result.found = result.inliers >= 3 && result.T_a_b.isFinite() && result.information.allFinite();
   return result;
 }

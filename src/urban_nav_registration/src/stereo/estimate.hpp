@@ -19,8 +19,8 @@ struct EstimateOptions {
   bool scaled = true;  ///< the noise is scaled by the residuals if they exceed their expected size
 };
 
-/// Result for one sight.
-struct SightOutcome {
+/// Result for one measurement.
+struct MeasurementOutcome {
   bool inlier = false;
   double chi2 = 0.0;         ///< at the best depth of the point, with the stated noise
   double residual_px = 0.0;  ///< distance in the other view, px of the level of the measurement
@@ -33,7 +33,7 @@ struct Estimate {
   urban_nav_core::Matrix6d information =
       urban_nav_core::Matrix6d::Zero();  ///< for boxPlus perturbations, the offset marginalised
   double noise_factor = 1.0;             ///< on standard deviations, >= 1
-  std::vector<SightOutcome> sights;
+  std::vector<MeasurementOutcome> measurements;
   int inliers = 0;
   double reprojection_px = 0.0;  ///< mean over the inliers
 };
@@ -42,7 +42,7 @@ struct Estimate {
 /// constrained by its disparities in both views and eliminated: with fixed measured depths, their errors would also
 /// affect the derivatives and bias the motion from far points towards zero. The error common to all disparities is a
 /// variable as well. Serial, so that results are bit-identical.
-Estimate estimate(const urban_nav_core::StereoCamera& camera, const std::vector<Sight>& sights,
+Estimate estimate(const urban_nav_core::StereoCamera& camera, const std::vector<PointMeasurement>& measurements,
                   const urban_nav_core::Pose& start, const EstimateOptions& options);
 
 }  // namespace urban_nav_registration

@@ -29,14 +29,14 @@ constexpr int kViewMargin = urban_nav_core::kPatchRadius + 3;
 constexpr double kSamePointPx = 3.0;  // px of the level: a corner that was also detected in the other view
 constexpr double kOwnWindowPx = 6.0;  // px of the level: nearer patches share pixels
 constexpr double kLeastDepthShare =
-    0.02;  // of the inverse depth: uncertainty of the disparity of one sight with respect to the other
+    0.02;  // of the inverse depth: uncertainty of the disparity of one measurement with respect to the other
 constexpr std::size_t kPatchGrain = 32;
 
 struct Found {
   bool visible = false, found = false;
   double likeness = 0.0;
   double size = 1.0;  // px of level 0 per pixel of the level of the measurement
-  Sight sight;
+  PointMeasurement measurement;
 };
 
 /// Projection of a point into the other view, with the warp of its patch.
@@ -112,16 +112,16 @@ Found alignPoint(const StereoCamera& camera, const View& from, const View& to, c
     return result;
   result.found = true;
   result.size = 1.0 / to_scale;
-  Sight& sight = result.sight;
-  sight.size = result.size;
-  sight.ray = ray;
+  PointMeasurement& measurement = result.measurement;
+  measurement.size = result.size;
+  measurement.ray = ray;
   // disparity along the surface at the centre of the template
-  sight.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
-  sight.sigma_disparity = point.sigma_disparity;
-  sight.pixel = aligned.position * result.size;
+  measurement.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
+  measurement.sigma_disparity = point.sigma_disparity;
+  measurement.pixel = aligned.position * result.size;
   // Both images have noise; the alignment models that of one.
-  sight.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
-  sight.covariance *= result.size * result.size;
+  measurement.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
+  measurement.covariance *= result.size * result.size;
   return result;
 }
 
@@ -130,7 +130,7 @@ std::vector<Found> alignAllPoints(const StereoCamera& camera, const View& from, 
   std::vector<Found> found(from.points.size());
   urban_nav_core::forEach(from.points.size(), kPatchGrain, [&](std::size_t i) {
     found[i] = alignPoint(camera, from, to, from.points[i], T_to_from, offset, options);
-    found[i].sight.point = static_cast<int>(i);
+    found[i].measurement.point = static_cast<int>(i);
   });
   return found;
 }
@@ -151,12 +151,12 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
   for (Found& found : of_a) {
     see(found);
     if (!found.found) continue;
-    Sight& sight = found.sight;
+    PointMeasurement& measurement = found.measurement;
     double nearest = kSamePointPx * kSamePointPx;
     const ViewPoint* partner = nullptr;
     for (std::size_t j = 0; j < b.points.size(); ++j) {
       const double size = std::max(found.size, b.points[j].size());
-      const double square = (b.points[j].pixel - sight.pixel).squaredNorm() / (size * size);
+      const double square = (b.points[j].pixel - measurement.pixel).squaredNorm() / (size * size);
       if (square < kOwnWindowPx * kOwnWindowPx) taken[j] = true;
       if (square >= nearest) continue;
       nearest = square;
@@ -164,19 +164,19 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
     }
     if (partner != nullptr) {
       const double per_depth = camera.left.fx * camera.baseline;
-      const double slope = partner->plane.dot(camera.left.ray(sight.pixel)) - partner->plane.dot(partner->ray);
-      sight.other_disparity = partner->disparity + per_depth * slope;
-      sight.other_sigma =
-          std::hypot(partner->sigma_disparity, per_depth * slope, kLeastDepthShare * sight.other_disparity);
+      const double slope = partner->plane.dot(camera.left.ray(measurement.pixel)) - partner->plane.dot(partner->ray);
+      measurement.other_disparity = partner->disparity + per_depth * slope;
+      measurement.other_sigma =
+          std::hypot(partner->sigma_disparity, per_depth * slope, kLeastDepthShare * measurement.other_disparity);
     }
-    result.sights.push_back(sight);
+    result.measurements.push_back(measurement);
   }
   for (std::size_t j = 0; j < of_b.size(); ++j) {
     if (taken[j]) continue;
     see(of_b[j]);
     if (!of_b[j].found) continue;
-    result.sights.push_back(of_b[j].sight);
-    result.sights.back().of_a = false;
+    result.measurements.push_back(of_b[j].measurement);
+    result.measurements.back().of_a = false;
   }
   if (result.visible > 0) result.likeness /= result.visible;
   return result;

@@ -17,7 +17,7 @@ struct AligningOptions {
 };
 
 struct Aligned {
-  std::vector<Sight> sights;
+  std::vector<PointMeasurement> measurements;
   int visible = 0;        ///< points that should be visible in the other view, and large enough
   double likeness = 0.0;  ///< mean correlation of their patches with the other view
 };

@@ -24,7 +24,7 @@ constexpr int kFewestInliers = 8;        // inliers: three fit by definition, an
 constexpr double kLeastZ = 1.0 / 200.0;  // 1/m: minimum inverse depth of the points of a triple
 
 struct Item {
-  Sight sight;
+  PointMeasurement measurement;
   Eigen::Vector3d p_a, p_b;  // in units of their depths: not used for far points
   bool deep = false;         // depth is significant in both views
   double rho = 0.0, sigma_rho = 0.0, sigma_px = 1.0;
@@ -39,18 +39,18 @@ std::vector<Item> makeItems(const StereoCamera& camera, const View& a, const Vie
     const ViewPoint &in_a = a.points[static_cast<std::size_t>(pair.a)],
                     &in_b = b.points[static_cast<std::size_t>(pair.b)];
     Item item;
-    Sight& sight = item.sight;
-    sight.point = pair.a;
-    sight.ray = in_a.ray;
-    sight.disparity = in_a.disparity;
-    sight.sigma_disparity = std::hypot(in_a.sigma_disparity, kDisparityPx);
-    sight.pixel = in_b.pixel;
+    PointMeasurement& measurement = item.measurement;
+    measurement.point = pair.a;
+    measurement.ray = in_a.ray;
+    measurement.disparity = in_a.disparity;
+    measurement.sigma_disparity = std::hypot(in_a.sigma_disparity, kDisparityPx);
+    measurement.pixel = in_b.pixel;
     item.sigma_px = kCornerPx * std::max(in_a.size(), in_b.size());
-    sight.covariance = item.sigma_px * item.sigma_px * Eigen::Matrix2d::Identity();
-    sight.other_disparity = in_b.disparity;
-    sight.other_sigma = std::hypot(in_b.sigma_disparity, kDisparityPx);
-    item.rho = inverseDepth(sight, camera);
-    item.sigma_rho = sight.sigma_disparity / per_depth;
+    measurement.covariance = item.sigma_px * item.sigma_px * Eigen::Matrix2d::Identity();
+    measurement.other_disparity = in_b.disparity;
+    measurement.other_sigma = std::hypot(in_b.sigma_disparity, kDisparityPx);
+    item.rho = inverseDepth(measurement, camera);
+    item.sigma_rho = measurement.sigma_disparity / per_depth;
     const double rho_b = (in_b.disparity - camera.disparity_offset) / per_depth;
     item.deep = item.rho > kLeastZ && rho_b > kLeastZ;
     if (item.deep) {
@@ -66,13 +66,13 @@ std::vector<Item> makeItems(const StereoCamera& camera, const View& a, const Vie
 double misfit(const Item& item, const StereoCamera& camera, const Eigen::Matrix3d& R_b_a,
               const Eigen::Vector3d& t_b_a) {
   const auto& c = camera.left;
-  const Eigen::Vector3d p = R_b_a * item.sight.ray + t_b_a * item.rho;
+  const Eigen::Vector3d p = R_b_a * item.measurement.ray + t_b_a * item.rho;
   if (!(p.z() > 1e-3)) return kGate;
   const double iz = 1.0 / p.z(), x = p.x() * iz, y = p.y() * iz, per_depth = c.fx * camera.baseline;
-  const double by_px = 1.0 / item.sigma_px, by_disparity = 1.0 / item.sight.other_sigma;
+  const double by_px = 1.0 / item.sigma_px, by_disparity = 1.0 / item.measurement.other_sigma;
   const Eigen::Vector3d e(
-      (item.sight.pixel.x() - c.fx * x - c.cx) * by_px, (item.sight.pixel.y() - c.fy * y - c.cy) * by_px,
-      (item.sight.other_disparity - camera.disparity_offset - per_depth * item.rho * iz) * by_disparity);
+      (item.measurement.pixel.x() - c.fx * x - c.cx) * by_px, (item.measurement.pixel.y() - c.fy * y - c.cy) * by_px,
+      (item.measurement.other_disparity - camera.disparity_offset - per_depth * item.rho * iz) * by_disparity);
   const double square = e.squaredNorm();
   if (square > 1e4 * kGate) return kGate;
   const Eigen::Vector3d j =
@@ -118,18 +118,18 @@ std::optional<Pose> throughTriple(const std::array<const Item*, 3>& triple, cons
   if (!a || !b) return std::nullopt;
   const Eigen::Matrix3d R = *a * b->transpose();
   Eigen::Vector3d middle_a = Eigen::Vector3d::Zero(), middle_b = Eigen::Vector3d::Zero();
-  std::vector<Sight> sights;
+  std::vector<PointMeasurement> measurements;
   for (const Item* item : triple) {
     middle_a += item->p_a / 3.0;
     middle_b += item->p_b / 3.0;
-    sights.push_back(item->sight);
+    measurements.push_back(item->measurement);
   }
   if (!R.allFinite()) return std::nullopt;
   EstimateOptions options;
   options.steps = 3;
   options.sigma_offset = 0.0;
   options.scaled = false;
-  const Estimate refined = estimate(camera, sights, Pose(R, middle_a - R * middle_b), options);
+  const Estimate refined = estimate(camera, measurements, Pose(R, middle_a - R * middle_b), options);
   if (!refined.T_a_b.isFinite()) return std::nullopt;
   return refined.T_a_b;
 }
@@ -139,15 +139,15 @@ Pose improve(const std::vector<Item>& items, const StereoCamera& camera, Pose T_
   for (int round = 0; round < 3; ++round) {
     const Pose T_b_a = T_a_b.inverse();
     const Eigen::Matrix3d R = T_b_a.R();
-    std::vector<Sight> sights;
+    std::vector<PointMeasurement> measurements;
     for (const Item& item : items)
-      if (misfit(item, camera, R, T_b_a.t()) < kGate) sights.push_back(item.sight);
-    if (sights.size() < 3) break;
+      if (misfit(item, camera, R, T_b_a.t()) < kGate) measurements.push_back(item.measurement);
+    if (measurements.size() < 3) break;
     EstimateOptions options;
     options.steps = 4;
     options.sigma_offset = 0.0;
     options.scaled = false;
-    const Pose better = estimate(camera, sights, T_a_b, options).T_a_b;
+    const Pose better = estimate(camera, measurements, T_a_b, options).T_a_b;
     if (!better.isFinite()) break;
     const Score its = computeScore(items, camera, better);
     if (its.cost >= score.cost) break;

@@ -13,13 +13,13 @@ constexpr double kLeastDepth = 1e-3;  // ratio of z to the depth in its own view
 
 }  // namespace
 
-double inverseDepth(const Sight& sight, const StereoCamera& camera) {
-  return (sight.disparity - camera.disparity_offset) / (camera.left.fx * camera.baseline);
+double inverseDepth(const PointMeasurement& measurement, const StereoCamera& camera) {
+  return (measurement.disparity - camera.disparity_offset) / (camera.left.fx * camera.baseline);
 }
 
-SightResidual computeResidual(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset,
-                              double inverse_depth) {
-  SightResidual result;
+MeasurementResidual computeResidual(const PointMeasurement& measurement, const StereoCamera& camera, const Pose& T_a_b,
+                                    double offset, double inverse_depth) {
+  MeasurementResidual result;
   const auto& c = camera.left;
   const double per_depth = c.fx * camera.baseline, rho = inverse_depth;
   const Eigen::Matrix3d R = T_a_b.R();
@@ -27,14 +27,14 @@ SightResidual computeResidual(const Sight& sight, const StereoCamera& camera, co
   // p: point in the other view divided by the depth in its own view, so that far points need no special case
   Eigen::Vector3d p, p_by_depth;
   Eigen::Matrix<double, 3, 6> p_by_pose;
-  if (sight.of_a) {
-    const Eigen::Vector3d q = sight.ray - t * rho;
+  if (measurement.of_a) {
+    const Eigen::Vector3d q = measurement.ray - t * rho;
     p = R.transpose() * q;
     p_by_depth = -(R.transpose() * t);
     p_by_pose.leftCols<3>() = -rho * R.transpose();
     p_by_pose.rightCols<3>() = R.transpose() * skew(q);
   } else {
-    const Eigen::Vector3d turned = R * sight.ray;
+    const Eigen::Vector3d turned = R * measurement.ray;
     p = turned + t * rho;
     p_by_depth = t;
     p_by_pose.leftCols<3>() = rho * Eigen::Matrix3d::Identity();
@@ -46,15 +46,15 @@ SightResidual computeResidual(const Sight& sight, const StereoCamera& camera, co
   Eigen::Matrix<double, 2, 3> pixel_by_p;
   pixel_by_p << c.fx * iz, 0.0, -c.fx * x * iz, 0.0, c.fy * iz, -c.fy * y * iz;
 
-  result.e[0] = sight.disparity - (per_depth * rho + camera.disparity_offset + offset);
+  result.e[0] = measurement.disparity - (per_depth * rho + camera.disparity_offset + offset);
   result.J(0, kOfOffset) = 1.0;
   result.J(0, kOfDepth) = per_depth;
-  result.e.segment<2>(1) = sight.pixel - Eigen::Vector2d(c.fx * x + c.cx, c.fy * y + c.cy);
+  result.e.segment<2>(1) = measurement.pixel - Eigen::Vector2d(c.fx * x + c.cx, c.fy * y + c.cy);
   result.J.block<2, 6>(1, 0) = pixel_by_p * p_by_pose;
   result.J.block<2, 1>(1, kOfDepth) = pixel_by_p * p_by_depth;
-  if (sight.other_sigma > 0.0) {
+  if (measurement.other_sigma > 0.0) {
     const double disparity = per_depth * rho * iz;
-    result.e[3] = sight.other_disparity - (disparity + camera.disparity_offset + offset);
+    result.e[3] = measurement.other_disparity - (disparity + camera.disparity_offset + offset);
     const double by_z = -disparity * iz;
     result.J.block<1, 6>(3, 0) = by_z * p_by_pose.row(2);
     result.J(3, kOfOffset) = 1.0;

@@ -10,7 +10,7 @@
 namespace urban_nav_registration {
 
 /// A point of one view measured in the other.
-struct Sight {
+struct PointMeasurement {
   bool of_a = true;                                          ///< a point of a measured in b; false: of b, measured in a
   int point = 0;                                             ///< index in its own view
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();            ///< in its own view, exact by definition; z = 1
@@ -28,19 +28,19 @@ struct Sight {
 /// point (1/m).
 inline constexpr int kOfOffset = 6, kOfDepth = 7;
 
-/// Residuals of one sight, measured minus predicted: its own disparity, (u, v) in the other view, disparity there (zero
-/// without a measurement). `J` is the derivative of the prediction, without the negative sign.
-struct SightResidual {
+/// Residuals of one measurement, measured minus predicted: its own disparity, (u, v) in the other view, disparity there
+/// (zero without a measurement). `J` is the derivative of the prediction, without the negative sign.
+struct MeasurementResidual {
   Eigen::Vector4d e = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 4, 8> J = Eigen::Matrix<double, 4, 8>::Zero();
   bool visible = false;  ///< in front of the other camera; false: the other members are undefined
 };
 
 /// Computes the residual for an inverse depth `inverse_depth` in its own view.
-SightResidual computeResidual(const Sight& sight, const urban_nav_core::StereoCamera& camera,
-                              const urban_nav_core::Pose& T_a_b, double offset, double inverse_depth);
+MeasurementResidual computeResidual(const PointMeasurement& measurement, const urban_nav_core::StereoCamera& camera,
+                                    const urban_nav_core::Pose& T_a_b, double offset, double inverse_depth);
 
-/// Returns 1/z from the sight's own disparity.
-double inverseDepth(const Sight& sight, const urban_nav_core::StereoCamera& camera);
+/// Returns 1/z from the measurement's own disparity.
+double inverseDepth(const PointMeasurement& measurement, const urban_nav_core::StereoCamera& camera);
 
 }  // namespace urban_nav_registration

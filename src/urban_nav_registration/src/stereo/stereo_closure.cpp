@@ -159,13 +159,13 @@ class StereoMatcher::Implementation {
   void alignAndEstimate(const View& a, const View& b, AligningOptions round, Refined& refined) const {
     if (round.floor_px == 0.0) round.floor_px = parameters_.pixel_noise_floor;
     Aligned aligned = alignViews(camera_, a, b, refined.T_a_b, refined.found.offset, round);
-    if (aligned.sights.size() < 6) return;
+    if (aligned.measurements.size() < 6) return;
     EstimateOptions options;
     options.sigma_offset = parameters_.disparity_offset;
     options.common_px = kCommonPx;
     options.common_m = kCommonM;
     options.largest_residual_px = kMatchGate * parameters_.max_reprojection_error;
-    Estimate next = estimate(camera_, aligned.sights, refined.T_a_b, options);
+    Estimate next = estimate(camera_, aligned.measurements, refined.T_a_b, options);
     if (!next.found) return;
     refined = {next.T_a_b, std::move(next), std::move(aligned)};
   }
@@ -201,12 +201,12 @@ class StereoMatcher::Implementation {
     closure.reprojection_px = found.reprojection_px;
     closure.noise_factor = found.noise_factor;
     closure.lefts.T_a_b = refined.T_a_b;
-    for (std::size_t i = 0; i < found.sights.size(); ++i) {
-      const Sight& sight = aligned.sights[i];
-      const Eigen::Vector2d own(camera_.left.fx * sight.ray.x() + camera_.left.cx,
-                                camera_.left.fy * sight.ray.y() + camera_.left.cy);
-      closure.pixels.push_back({sight.of_a ? own : sight.pixel, sight.of_a ? sight.pixel : own,
-                                found.sights[i].residual_px, found.sights[i].inlier});
+    for (std::size_t i = 0; i < found.measurements.size(); ++i) {
+      const PointMeasurement& measurement = aligned.measurements[i];
+      const Eigen::Vector2d own(camera_.left.fx * measurement.ray.x() + camera_.left.cx,
+                                camera_.left.fy * measurement.ray.y() + camera_.left.cy);
+      closure.pixels.push_back({measurement.of_a ? own : measurement.pixel, measurement.of_a ? measurement.pixel : own,
+                                found.measurements[i].residual_px, found.measurements[i].inlier});
     }
     return judge(found, closure);
   }
