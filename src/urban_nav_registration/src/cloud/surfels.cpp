@@ -107,7 +107,7 @@ struct Coarser {
 };
 
 /// Returns the points in cubes of twice the edge; each of the eight sub-cubes is weighted by its number of occupied
-/// cubes.
+/// voxels.
 Coarser coarsen(const SurfelGrid& fine, float edge) {
   Coarser coarser{{CellTable(fine.cubes.size() / 4 + 16), {}, fine.used}, {}};
   SurfelGrid& grid = coarser.grid;

@@ -22,7 +22,7 @@ constexpr double kRest = 2e-4;        // m, change of the planes' distances at c
 constexpr double kCoarseRest = 5e-3;  // of the reach, before the last step
 
 constexpr std::size_t kEnough =
-    3000;  // surfels for a level followed by another one: five times the voxels of a scan in a street
+    3000;  // maximum number of surfels, except at the last level: five times the voxels of a scan in a street
 
 std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, float edge) {
   CellTable table(surfels.size() / 4 + 16);
