@@ -24,7 +24,7 @@ const Table<Parameters>& table() {
            "Align clouds if stereo keyframes could not be registered.",
            "paper 4.2"},
           {"stereo_tries", &P::stereo_tries, "", std::int64_t{2}, std::int64_t{1}, std::int64_t{20}, {},
-           "Largest number of keyframe pairs that are tried.",
+           "Largest number of keyframe pairs to be matched.",
            "paper 4.1; measured", {}, Audience::Experts},
           {"keyframe_search_distance", &P::keyframe_search_distance, "m", 6.0, 0.0, 50.0, {},
            "Largest distance travelled between a pose and a keyframe that represents it.",

@@ -66,7 +66,7 @@ TEST_P(Van, DoesNotCarryTheEstimateAway) {
     expectProper(now);
     const double t = sequence.time(i), gone = own(t);
     if (i == 20) {
-      EXPECT_GT(shareOnTheVan(now, kAhead - gone), 0.3) << "else the test says little";
+      EXPECT_GT(shareOnTheVan(now, kAhead - gone), 0.3) << "otherwise the test is not significant";
     }
     const double off = distanceBetween(now.T_odom_base.pose, start.inverse() * motion(t));
     EXPECT_LT(off, 0.005 + 0.01 * gone) << i;

@@ -104,7 +104,7 @@ TEST_F(SharedClouds, OneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
   const std::vector<double> each = kept();
   EXPECT_EQ(each[0], 1.0);
   for (std::size_t i = 1; i <= 100; ++i) EXPECT_NEAR(each[i], 0.0, 0.0011);
-  EXPECT_GT(each[1], 0.0) << "it is a witness, and no closure that knows nothing";
+  EXPECT_GT(each[1], 0.0) << "zero information would mean a closure without measurement";
   EXPECT_EQ(each[101], 1.0);
   EXPECT_LT(keptTogether(), 2.2);
 }

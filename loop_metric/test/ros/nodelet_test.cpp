@@ -127,7 +127,7 @@ TEST_F(LoopMetricNodelet, ARevisitIsUpgradedAndAFalsePairIsNot) {
   EXPECT_EQ(robot().pictures.front().encoding, "bgr8");
   EXPECT_GE(robot().pictures.front().width, 2U * 512U);
   EXPECT_EQ(robot().pictures.front().data.size(), robot().pictures.front().step * robot().pictures.front().height);
-  EXPECT_LT(measurePlainShare(robot().pictures.front()), 0.3) << "views, and no panels that say that there are none";
+  EXPECT_LT(measurePlainShare(robot().pictures.front()), 0.3) << "views instead of panels without images";
   EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
 }
 
@@ -260,7 +260,7 @@ TEST_F(LoopMetricNodelet, AnEarlierSessionOfTheStoreIsKnownAgain) {
   ASSERT_TRUE(robot().judged(1));
   expectTrue(robot().closures[0], 5, 5);
   EXPECT_EQ(robot().closures[0].a.session, earlier);
-  EXPECT_FALSE(robot().closures[0].odometry_gate) << "odometry says nothing between sessions";
+  EXPECT_FALSE(robot().closures[0].odometry_gate) << "no odometry between sessions";
 }
 
 }  // namespace

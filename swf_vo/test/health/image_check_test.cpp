@@ -163,7 +163,7 @@ TEST(ImageCheck, FindsExchangedImagesAtTheStartAndLater) {
   for (unsigned i = 0; i < 3; ++i) running.check(CheckScene(i, 14.0).pair(), false);
   const ImageVerdict verdict = running.check(CheckScene(7, 14.0).exchanged(), true);
   EXPECT_TRUE(verdict.exchange);
-  EXPECT_TRUE(verdict.usable) << "they can be used the other way round";
+  EXPECT_TRUE(verdict.usable) << "usable after swapping";
   EXPECT_EQ(verdict.reason, Reason::Swapped);
 }
 

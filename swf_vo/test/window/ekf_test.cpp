@@ -42,7 +42,7 @@ TEST_P(WindowOne, EqualsTheExtendedKalmanFilter) {
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-8) << "frame " << i;
     moved += urban_nav_core::distanceBetween(newest.pose, run.truth()) > 1e-5;
   }
-  EXPECT_GT(moved, 40) << "without errors the comparison says little";
+  EXPECT_GT(moved, 40) << "without errors the comparison is not significant";
 }
 
 INSTANTIATE_TEST_SUITE_P(Linearised, WindowOne, ::testing::Bool(),

@@ -113,7 +113,7 @@ TEST(LandmarkScore, LandmarksTogetherFindDriftAndOffset) {
   }
   const Eigen::Matrix<double, 7, 1> found = information.ldlt().solve(score);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
-  EXPECT_NEAR(found[6], -kOffsetPx, 0.05 * kOffsetPx) << "a larger offset moves what the right image shows to the left";
+  EXPECT_NEAR(found[6], -kOffsetPx, 0.05 * kOffsetPx) << "a larger offset shifts the right image to the left";
 }
 
 TEST(LandmarkScore, IsSaidAboutTheCamera) {

@@ -67,7 +67,7 @@ TEST(Window, BackSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
                                               filter.settled[static_cast<std::size_t>(frame)].T_odom_camera.pose,
                                               batch.window.pose(frame)));
   }
-  EXPECT_GT(settled_off, 1e-7) << "what settled could not know what came after";
+  EXPECT_GT(settled_off, 1e-7) << "settled poses do not depend on later measurements";
 }
 
 TEST(Window, SettledPosesAreTheProductOfTheirSteps) {
@@ -243,7 +243,7 @@ TEST(Window, StartsALandmarkOnlyFromAFullMeasurement) {
   EXPECT_FALSE(window.observe(observation));
   observation.information = pixelInformation(0.5);
   EXPECT_TRUE(window.observe(observation));
-  EXPECT_FALSE(window.observe(observation)) << "seen from this frame already";
+  EXPECT_FALSE(window.observe(observation)) << "already measured in this frame";
   observation.frame = 5;
   EXPECT_FALSE(window.observe(observation)) << "no such frame";
   ASSERT_EQ(window.map().size(), 1U);

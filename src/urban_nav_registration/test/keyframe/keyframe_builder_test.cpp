@@ -90,7 +90,7 @@ TEST_F(KeyframeBuilderTest, ARestartSelectsTheFirstPairAgain) {
   builder_.restart();
   addOdometry(1);
   addPair(1);
-  EXPECT_EQ(taken(), (std::vector<StampNs>{1})) << "the pair that waited is gone, the selection begins again";
+  EXPECT_EQ(taken(), (std::vector<StampNs>{1})) << "the waiting pair is dropped, the selection restarts";
 }
 
 TEST_F(KeyframeBuilderTest, ClearingTheCameraDropsItsPairs) {

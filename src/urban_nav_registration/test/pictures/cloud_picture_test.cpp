@@ -67,7 +67,7 @@ TEST(CloudPicture, PurpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
   EXPECT_GT(before.red, 100);
   EXPECT_GT(before.blue, 100);
   EXPECT_GT(above.purple, 100);
-  EXPECT_LT(above.red + above.blue, 200) << "the origins alone";
+  EXPECT_LT(above.red + above.blue, 200) << "the origins only";
   EXPECT_GT(side.purple, 3000) << "the wall's face";
 }
 
