@@ -39,7 +39,7 @@ class LaserOdometryStage {
   }
   std::string reset() {
     odometry_->end("reset");
-    return "the session has ended, the next sweep begins a new one";
+    return "session ended; the next sweep begins a new one";
   }
   void close() {}
   urban_nav_live::StageReport report() const { return odometry_->report(); }
@@ -56,7 +56,7 @@ class LaserOdometryStage {
   std::unique_ptr<LiveLaserOdometry> odometry_;
   std::unique_ptr<urban_nav_ros::SweepFeed> feed_;
   urban_nav_ros::StaticTransforms transforms_;
-  std::string frame_;  ///< of the LiDAR
+  std::string frame_;  ///< frame of the LiDAR
   urban_nav_core::StampNs newest_ = 0;
 };
 

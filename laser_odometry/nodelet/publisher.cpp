@@ -35,7 +35,7 @@ Publisher::Publisher(urban_nav_ros::StageNode& node, Frames frames)
 void Publisher::publish(const LaserPose& pose, const urban_nav_core::OdometrySessionPtr& session, double process_ms) {
   if (pose.accepted) {
     publishOdometry(pose);
-    // The first pose of a session is the origin: it has no neighbour to be related to.
+    // The first pose of a session is the origin and has no previous pose.
     if (pose.step.from != pose.step.to)
       relative_.publish(urban_nav_ros::toRelativePoseMessage({pose.step, session}, frames_.base));
   }
@@ -48,7 +48,7 @@ void Publisher::publishOdometry(const LaserPose& pose) {
       urban_nav_ros::toOdometryMessage(pose.stamp, {pose.T_odom_base, pose.covariance}, frames_.odom, frames_.base);
   if (pose.step.from != pose.step.to) {
     const double seconds = urban_nav_core::secondsBetween(pose.step.from, pose.step.to);
-    // The step is in the axes of the pose before, a velocity in those of this one.
+    // The step is in the axes of the previous pose, a velocity in those of this one.
     const Vector6d twist = urban_nav_core::logSe3(pose.step.T_from_to) / seconds;
     const Matrix6d J = urban_nav_core::rightFromBox(pose.step.T_from_to) / seconds;
     urban_nav_ros::setTwist(twist, urban_nav_core::transformCovariance(J, pose.step.covariance), odometry);

@@ -21,7 +21,7 @@ class Publisher {
   /// `node` must outlive it.
   Publisher(urban_nav_ros::StageNode& node, Frames frames);
 
-  /// `session`: to which the pose belongs; null: not announced.
+  /// `session`: session of the pose; null: not announced.
   void publish(const LaserPose& pose, const urban_nav_core::OdometrySessionPtr& session, double process_ms);
   /// Publishes the local map if it has subscribers, at most once a second.
   void publishMap(const LiveLaserOdometry& odometry, urban_nav_core::StampNs stamp);

@@ -7,17 +7,18 @@
 namespace laser_odometry {
 namespace {
 
-constexpr double kBlock = 4.0;            // m: patches whose surface may have errors in common
-constexpr double kApart = 1e6;            // m, between the blocks of two orientations
+constexpr double kBlock = 4.0;            // m: size of surfaces with common errors
+constexpr double kApart = 1e6;            // m, between the blocks of different orientations
 constexpr double kMemory = 20.0;          // sweeps
-constexpr double kLeast = 0.02;           // of both factors
+constexpr double kLeast = 0.02;           // lower limit of both factors
 constexpr double kEndFloor = 5e-4;        // m
-constexpr double kEndTurnFloor = 6e-5;    // rad: 0.03 deg, an error of the elevation of a ring, over 64 of them
-constexpr double kDriftFloor = 2e-4;      // of the length: 0.02 %, a tenth of what makers state for the range scale
+constexpr double kEndTurnFloor = 6e-5;    // rad: 0.03 deg, elevation error of a ring, averaged over 64 rings
+constexpr double kDriftFloor = 2e-4;      // of the length: 0.02 %, a tenth of the range scale error stated by
+                                          // manufacturers
 constexpr double kDriftTurnFloor = 2e-5;  // rad/m
-constexpr std::size_t kFewest = 30;       // cells seen in two sweeps, for a comparison
+constexpr std::size_t kFewest = 30;       // cells measured in two sweeps, required for a comparison
 
-/// A cell's matches of one sweep.
+/// Matches of one sweep in a cell.
 struct CellSum {
   MapCell* cell = nullptr;
   double weight = 0.0, residual = 0.0;  // sum of weights, of weight times residual
@@ -32,7 +33,7 @@ std::vector<CellSum> sumByCell(const std::vector<PatchMatch>& matches) {
   std::vector<CellSum> sums;
   urban_nav_registration::CellTable table(matches.size() + 16);
   for (const PatchMatch& match : matches) {
-    // Cells of different levels differ in their centres or sizes; the address is the same for the same cell.
+    // Cells of different levels differ in centre or size; the address identifies a cell.
     const auto address = reinterpret_cast<std::uintptr_t>(match.cell);
     const std::uint32_t number = table.insert(static_cast<std::uint64_t>(address));
     if (number == sums.size()) sums.push_back({match.cell, 0.0, 0.0, match.p_odom});
@@ -43,7 +44,7 @@ std::vector<CellSum> sumByCell(const std::vector<PatchMatch>& matches) {
   return sums;
 }
 
-/// Returns the key of the block and of the orientation of a patch: blocks of other orientations lie elsewhere.
+/// Returns the key of the block and orientation of a patch: blocks of other orientations are displaced.
 std::uint64_t blockKey(const Vector3d& p, const Vector3d& normal) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
@@ -109,7 +110,7 @@ Matrix6d ErrorModel::driftFloor(double length) {
 
 void ErrorModel::archive(urban_nav_core::Archive& archive) {
   archive(passing_, lasting_, age_, observed_);
-  archive.require(passing_ > 0.0 && lasting_ > 0.0 && age_ >= 1.0 && observed_ >= 0, "errors that are not positive");
+  archive.require(passing_ > 0.0 && lasting_ > 0.0 && age_ >= 1.0 && observed_ >= 0, "error factors out of range");
 }
 
 }  // namespace laser_odometry

@@ -8,12 +8,12 @@
 
 namespace laser_odometry {
 
-/// Errors of registered poses in units of the information of independent patches, as the residuals show them.
+/// Errors of registered poses, estimated from residuals, in units of the information of independent patches.
 ///
-/// A residual has a part that changes from sweep to sweep and a part that a surface keeps as long as it is seen. The
-/// first is the error of each pose, the second becomes drift as surfaces are replaced by others. Both are correlated
-/// within a surface: sums of residuals over blocks of neighbouring patches of like orientation are compared, not single
-/// residuals (docs/derivations/laser_odometry.md).
+/// A residual has a part that changes from sweep to sweep and a part constant for a surface. The first is the error of
+/// each pose, the second becomes drift as surfaces leave the view. Both are correlated within a surface: therefore sums
+/// of residuals over blocks of neighbouring patches of similar orientation are compared, not single residuals
+/// (docs/derivations/laser_odometry.md).
 class ErrorModel {
  public:
   /// Observes the matches of a sweep and stores each cell's mean residual for the next one.
@@ -21,14 +21,14 @@ class ErrorModel {
 
   /// Factor on the inverse information: error of each pose, independent from sweep to sweep.
   double passing() const { return passing_; }
-  /// Factor on the inverse information: error that the surfaces in view have in common.
+  /// Factor on the inverse information: error common to the surfaces in view.
   double lasting() const { return lasting_; }
   /// Mean age of the surfaces of the last sweep, sweeps; at least 1.
   double age() const { return age_; }
 
-  /// Returns the least covariance of a pose: what beams have in common, such as angles of rings and quantised ranges.
+  /// Returns the minimum covariance of a pose: errors common to beams, such as angles of rings and quantised ranges.
   static Matrix6d endFloor();
-  /// Returns the least covariance that a step of a length (m) adds: range scale and angles of rings.
+  /// Returns the minimum covariance added by a step of a length (m): range scale and angles of rings.
   static Matrix6d driftFloor(double length);
 
   void archive(urban_nav_core::Archive& archive);

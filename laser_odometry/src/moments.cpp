@@ -8,9 +8,9 @@ namespace laser_odometry {
 namespace {
 
 constexpr double kLeastPoints = 6.0;
-constexpr double kLeastRatio = 10.0;  // of variances in and across the plane
-// Variance of what the beams of one ring have in common, m^2: errors of its range and angle. A plane of few rings is
-// tilted by it, however many points they have.
+constexpr double kLeastRatio = 10.0;  // ratio of variances in and across the plane
+// Variance of errors common to the beams of one ring, m^2: range and angle. They tilt a plane of few rings, independent
+// of the number of points.
 constexpr double kLineVariance = 0.005 * 0.005;
 constexpr double kReachedSigmas = 2.5;
 

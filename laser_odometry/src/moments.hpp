@@ -9,7 +9,7 @@ namespace laser_odometry {
 using urban_nav_core::Matrix3d;
 using urban_nav_core::Vector3d;
 
-/// Count, sum and sum of outer products of points, relative to an origin that the owner defines (m, m^2).
+/// Count, sum and sum of outer products of points, relative to an origin defined by the owner (m, m^2).
 struct Moments {
   double count = 0.0;
   Vector3d sum = Vector3d::Zero();
@@ -26,7 +26,7 @@ struct Moments {
     outer[4] += p.y() * p.z();
     outer[5] += p.z() * p.z();
   }
-  /// Adds moments whose origin lies at `shift` in the axes and origin of this one.
+  /// Adds moments whose origin is at `shift` relative to this origin.
   void add(const Moments& other, const Vector3d& shift);
   /// Scales the weight of all points.
   void scale(double factor);
@@ -38,28 +38,27 @@ struct Moments {
   void archive(urban_nav_core::Archive& archive) { archive(count, sum, outer); }
 };
 
-/// Variance of a range, m^2: its resolution, which few points do not show.
+/// Variance of a range due to its resolution, m^2, which few points do not show.
 constexpr double kBeamVariance = 0.01 * 0.01;
 
 /// Plane through points.
 struct Plane {
-  bool usable = false;                  ///< enough points that spread in two directions
+  bool usable = false;                  ///< enough points with a spread in two directions
   Vector3d mean = Vector3d::Zero();     ///< m
   Vector3d normal = Vector3d::UnitZ();  ///< unit
-  double variance = 0.0;                ///< of the points along the normal, m^2
-  Vector3d narrow = Vector3d::UnitX();  ///< unit, in the plane: the direction in which the points spread less
+  double variance = 0.0;                ///< variance of the points along the normal, m^2
+  Vector3d narrow = Vector3d::UnitX();  ///< unit, in the plane: direction of the smaller spread
   double width = 0.0;                   ///< variance of the points along `narrow`, m^2
   double length = 0.0;                  ///< variance of the points in the other direction of the plane, m^2
-  double normal_variance = 0.0;         ///< of the normal about the direction in which it is known worst, rad^2
+  double normal_variance = 0.0;         ///< variance of the normal in its least certain direction, rad^2
 };
 
-/// Returns whether a point lies outside the points of the plane rather than among them: further than 2.5 standard
-/// deviations from their mean in a direction of the plane. There the plane would be extrapolated.
+/// Returns whether a point is outside the extent of the plane's points, so that the plane would be extrapolated:
+/// further than 2.5 standard deviations from their mean in a direction of the plane.
 bool isOutside(const Plane& plane, const Vector3d& p);
 
-/// Fits a plane to the moments, whose origin lies at `origin`. Not usable with fewer than six points, or if their
-/// spread along the narrower direction of the plane is below four times that along the normal (standard deviations
-/// 1:2), as of a single line of beams.
+/// Fits a plane to the moments, whose origin is `origin`. Not usable with fewer than six points, or if their spread
+/// along the narrower direction of the plane is below 3.2 times that along the normal, as for a single line of beams.
 Plane fitPlane(const Moments& moments, const Vector3d& origin);
 
 }  // namespace laser_odometry

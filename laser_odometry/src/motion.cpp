@@ -6,7 +6,7 @@
 namespace laser_odometry {
 namespace {
 
-// Usual limits of a vehicle of which nothing is known.
+// Typical limits of a vehicle, while the motion is unknown.
 constexpr double kUsualSpeed = 15.0;  // m/s
 constexpr double kUsualRate = 1.0;    // rad/s
 
@@ -38,7 +38,7 @@ void MotionModel::update(const Pose& T_from_to, double seconds, bool observed) {
 
 void MotionModel::archive(urban_nav_core::Archive& archive) {
   archive(known_, has_step_, step_twist_, twist_, unobserved_s_);
-  archive.require(unobserved_s_ >= 0.0, "a negative time");
+  archive.require(unobserved_s_ >= 0.0, "negative time");
 }
 
 }  // namespace laser_odometry

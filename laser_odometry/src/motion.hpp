@@ -16,19 +16,19 @@ class MotionModel {
  public:
   explicit MotionModel(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// Whether a velocity was ever observed.
+  /// Returns whether a velocity was observed.
   bool isKnown() const { return known_; }
   /// Returns T_from_to after `seconds`.
   Pose predict(double seconds) const;
   /// Returns the covariance of predict(), tangent as in PoseWithCovariance.
   Matrix6d predictionCovariance(double seconds) const;
-  /// Velocity in the middle of a sweep if the step before it took `seconds` and is `T_from_to`: mean of the step and
+  /// Returns the velocity in the middle of a sweep, for a previous step `T_from_to` of `seconds`: mean of the step plus
   /// half of the change from the step before.
   Vector6d sweepTwist(const Pose& T_from_to, double seconds) const;
-  /// Velocity at the newest sweep.
+  /// Returns the velocity at the newest sweep.
   const Vector6d& twist() const { return twist_; }
 
-  /// Takes over an estimated step. `observed`: all of its directions were.
+  /// Updates with an estimated step. `observed`: all directions were observed.
   void update(const Pose& T_from_to, double seconds, bool observed);
 
   void archive(urban_nav_core::Archive& archive);

@@ -9,35 +9,35 @@
 namespace laser_odometry {
 namespace {
 
-// Sine of the least angle between a plane and the displacement that it measures: 7 deg, what is not plane in a road,
-// and the least number of standard deviations of the normal.
+// Sine of the minimum angle between a plane and the displacement that it measures: 7 deg, the unevenness of a road; and
+// the minimum number of standard deviations of the normal.
 constexpr double kLeastSine = 0.12;
 constexpr double kLeastSigmas = 4.0;
-// Mean square of the rows along a direction that so many of them certainly hold: what lies below kLeastSine could
-// not add up to it.
+// Mean square of the rows along a direction that is certainly constrained, given this number of rows: rows below
+// kLeastSine could not add up to it.
 constexpr double kSurelyObserved = 0.1;
 constexpr std::size_t kManyRows = 200;
-// Effective number of patches, and their share of all, below which a direction is free.
+// Minimum effective number of patches of a constrained direction, and its share of all.
 constexpr double kLeastPatches = 6.0;
 constexpr double kLeastShare = 0.002;
 
 using urban_nav_core::SmallEigen;
 
-/// Square root of the scaling of a matrix by (1, 1, 1, 1/lever ...).
+/// Returns the scaling (1, 1, 1, 1/lever ...).
 Vector6d scaling(double lever) {
   Vector6d s;
   s << 1.0, 1.0, 1.0, 1.0 / lever, 1.0 / lever, 1.0 / lever;
   return s;
 }
 
-/// Columns of the observed directions, those of the free ones zero: a projector onto what is observed.
+/// Returns the projector onto the observed directions.
 Matrix6d projectorOntoObserved(const FreeSubspace& free) {
   Matrix6d P = Matrix6d::Identity();
   for (const Vector6d& v : free.directions) P -= v * v.transpose();
   return P;
 }
 
-/// Inverse of the scaled information on the observed directions, zero on the free ones.
+/// Returns the inverse of the scaled information on the observed directions, zero on the free ones.
 Matrix6d inverseOnObserved(const Matrix6d& H, const FreeSubspace& free) {
   const Vector6d s = scaling(free.lever);
   Matrix6d A = s.asDiagonal() * H * s.asDiagonal();
@@ -45,7 +45,7 @@ Matrix6d inverseOnObserved(const Matrix6d& H, const FreeSubspace& free) {
   A = P * A * P;
   const double top = A.trace();
   if (!(top > 0.0)) return Matrix6d::Zero();
-  // Free directions get the mean information, which the projector takes away again.
+  // Free directions get the mean information, which the projector removes.
   const Matrix6d filled = A + top / 6.0 * (Matrix6d::Identity() - P) + 1e-12 * top * Matrix6d::Identity();
   const urban_nav_core::SmallCholesky<6> factor(filled);
   if (!factor.succeeded()) return Matrix6d::Zero();
@@ -98,7 +98,7 @@ FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
     A.noalias() += row.weight * j * j.transpose();
   }
   const SmallEigen<6> eigen = urban_nav_core::smallEigen<6>(A);
-  // Weights relative to the usual one: a patch of the usual quality counts as one.
+  // Weights relative to the mean: a patch of average weight counts as one.
   const double usual = total / static_cast<double>(rows.size());
   const double fewest = std::max(kLeastPatches, kLeastShare * static_cast<double>(rows.size()));
   for (int i = 0; i < 6; ++i) {
@@ -116,7 +116,8 @@ FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
       const double least = std::max(kLeastSine, kLeastSigmas * row.normal_sigma) * displacement.norm();
       if (std::abs(across) > least) patches += std::min(1.0, row.weight / usual) * across * across;
     }
-    // Relative to the mean displacement: a roll moves the near walls of a long corridor by little, and all of them.
+    // Relative to the mean displacement: a roll displaces the near walls of a long corridor only slightly, but all of
+    // them.
     if (squares > 0.0) patches *= total / squares;
     free.evidence.push_back(patches);
     if (patches < fewest) free.directions.push_back(direction);

@@ -9,7 +9,7 @@ namespace laser_odometry {
 
 std::vector<Patch> makePatches(const std::vector<Vector3d>& points, const std::vector<float>& times, double size) {
   struct Part {
-    Vector3d origin;  // the first point: sums stay small
+    Vector3d origin;  // the first point, so that sums remain small
     Moments moments;
     double time = 0.0, half_square = 0.0;  // sums, s and s^2
   };

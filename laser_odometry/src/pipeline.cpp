@@ -14,18 +14,19 @@ using urban_nav_core::Sweep;
 
 namespace {
 
-constexpr double kLongestSweep = 1.0;   // s from the reference: a sweep takes 10 ms to 1 s
-constexpr std::int32_t kLostLimit = 5;  // sweeps by prediction alone after which the map begins anew
-constexpr double kPruneStep = 5.0;      // m between prunings of the map
-constexpr double kRangeScale = 5e-4;    // relative, of all ranges: the 2 cm that makers state, at 40 m
-constexpr double kReach = 60.0;        // edges of a cube: the distance at which beams of 0.5 deg are half an edge apart
-constexpr int kStartRounds = 4;        // in which the first two sweeps are deskewed by each other
-constexpr double kStartStep = 0.3;     // m between positions from which the second sweep is registered
-constexpr double kStartSpeed = 40.0;   // m/s, the highest that the search covers
-constexpr double kStartSteps = 12.0;   // at most, forward and backward
-constexpr double kUnknownStart = 0.4;  // m, errors at the surfaces where the velocity is not known,
+constexpr double kLongestSweep = 1.0;    // s from the reference: a sweep takes 10 ms to 1 s
+constexpr std::int32_t kLostLimit = 5;   // consecutive predicted sweeps after which the map is restarted
+constexpr double kPruneStep = 5.0;       // m between prunings of the map
+constexpr double kRangeScale = 5e-4;     // relative error common to all ranges: the 2 cm stated by manufacturers, at 40
+                                         // m
+constexpr double kReach = 60.0;          // edges of a cube: distance at which beams of 0.5 deg are half an edge apart
+constexpr int kStartRounds = 4;          // rounds of mutual deskewing of the first two sweeps
+constexpr double kStartStep = 0.3;       // m between start positions of the second sweep
+constexpr double kStartSpeed = 40.0;     // m/s, maximum speed of the search
+constexpr double kStartSteps = 12.0;     // maximum number, forward and backward
+constexpr double kUnknownStart = 0.4;    // m, errors at the surfaces with unknown velocity,
 constexpr double kPredictedStart = 0.1;  // and after a prediction
-constexpr double kStartGain = 1.005;     // by which a position must fit better than standing still
+constexpr double kStartGain = 1.005;     // required gain of the fit over a standing start
 
 }  // namespace
 
@@ -58,7 +59,7 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
                                              : alignSecond(points, prediction);
     assess(aligned, points, sweep, prediction, result);
     if (result.status.health == Health::Lost) {
-      if (!first_.p.empty()) map_.clear();  // of a sweep whose velocity stays unknown
+      if (!first_.p.empty()) map_.clear();  // map of a sweep with unknown velocity
       first_ = SweepPoints();
       continueByPrediction(prediction, result);
       restartIfLost(points, result);
@@ -82,7 +83,8 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
 
 void Pipeline::accumulate(const Pose& T_odom_last, const urban_nav_core::RelativePose& step) {
   using urban_nav_core::transformCovariance;
-  // A path has half of the covariance of its first step, half of that of its last one, and the drifts (RelativePose).
+  // The covariance of a path is half of that of its first step, half of that of its last one, and the drifts
+  // (RelativePose).
   if (!has_step_) drift_ = 0.5 * step.covariance;
   has_step_ = true;
   const urban_nav_core::Composition path = urban_nav_core::compose(T_odom_last, step.T_from_to);
@@ -188,7 +190,7 @@ Pose Pipeline::searchStart(const SweepPoints& points, const Prediction& predicti
     if (i == 0) continue;
     const Pose guess = T_odom_base_ * Pose(Eigen::Quaterniond::Identity(), {i * kStartStep, 0.0, 0.0});
     const Registration found = registerPatches(patches, map_, guess, guess, options);
-    if (found.free.leavesPositionFree()) continue;  // it stays where it began
+    if (found.free.leavesPositionFree()) continue;  // the position is that of the start
     const double sum = fit(found.T_odom_base);
     if (sum <= most) continue;
     most = sum;
@@ -207,7 +209,7 @@ Pipeline::Aligned Pipeline::alignSecond(const SweepPoints& points, const Predict
     SweepMotion motion;
     if (parameters_.deskew && prediction.seconds > 0.0)
       motion.twist = urban_nav_core::logSe3(T_odom_first.inverse() * guess) / prediction.seconds;
-    --sweep_;  // the map is that of the sweep before
+    --sweep_;  // the map belongs to the previous sweep
     beginMap(first, motion);
     ++sweep_;
     aligned = align(points, prediction, guess);
@@ -219,7 +221,7 @@ Pipeline::Aligned Pipeline::alignSecond(const SweepPoints& points, const Predict
 Matrix6d Pipeline::skewCovariance(const Sweep& sweep) const {
   if (sweep.times == Sweep::Times::Deskewed) return Matrix6d::Zero();
   if (sweep.times == Sweep::Times::Measured && parameters_.deskew) return Matrix6d::Zero();
-  // The returns of a sweep are spread evenly over its duration; their mean displacement is not known.
+  // The returns of a sweep are spread evenly over its duration; their mean displacement is unknown.
   const double seconds = std::min(std::max(sweep.duration, 0.0), kLongestSweep);
   const Vector6d shift = motion_.twist() * seconds / std::sqrt(12.0);
   Matrix6d C = Matrix6d::Zero();
@@ -237,7 +239,7 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
 
   const urban_nav_core::Between step = urban_nav_core::between(T_odom_last, T_odom_base_);
   result.step.T_from_to = step.T_b_c;
-  // The prior covariance in odom: d_odom = J2^-1 d_step.
+  // Prior covariance in odom: d_odom = J2^-1 d_step.
   const Matrix3d R = T_odom_last.R();
   Matrix6d to_odom = Matrix6d::Zero();
   to_odom.topLeftCorner<3, 3>() = R;
@@ -272,7 +274,7 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
 }
 
 void Pipeline::grow(const Aligned& aligned, const SweepPoints& points) {
-  if (!motion_.isKnown()) {  // sweeps that are not placed in all directions would blur each other
+  if (!motion_.isKnown()) {  // sweeps with free directions would blur each other
     beginMap(points, knownMotion());
     return;
   }
@@ -299,7 +301,7 @@ void Pipeline::restartIfLost(const SweepPoints& points, LaserPose& result) {
   if (++lost_ < kLostLimit || points.p.empty()) return;
   motion_ = MotionModel(parameters_);
   beginMap(points, knownMotion());
-  result.status.sentence += "; a new local map begins";
+  result.status.sentence += "; local map restarted";
 }
 
 }  // namespace laser_odometry

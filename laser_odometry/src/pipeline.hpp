@@ -15,10 +15,10 @@
 
 namespace laser_odometry {
 
-/// Variance of the first pose, which is the origin: numbers that are positive, m^2 and rad^2.
+/// Variance of the first pose, which is the origin: small positive numbers, m^2 and rad^2.
 constexpr double kFirstCovariance = 1e-12;
 
-/// The odometry itself: prediction, deskewing, registration, covariance, growth of the map.
+/// Odometry pipeline: prediction, deskewing, registration, covariance, map update.
 class Pipeline {
  public:
   Pipeline(const Parameters& parameters, const Pose& T_base_lidar);
@@ -29,19 +29,18 @@ class Pipeline {
   void restore(std::string_view state);
 
  private:
-  /// Motion since the last sweep before it is registered: T_last_now and its covariance (tangent as in
-  /// PoseWithCovariance).
+  /// Predicted motion since the last sweep: T_last_now and its covariance (tangent as in PoseWithCovariance).
   struct Prediction {
     double seconds = 0.0;
     Pose T_last_now;
     Matrix6d covariance = Matrix6d::Identity();
     bool is_measured = false;  ///< by another sensor
   };
-  /// A registered sweep with the points of its last round, in base_link.
+  /// A registered sweep with the deskewed points of its last round, in base_link.
   struct Aligned {
     Registration registration;
     std::vector<Vector3d> points;
-    SweepMotion motion;  ///< within the sweep
+    SweepMotion motion;  ///< motion within the sweep
     int iterations = 0;
   };
 
@@ -75,14 +74,14 @@ class Pipeline {
   bool started_ = false;
   urban_nav_core::StampNs stamp_ = 0;
   Pose T_odom_base_;
-  Matrix6d end_covariance_ = Matrix6d::Zero();  ///< of the last pose against the map
+  Matrix6d end_covariance_ = Matrix6d::Zero();  ///< covariance of the last pose relative to the map
   bool has_step_ = false;
-  Matrix6d drift_ = Matrix6d::Zero();  ///< covariance of T_odom_base without the error of its own end
+  Matrix6d drift_ = Matrix6d::Zero();  ///< covariance of T_odom_base without the error of its end
   Matrix6d covariance_ = kFirstCovariance * Matrix6d::Identity();  ///< of T_odom_base
-  double usual_s_ = 0.0;                                           ///< usual time between sweeps
-  std::int32_t lost_ = 0;  ///< sweeps without registration since the last one with it
+  double usual_s_ = 0.0;                                           ///< typical time between sweeps
+  std::int32_t lost_ = 0;                                          ///< consecutive sweeps without registration
   Vector3d pruned_at_ = Vector3d::Zero();
-  SweepPoints first_;  ///< of the sweep that began the map, until the next one shows its velocity
+  SweepPoints first_;  ///< points of the first sweep of the map, until the next one determines its velocity
 };
 
 }  // namespace laser_odometry

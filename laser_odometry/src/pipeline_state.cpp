@@ -14,11 +14,11 @@ namespace {
 
 constexpr const char* kStateName = "laser_odometry";
 constexpr std::uint32_t kStateVersion = 1;
-// Limits of a vehicle that drives over a kerb: a registration beyond them is a wrong one.
+// Limits of a vehicle that drives over a kerb: a registration beyond them is rejected.
 constexpr double kLargestAcceleration = 50.0;  // m/s^2
 constexpr double kLargestTurn = 15.0;          // rad/s^2
-constexpr double kGap = 1.7;                   // usual times between sweeps
-constexpr double kOverlap = 0.7;               // of the duration of a sweep, from one to the next
+constexpr double kGap = 1.7;                   // typical times between sweeps
+constexpr double kOverlap = 0.7;               // minimum time between sweeps, of the duration of a sweep
 
 }  // namespace
 
@@ -46,18 +46,17 @@ void Pipeline::assess(const Aligned& aligned, const SweepPoints& points, const u
   if (usual_s_ > 0.0 && prediction.seconds > kGap * usual_s_) {
     result.status.reason = static_cast<int>(Reason::Gap);
     result.status.sentence = std::to_string(static_cast<int>(1e3 * prediction.seconds)) +
-                             " ms since the last sweep, usual are " + std::to_string(static_cast<int>(1e3 * usual_s_)) +
-                             ": sweeps are missing";
+                             " ms since the previous sweep, typically " +
+                             std::to_string(static_cast<int>(1e3 * usual_s_)) + " ms: sweeps are missing";
   } else if (sweep.times == urban_nav_core::Sweep::Times::Measured && prediction.seconds < kOverlap * sweep.duration) {
     result.status.reason = static_cast<int>(Reason::Overlap);
-    result.status.sentence = std::to_string(static_cast<int>(1e3 * prediction.seconds)) +
-                             " ms from sweep to sweep, which last " +
+    result.status.sentence = std::to_string(static_cast<int>(1e3 * prediction.seconds)) + " ms between sweeps of " +
                              std::to_string(static_cast<int>(1e3 * sweep.duration)) + " ms: sweeps overlap";
   }
 }
 
 bool Pipeline::isPlausible(const Registration& registration, const Prediction& prediction) const {
-  // Another sensor may know its motion better than its covariance states; at the start nothing is known.
+  // A measured prior may be more accurate than its covariance; at the start the motion is unknown.
   if (prediction.is_measured || !motion_.isKnown() || !first_.p.empty()) return true;
   const Vector6d d = urban_nav_core::boxMinus(T_odom_base_.inverse() * registration.T_odom_base, prediction.T_last_now);
   const double span = prediction.seconds * (prediction.seconds + usual_s_ * lost_);
@@ -68,7 +67,7 @@ std::vector<MapPoint> Pipeline::localMap() const {
   std::vector<MapPoint> points;
   for (int level = 0; level < map_.levels(); ++level) {
     for (const MapCell& cell : map_.cells(level)) {
-      // A plane of a finer level at the same place replaces this one.
+      // Replaced by a plane of a finer level at the same position.
       bool is_covered = false;
       for (int finer = 0; finer < level && !is_covered; ++finer) is_covered = map_.hasPlane(cell, finer);
       const Plane plane = cell.is_current ? cell.plane : fitPlane(cell.moments, cell.centre);
@@ -92,14 +91,14 @@ std::string Pipeline::fingerprint() const {
 void Pipeline::archive(urban_nav_core::Archive& archive) {
   archive(map_, motion_, errors_, sweep_, started_, stamp_, T_odom_base_, end_covariance_, has_step_, drift_,
           covariance_, usual_s_, lost_, pruned_at_, first_);
-  archive.require(sweep_ >= 0 && lost_ >= 0 && usual_s_ >= 0.0, "a negative number");
+  archive.require(sweep_ >= 0 && lost_ >= 0 && usual_s_ >= 0.0, "negative number");
 }
 
 std::string Pipeline::state() const {
   urban_nav_core::Archive archive;
   std::string known = fingerprint();
   archive(known);
-  const_cast<Pipeline*>(this)->archive(archive);  // writes alone
+  const_cast<Pipeline*>(this)->archive(archive);  // writes only
   return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
 }
 

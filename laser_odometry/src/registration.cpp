@@ -10,13 +10,13 @@ namespace laser_odometry {
 namespace {
 
 constexpr std::size_t kFewestMatches = 12;
-constexpr double kSmallStep = 1e-4;       // m at the surfaces: a tenth of what a sweep is known to
+constexpr double kSmallStep = 1e-4;       // m at the surfaces: a tenth of the accuracy of a sweep
 constexpr double kCauchy = 2.385;         // 95 % efficiency for normal errors (Holland, Welsch 1977)
 constexpr double kSmallStart = 0.005;     // m
-constexpr double kThickest = 6.0;         // variance of a patch over that of its plane
-constexpr double kNormalMedian = 0.6745;  // of |x| of a standard normal variable
+constexpr double kThickest = 6.0;         // ratio of the variance of a patch to that of its plane
+constexpr double kNormalMedian = 0.6745;  // median of |x| of a standard normal variable
 
-/// Median of |values|, which are reordered.
+/// Returns the median of |values|; reorders them.
 double median(std::vector<double>& values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -24,7 +24,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// Robust standard deviation of residual / sqrt(variance); 0 without matches.
+/// Returns the robust standard deviation of residual / sqrt(variance); 0 without matches.
 double robustSpread(const std::vector<PatchMatch>& matches) {
   std::vector<double> whitened;
   whitened.reserve(matches.size());
@@ -32,8 +32,8 @@ double robustSpread(const std::vector<PatchMatch>& matches) {
   return median(whitened) / kNormalMedian;
 }
 
-/// Sets the factors of the kernel. `scale`: spread of the whitened residuals. `start_sigma`: of what an error of the
-/// pose may add, m.
+/// Sets the factors of the kernel. `scale`: spread of the whitened residuals. `start_sigma`: effect of an error of the
+/// start pose, m.
 void setRobustFactors(std::vector<PatchMatch>& matches, double scale, double start_sigma) {
   const double least = 1e-6;
   for (PatchMatch& match : matches) {
@@ -46,12 +46,12 @@ using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 using Matrix12x6d = Eigen::Matrix<double, 12, 6>;
 
-/// Normal equations of the pose, after the motion within the sweep has been eliminated (Schur complement).
+/// Normal equations of the pose, with the motion within the sweep eliminated (Schur complement).
 struct NormalEquations {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
-  Matrix12x6d coupling = Matrix12x6d::Zero();  // motion by pose, times the inverse of the motion's own
-  Vector12d motion = Vector12d::Zero();        // step of the motion where the pose stays
+  Matrix12x6d coupling = Matrix12x6d::Zero();  // motion by pose, times the inverse of the motion's block
+  Vector12d motion = Vector12d::Zero();        // step of the motion for a fixed pose
 
   SweepMotion solveMotion(const Vector6d& step) const {
     const Vector12d solved = motion - coupling * step;
@@ -65,7 +65,7 @@ Vector12d stacked(const SweepMotion& motion) {
   return v;
 }
 
-/// Derivative of the residual by the motion within the sweep: the point moves with base_link for its time.
+/// Derivative of the residual by the motion within the sweep: the point moves with base_link for the time of its patch.
 Vector12d motionJacobian(const PatchMatch& match, const Matrix3d& R_base_odom) {
   const Vector3d normal = R_base_odom * match.row.normal;
   Vector6d J;
@@ -75,7 +75,7 @@ Vector12d motionJacobian(const PatchMatch& match, const Matrix3d& R_base_odom) {
   return all;
 }
 
-/// Information of the prediction of the motion within the sweep.
+/// Returns the information of the predicted motion within the sweep.
 Vector12d predictedInformation(const RegistrationOptions& options) {
   const auto information = [](double sigma) { return Vector3d(Vector3d::Constant(1.0 / (sigma * sigma))); };
   Vector12d all;
@@ -84,7 +84,7 @@ Vector12d predictedInformation(const RegistrationOptions& options) {
   return all;
 }
 
-/// Fills `rows` with the matches' robust weights, too.
+/// Builds the equations; `rows` is set to the matches' rows with robust weights.
 NormalEquations buildEquations(const Registration& state, const RegistrationOptions& options,
                                std::vector<PlaneRow>& rows) {
   NormalEquations equations;
@@ -141,7 +141,7 @@ std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceM
     match.residual = plane.normal.dot(p - plane.mean);
     const Vector3d normal_base = R.transpose() * plane.normal;
     const double thickness = std::max(0.0, normal_base.dot(patch.covariance * normal_base));
-    if (thickness > kThickest * (plane.variance + kBeamVariance)) continue;  // it reaches over an edge
+    if (thickness > kThickest * (plane.variance + kBeamVariance)) continue;  // the patch extends over an edge
     const double tilt = plane.normal_variance * (p - plane.mean).squaredNorm();
     match.row = {plane.normal, turned, std::sqrt(plane.normal_variance),
                  1.0 / (plane.variance + thickness + tilt + kBeamVariance + surface_sigma * surface_sigma)};

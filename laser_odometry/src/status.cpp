@@ -12,8 +12,8 @@ using urban_nav_core::Status;
 
 namespace {
 
-constexpr int kFewestPoints = 200;      // returns, for a registration
-constexpr double kCoveredShare = 0.25;  // of the returns nearer than min_range
+constexpr int kFewestPoints = 200;      // returns required for a registration
+constexpr double kCoveredShare = 0.25;  // share of returns nearer than min_range
 constexpr double kAgreeing = 3.0;       // standard deviations
 constexpr double kLeastAgreeing = 0.5;  // share of the matches
 
@@ -31,7 +31,7 @@ std::optional<Status> findCover(const SweepPoints& points, const Parameters& par
   if (points.valid == 0 || points.near < kCoveredShare * points.valid) return std::nullopt;
   return make(health, Reason::Covered,
               number(100.0 * points.near / points.valid, "%.0f") + " % of the returns are nearer than " +
-                  number(parameters.min_range, "%g") + " m: the robot itself, or something that covers the LiDAR");
+                  number(parameters.min_range, "%g") + " m: the robot itself, or an object that covers the LiDAR");
 }
 
 }  // namespace
@@ -69,12 +69,12 @@ Status statusOfStart(const SweepPoints& points, const Parameters& parameters) {
 Status statusOfRestart(const SweepPoints& points, const Parameters& parameters) {
   Status status = statusOfStart(points, parameters);
   if (status.health == Health::Lost) return status;
-  return make(Health::Lost, Reason::Mismatch, "the local map begins anew: the motion is that of the prediction");
+  return make(Health::Lost, Reason::Mismatch, "local map restarted: the motion is predicted");
 }
 
 Status statusOfStamp(urban_nav_core::StampNs last, urban_nav_core::StampNs now) {
   return make(Health::Degraded, Reason::BadStamp,
-              "reference time " + urban_nav_core::printStamp(now) + " s is not later than the last one, " +
+              "reference time " + urban_nav_core::printStamp(now) + " s is not later than the previous one, " +
                   urban_nav_core::printStamp(last) + " s: dropped");
 }
 
@@ -82,7 +82,7 @@ Status statusOfJump(const Pose& predicted, const Pose& registered) {
   return make(Health::Lost, Reason::Mismatch,
               "registered " + number(urban_nav_core::distanceBetween(predicted, registered), "%.2f") + " m and " +
                   number(urban_nav_core::angleBetween(predicted, registered) * 180.0 / M_PI, "%.1f") +
-                  " deg from the predicted pose: no such acceleration is possible");
+                  " deg from the predicted pose: implausible acceleration");
 }
 
 std::optional<Status> findTooFewPoints(const SweepPoints& points) {
@@ -90,7 +90,8 @@ std::optional<Status> findTooFewPoints(const SweepPoints& points) {
   const int left = static_cast<int>(points.p.size());
   if (left >= kFewestPoints) return std::nullopt;
   return make(Health::Lost, Reason::TooFewPoints,
-              std::to_string(left) + " returns in range, fewer than " + std::to_string(kFewestPoints));
+              "too few returns in range: " + std::to_string(left) + ", at least " + std::to_string(kFewestPoints) +
+                  " required");
 }
 
 Status statusOfRegistration(const Registration& registration, const SweepPoints& points, const Pose& T_odom_base,
@@ -99,15 +100,15 @@ Status statusOfRegistration(const Registration& registration, const SweepPoints&
   const int matches = static_cast<int>(registration.matches.size());
   if (!registration.solved || matches < parameters.lost_patches)
     return make(Health::Lost, Reason::TooFewPoints,
-                "few surface patches: " + std::to_string(matches) + " match the local map, " +
-                    std::to_string(parameters.lost_patches) + " needed, of " + std::to_string(points.valid) +
+                "too few surface patches: " + std::to_string(matches) + " match the local map, at least " +
+                    std::to_string(parameters.lost_patches) + " required, of " + std::to_string(points.valid) +
                     " returns");
   double agreeing = 0.0;
   for (const PatchMatch& match : registration.matches)
     if (std::abs(match.residual) * std::sqrt(match.row.weight) < kAgreeing) agreeing += 1.0;
   if (agreeing < kLeastAgreeing * matches)
     return make(Health::Lost, Reason::Mismatch,
-                number(100.0 * agreeing / matches, "%.0f") + " % of the surface patches fit the local map");
+                "only " + number(100.0 * agreeing / matches, "%.0f") + " % of the surface patches fit the local map");
   if (registration.free.isFree()) {
     const Matrix3d R = T_odom_base.R().transpose();
     std::string names;
@@ -122,7 +123,7 @@ Status statusOfRegistration(const Registration& registration, const SweepPoints&
   if (const std::optional<Status> cover = findCover(points, parameters, Health::Degraded)) return *cover;
   if (matches < parameters.degraded_patches)
     return make(Health::Degraded, Reason::TooFewPoints,
-                "few surface patches: " + std::to_string(matches) + " match the local map, " +
+                "few surface patches: " + std::to_string(matches) + " match the local map, at least " +
                     std::to_string(parameters.degraded_patches) + " wanted, of " + std::to_string(points.valid) +
                     " returns");
   return {};

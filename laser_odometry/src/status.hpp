@@ -9,20 +9,21 @@ namespace laser_odometry {
 
 /// Returns the status of a sweep that begins the map.
 urban_nav_core::Status statusOfStart(const SweepPoints& points, const Parameters& parameters);
-/// Returns the status of a sweep that begins the map anew: no motion was measured.
+/// Returns the status of a sweep that restarts the map: no motion was measured.
 urban_nav_core::Status statusOfRestart(const SweepPoints& points, const Parameters& parameters);
-/// Returns the status of a sweep whose reference time is not later than the last one.
+/// Returns the status of a sweep whose reference time is not later than the previous one.
 urban_nav_core::Status statusOfStamp(urban_nav_core::StampNs last, urban_nav_core::StampNs now);
 /// Returns a Lost status if there are too few points for a registration.
 std::optional<urban_nav_core::Status> findTooFewPoints(const SweepPoints& points);
-/// Returns whether a sweep fits the map, and what is missing.
+/// Returns the status of a registration; the sentence names deficiencies.
 urban_nav_core::Status statusOfRegistration(const Registration& registration, const SweepPoints& points,
                                             const Pose& T_odom_base, const Parameters& parameters);
 
-/// Returns the status of a registration that no vehicle can have moved by: T_last_now as predicted and as registered.
+/// Returns the status of a registration with an implausible motion: T_last_now as predicted and as registered.
 urban_nav_core::Status statusOfJump(const Pose& predicted, const Pose& registered);
 
-/// Returns a word for a free direction (scaled tangent in base_link): "along x", "about z", "along (0.7, 0.7, 0.0)".
+/// Returns a description of a free direction (scaled tangent in base_link): "along x", "about z", "along (0.7, 0.7,
+/// 0.0)".
 std::string describeDirection(const Vector6d& direction);
 
 }  // namespace laser_odometry

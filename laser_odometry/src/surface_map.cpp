@@ -10,7 +10,7 @@ using urban_nav_registration::CellTable;
 
 namespace {
 
-// A cube that was seen more often follows the newest sweeps: errors of old poses fade.
+// Limit of the weight of a cube, so that it follows the newest sweeps: errors of old poses fade.
 constexpr double kMostPoints = 2000.0;
 
 Cell toCell(const Vector3d& p, double size) {
@@ -35,7 +35,7 @@ const Plane& MapCell::currentPlane() {
 
 void MapCell::archive(urban_nav_core::Archive& archive) {
   archive(centre, moments, first_sweep, last_sweep, residual, residual_sweep);
-  archive.require(moments.count > 0.0, "a cell without points");
+  archive.require(moments.count > 0.0, "cell without points");
   is_current = false;
 }
 
@@ -81,7 +81,8 @@ MapCell* SurfaceMap::Level::obtain(const Vector3d& p, std::int32_t sweep) {
 }
 
 void SurfaceMap::insert(const std::vector<Vector3d>& points, const Vector3d& origin, std::int32_t sweep) {
-  // The points of the sweep by smallest cubes, then those into the cubes of all levels: a point is touched once.
+  // Points of the sweep by smallest cubes, which are then added to the cubes of all levels: each point is processed
+  // once.
   std::vector<MapCell> parts;
   CellTable table(points.size() / 4 + 64);
   const double size = levels_.front().size;
@@ -148,11 +149,11 @@ void SurfaceMap::archive(urban_nav_core::Archive& archive) {
     for (MapCell& cell : level.cells) {
       const std::optional<std::uint64_t> key = findKey(cell.centre, level.size);
       archive.require(key && (cell.centre - cubeCentre(cell.centre, level.size)).norm() < 1e-3 * level.size,
-                      "a cell that is not at its place");
+                      "cell centre is not that of its cube");
       cell.key = *key;
     }
     level.reindex();
-    archive.require(level.table.size() == level.cells.size(), "a cell twice");
+    archive.require(level.table.size() == level.cells.size(), "duplicate cell");
   }
 }
 

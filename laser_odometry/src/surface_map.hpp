@@ -10,50 +10,50 @@
 
 namespace laser_odometry {
 
-/// A cube of the local map at one resolution: moments of the points in it, relative to its centre.
+/// A cube of the local map at one level: moments of its points, relative to its centre.
 struct MapCell {
   std::uint64_t key = 0;
   Vector3d centre = Vector3d::Zero();  ///< in odom, m
   Moments moments;
-  std::int32_t first_sweep = 0, last_sweep = 0;  ///< numbers of sweeps that had points here
+  std::int32_t first_sweep = 0, last_sweep = 0;  ///< first and last sweep with points here
   /// Mean distance of the patches of a sweep from the plane, m, and the number of that sweep (-1: none).
   double residual = 0.0;
   std::int32_t residual_sweep = -1;
 
-  bool is_current = false;  ///< whether `plane` is that of `moments`
+  bool is_current = false;  ///< `plane` is up to date with `moments`
   Plane plane;
 
   const Plane& currentPlane();
   void archive(urban_nav_core::Archive& archive);
 };
 
-/// Local map of surface elements: cubes of several sizes, each twice as large as that of the level below, with the
-/// moments of the points in them. In odom. Not thread-safe.
+/// Local map of surface elements, in odom: cubes of several sizes, each twice as large as at the level below, with the
+/// moments of their points. Not thread-safe.
 class SurfaceMap {
  public:
-  /// cell: edge of the smallest cubes, m. reach: largest distance at which points enter the smallest cubes, m; it
-  /// doubles with each level, since beams diverge.
+  /// `cell`: edge of the smallest cubes, m. `reach`: maximum distance at which points are added to the smallest cubes,
+  /// m; doubles with each level, since beams diverge.
   SurfaceMap(double cell, int levels, double reach);
 
   bool empty() const { return levels_.front().cells.empty() && levels_.back().cells.empty(); }
   std::size_t size() const;
   void clear();
 
-  /// Adds the points of one sweep (in odom), seen from `origin`.
+  /// Adds the points of one sweep (in odom), measured from `origin`.
   void insert(const std::vector<Vector3d>& points, const Vector3d& origin, std::int32_t sweep);
 
-  /// Returns the cube with a usable plane that holds a point within the extent of the plane, of the finest level not
-  /// below `level`; null without one.
+  /// Returns the cube of the finest level not below `level` with a usable plane whose extent contains a point; null if
+  /// there is none.
   MapCell* find(const Vector3d& p, int level);
 
   /// Removes the cubes further than `distance` from `p`, m.
   void prune(const Vector3d& p, double distance);
 
-  /// Returns whether the cube of a finer `level` that holds the middle of the cell's points has a usable plane.
+  /// Returns whether the cube of a finer `level` that contains the mean of the cell's points has a usable plane.
   bool hasPlane(const MapCell& cell, int level) const;
 
   int levels() const { return static_cast<int>(levels_.size()); }
-  /// Cells of one level in the order in which they came.
+  /// Cells of one level in order of insertion.
   const std::vector<MapCell>& cells(int level) const { return levels_[static_cast<std::size_t>(level)].cells; }
 
   void archive(urban_nav_core::Archive& archive);
@@ -70,7 +70,7 @@ class SurfaceMap {
   std::vector<Level> levels_;
 };
 
-/// Returns the key of the cube of edge `size` that holds a point; nullopt too far from the origin for one.
+/// Returns the key of the cube of edge `size` that contains a point; nullopt if it is too far from the origin.
 std::optional<std::uint64_t> findKey(const Vector3d& p, double size);
 
 }  // namespace laser_odometry

@@ -7,7 +7,7 @@
 namespace laser_odometry {
 namespace {
 
-// Poses between which the motion is linear: the error of a rotation by a is (a / 256)^2 / 8.
+// Number of poses between which the motion is linear: the error for a rotation of a is (a / 256)^2 / 8.
 constexpr int kKnots = 256;
 
 }  // namespace

@@ -14,19 +14,19 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
-/// Returns of a sweep in base_link, each as base_link was when it was measured.
+/// Returns of a sweep, each in base_link at the time of its measurement.
 struct SweepPoints {
   std::vector<Eigen::Vector3f> p;      ///< m
   std::vector<float> time;             ///< s after the reference time; zeros without times
   double first_s = 0.0, last_s = 0.0;  ///< range of `time`
   int valid = 0;                       ///< finite beams, `near` and far ones included
-  int near = 0;                        ///< left out: nearer than min_range
+  int near = 0;                        ///< dropped: nearer than min_range
 
   void archive(urban_nav_core::Archive& archive);
 };
 
-/// Returns the beams of a sweep between two ranges (m). Beams that are not finite are left out; so are times more than
-/// `longest_s` from the reference, which no sweep has.
+/// Returns the beams of a sweep between two ranges (m). Drops beams that are not finite, and those with a time more
+/// than `longest_s` from the reference, which is invalid.
 SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, double min_range,
                           double max_range, double longest_s);
 
@@ -41,8 +41,7 @@ struct SweepMotion {
   }
 };
 
-/// Returns the points as base_link sees them at the reference time. Error below 1 um for rotations of 0.3 rad in a
-/// sweep.
+/// Transforms the points to base_link at the reference time. Error below 1 um for rotations of 0.3 rad in a sweep.
 std::vector<Vector3d> deskew(const SweepPoints& points, const SweepMotion& motion);
 
 }  // namespace laser_odometry

@@ -15,7 +15,7 @@ using urban_nav_core::Health;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// A drive in which sweeps 5 and 6 of 12 are altered. Every result is finite, its covariance proper.
+/// A drive in which sweeps 5 and 6 of 12 are altered. Checks that every result is finite and its covariance valid.
 std::vector<LaserPose> driveWith(const std::function<void(Sweep&)>& alter, double tolerance = 0.05) {
   const SpinningLidar lidar;
   const BoxWorld world = makeStreet(8);
@@ -67,7 +67,7 @@ TEST(BadSweeps, AnEarlierReferenceIsDropped) {
   expectReason(poses[5], Health::Degraded, Reason::BadStamp);
   EXPECT_FALSE(poses[5].accepted);
   EXPECT_EQ(poses[5].T_odom_base.matrix(), poses[4].T_odom_base.matrix());
-  EXPECT_EQ(poses[7].step.from, poses[4].stamp);  // the chain has no hole
+  EXPECT_EQ(poses[7].step.from, poses[4].stamp);  // the chain has no gap
 }
 
 TEST(BadSweeps, TimesThatDecreaseOrAreAbsurdAreNotFatal) {

@@ -65,7 +65,7 @@ TEST(Observability, ThePlaneOfAFieldLeavesThreeDirections) {
   ASSERT_EQ(free.directions.size(), 3u);
   for (const Vector6d& v : free.directions) {
     EXPECT_NEAR(v[2], 0.0, 1e-6);
-    EXPECT_NEAR(v.segment<2>(3).norm(), 0.0, 0.1);  // turns about x and y are held
+    EXPECT_NEAR(v.segment<2>(3).norm(), 0.0, 0.1);  // rotations about x and y are constrained
   }
   EXPECT_EQ(findFreeSubspace({}).directions.size(), 6u);
 }

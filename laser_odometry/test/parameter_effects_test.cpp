@@ -40,7 +40,7 @@ TEST(ParameterEffects, EachParameterChangesTheEstimate) {
                            {"surface_sigma", 0.1},
                            {"lost_patches", 100000},
                            {"degraded_patches", 100000}});
-  const auto blink = [&](const Parameters& parameters) {  // two sweeps without returns: prediction alone
+  const auto blink = [&](const Parameters& parameters) {  // two sweeps without returns: prediction only
     const SpinningLidar lidar;
     LaserOdometry odometry(parameters, lidar.T_base_lidar);
     std::ostringstream text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the tables of README.md and config/laser_odometry.yaml; test/parameters_test.cpp compares both with the
-// tables.
+// Prints the parameter tables of README.md and config/laser_odometry.yaml; test/parameters_test.cpp compares both with
+// the code.
 #include "laser_odometry/parameters.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"

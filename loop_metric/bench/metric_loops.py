@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From "the same place" to one map: two days in a simulated world with all of `urban_nav map` between odometry and graph, as a user would run it.
+"""Metric loop closures: two days in a simulated world, processed by the complete `urban_nav map` from odometry to graph.
 
-Each case is WORLD:SEED and then the days, each SECONDS or SECONDS/ROUTE. The candidates are pairs of moments alone, true ones from the truth (closures.py) and
-false ones; every transform is the stage's own. Two ways to map them:
-  both     as shipped: two views, and clouds where views do not do
-  views    loop_metric.icp=false: two views alone (Figs. 19 and 20 of the paper)
+Each case is WORLD:SEED and then the days, each SECONDS or SECONDS/ROUTE. The candidates are pairs of stamps, true ones from ground truth (closures.py) and
+false ones; transforms are computed by the stage. Two configurations:
+  both     defaults: keyframes, and clouds if keyframes fail
+  views    loop_metric.icp=false: keyframes only (Figs. 19 and 20 of the paper)
 
-Two tables. KINDS: the true candidates by how the robot came by the second time, what became of them, and how far off the accepted ones are. MAPS: the trajectory of
-all days after relaxation, in one frame with the first pose of the first day upon its truth. Odometry has no such frame: its error is that of each day from its own
-first pose, which flatters it.
+Two tables. KINDS: the true candidates by direction of the second pass, their verdicts, and the errors of the accepted ones. MAPS: the trajectory of all days after
+relaxation, in one frame, with the first pose of the first day at its true pose. Odometry has no such frame: its error is that of each day relative to its first
+pose, which is favourable.
 """
 import argparse
 import json
@@ -36,7 +36,7 @@ DIRECTIONS = ("same direction", "across", "opposite direction", "another place")
 
 
 def candidates(bags, percent, seed, path):
-    """Writes pairs of moments and nothing else; their rows and which of them are true."""
+    """Writes pairs of stamps; returns their rows and which of them are true."""
     sessions = [closures.Session(bag) for bag in bags]
     rows, true = closures.rows_of(sessions, percent, 0.0, 0.0, seed)
     path.write_text("".join(",".join(map(str, row[:5])) + "\n" for row in (closures.COLUMNS, *rows)))
@@ -51,7 +51,7 @@ def direction_of(pose, true):
 
 
 def matrix(blob):
-    """Of the store's bytes: 36 numbers, or the 21 of the upper triangle."""
+    """Returns a symmetric matrix from the bytes of a store: 36 numbers, or the 21 of the upper triangle."""
     numbers = np.frombuffer(blob, "<f8")
     if len(numbers) == 36:
         return numbers.reshape(6, 6)
@@ -61,7 +61,7 @@ def matrix(blob):
 
 
 def pose_of(numbers):
-    """From x, y, z, qx, qy, qz, qw."""
+    """Returns a pose from x, y, z, qx, qy, qz, qw."""
     pose = np.eye(4)
     pose[:3, :3] = bag_reader.rotation(np.array([numbers[3:]], float))[0]
     pose[:3, 3] = numbers[:3]
@@ -74,7 +74,7 @@ def error_of(pose, truth):
 
 
 def candidates_of(bags, rows, true, out):
-    """Of each candidate: direction, kind, accepted."""
+    """Returns direction, kind and acceptance of each candidate."""
     truths = {bag.stem: closures.Session(bag).truth for bag in bags}
     result = []
     for row, right in closures.outcomes(out / "closures.csv", rows, true):
@@ -84,8 +84,8 @@ def candidates_of(bags, rows, true, out):
 
 
 def accepted_of(bags, out):
-    """The accepted closures as the store has them, with their information, by direction: error along what they hold in m and deg, whether something is free, and the
-    squared error by the information (scaled to six directions)."""
+    """Returns the accepted closures in the store by direction: error along constrained directions in m and deg, whether a direction is free, and the squared error by
+    the information (scaled to six directions)."""
     truths = {bag.stem: closures.Session(bag).truth for bag in bags}
     found = {direction: [] for direction in DIRECTIONS}
     with sqlite3.connect(f"file:{out / 'session.db'}?mode=ro", uri=True) as store:
@@ -133,7 +133,7 @@ def trajectory(path):
 
 
 def between_days(bags, out):
-    """How far apart the map puts the days, beside the truth, where both were: (m) of each look of a later day at a place of the first one."""
+    """Returns the error of the offset between days in the map, m, at each time of a later day at a place of the first one."""
     sessions = [closures.Session(bag) for bag in bags]
     stamps, places = trajectory(out / "trajectory.tum")
 

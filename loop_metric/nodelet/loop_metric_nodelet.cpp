@@ -24,7 +24,7 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
-// A reset waits for the candidates that wait, a caller of the service no longer than this.
+// A reset waits for pending candidates, and a caller of the service at most this long.
 constexpr std::chrono::seconds kResetTimeout{25};
 
 StoreWriterLink::Options storeOptions() {
@@ -35,8 +35,8 @@ StoreWriterLink::Options storeOptions() {
 
 }  // namespace
 
-/// Loop closures on topics: the worker records keyframes, scans and odometry, the verifier takes candidates to their
-/// verdicts in a thread of its own.
+/// Loop closures on topics: the worker records keyframes, scans and odometry, the verifier measures candidates in a
+/// separate thread.
 class LoopMetricStage {
  public:
   static constexpr const char* name = "loop_metric";
@@ -71,7 +71,7 @@ class LoopMetricStage {
   NodeletParameters nodelet_;
   Parameters parameters_;
   mutable std::mutex mutex_;
-  std::string last_verdict_;  // guarded by mutex_, as the next
+  std::string last_verdict_;  // guarded by mutex_, like the next member
   double last_ms_ = 0.0;
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<StoreWriterLink> store_;
@@ -111,7 +111,7 @@ void LoopMetricStage::subscribeCandidates() {
           return verifier_->push(ClosureVerifier::Candidate{*closure, std::chrono::steady_clock::now()});
         }
         node_.gate().countInvalid();
-        node_.logWarning("candidate", "places/closure: a message without stamps, or with a probability outside 0...1");
+        node_.logWarning("candidate", "places/closure: message without stamps, or with a probability outside 0...1");
       });
 }
 
@@ -128,8 +128,8 @@ bool LoopMetricStage::idle() {
 std::string LoopMetricStage::reset() {
   recorder_->end();
   if (!verifier_->finishSession(kResetTimeout))
-    throw urban_nav_core::UserError("", "candidates are still being measured; ask again", "");
-  return "waiting candidates have their verdicts, the next step of odometry begins a new session";
+    throw urban_nav_core::UserError("", "candidates are still being measured; try again later", "");
+  return "waiting candidates were measured; the next step of odometry begins a new session";
 }
 
 void LoopMetricStage::publish(const ClosureVerifier::Verdict& verdict) {

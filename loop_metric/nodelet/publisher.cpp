@@ -26,7 +26,7 @@ using urban_nav_registration::Picture;
 
 namespace {
 
-constexpr double kMetresPerRadian = 10.0;  // of the covariance for display: what is matched is some ten metres away
+constexpr double kMetresPerRadian = 10.0;  // for the displayed covariance: typical distance of matched structures
 
 std::string makeTitle(const urban_nav_core::PoseRef& at) {
   return (at.session.empty() ? "" : at.session + " ") + urban_nav_core::printStamp(at.stamp) + " s";
@@ -73,7 +73,7 @@ void Publisher::publishPicture(const ClosureVerifier::Verdict& verdict) {
   try {
     picture = verdict.attempts.icp ? drawAlignment(verdict) : drawViews(verdict);
   } catch (const urban_nav_core::Error&) {
-    return;  // damaged in the store: the verdict says so
+    return;  // damaged in the store: stated in the verdict
   }
   sensor_msgs::Image message;
   message.header.stamp = urban_nav_ros::toRosTime(verdict.metric.b.stamp);

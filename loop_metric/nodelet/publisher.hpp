@@ -15,8 +15,8 @@ class Publisher {
  public:
   Publisher(ros::NodeHandle& nh, std::string base_frame);
 
-  /// Publishes a verdict, and its picture if there are subscribers: of the clouds if they were aligned, else of the two
-  /// keyframes.
+  /// Publishes a verdict, and a picture if there are subscribers: of the clouds if they were aligned, otherwise of the
+  /// two keyframes.
   void publish(const ClosureVerifier::Verdict& verdict);
 
  private:

@@ -24,14 +24,14 @@ using urban_nav_registration::StereoClosure;
 namespace {
 
 constexpr std::size_t kMostPixels = 100;
-// One header for all kinds of lines, so that any program reads the table: what a kind has no use for is empty.
+// One header for all kinds of lines, so that any program can read the table; unused columns are empty.
 constexpr const char* kHeader =
     "kind,name,value,threshold,at_least,passed,session_a,stamp_a_ns,session_b,stamp_b_ns,text\n";
 constexpr std::size_t kColumns = 11;
 
 using Cells = std::vector<std::string>;
 
-/// Infinite and undefined numbers have no place in a table.
+/// Replaces infinite and undefined numbers by finite ones.
 std::string cell(double value) { return printNumber(std::clamp(value == value ? value : 1e300, -1e300, 1e300)); }
 
 void print(std::string& text, Cells cells) {
@@ -84,7 +84,7 @@ Evidence::Try toTry(const Alignment& alignment, const CandidateMeasurement& meas
 class Reader {
  public:
   explicit Reader(std::string_view text) : table_(CsvTable::parse(text, "evidence")) {
-    if (table_.header().size() != kColumns) refuse(0, "has other columns");
+    if (table_.header().size() != kColumns) refuse(0, "unexpected columns");
   }
 
   Evidence read() {
@@ -100,7 +100,7 @@ class Reader {
       } else if (kind == "gate") {
         evidence.gate.push_back(testAt(row));
       } else if (evidence.tries.empty()) {
-        refuse(row, "a line that belongs to a try before the first");
+        refuse(row, "line of a try before its first line");
       } else if (kind == "verdict") {
         Evidence::Try& last = evidence.tries.back();
         last.verdict = verdictAt(row);
@@ -114,7 +114,7 @@ class Reader {
       } else if (kind == "pixels") {
         evidence.tries.back().pixels.push_back(pixelsAt(row));
       } else {
-        refuse(row, "no kind of line");
+        refuse(row, "unknown kind of line");
       }
     }
     return evidence;
@@ -123,17 +123,17 @@ class Reader {
  private:
   bool yes(std::size_t row, std::size_t column) const {
     const std::int64_t value = table_.integer(row, column);
-    if (value != 0 && value != 1) refuse(row, "neither 0 nor 1");
+    if (value != 0 && value != 1) refuse(row, "expected 0 or 1");
     return value == 1;
   }
   ClosureMethod methodAt(std::size_t row) const {
     const auto method = urban_nav_core::parseClosureMethod(table_.text(row, 1));
-    if (!method || *method == ClosureMethod::None) refuse(row, "no method");
+    if (!method || *method == ClosureMethod::None) refuse(row, "invalid method");
     return *method;
   }
   urban_nav_core::ClosureVerdict verdictAt(std::size_t row) const {
     const auto verdict = urban_nav_core::parseClosureVerdict(table_.text(row, 1));
-    if (!verdict) refuse(row, "no verdict");
+    if (!verdict) refuse(row, "invalid verdict");
     return *verdict;
   }
   ClosureTest testAt(std::size_t row) const {
@@ -144,11 +144,11 @@ class Reader {
     std::size_t count = 0;
     for (const std::string_view word : urban_nav_core::splitBlanks(table_.text(row, 10))) {
       const auto number = urban_nav_core::parseNumber(word);
-      if (!number || count == numbers.size()) refuse(row, "no transform");
+      if (!number || count == numbers.size()) refuse(row, "invalid transform");
       numbers[count++] = *number;
     }
     const Eigen::Quaterniond q(numbers[6], numbers[3], numbers[4], numbers[5]);
-    if (count != numbers.size() || !(std::abs(q.norm() - 1.0) < 1e-6)) refuse(row, "no transform");
+    if (count != numbers.size() || !(std::abs(q.norm() - 1.0) < 1e-6)) refuse(row, "invalid transform");
     return Pose(q.normalized(), {numbers[0], numbers[1], numbers[2]});
   }
   MatchedPixels pixelsAt(std::size_t row) const {
@@ -198,7 +198,7 @@ std::string printEvidence(const Evidence& evidence) {
 Evidence parseEvidence(std::string_view text) {
   try {
     return Reader(text).read();
-  } catch (const urban_nav_core::UserError& error) {  // what a program wrote is data
+  } catch (const urban_nav_core::UserError& error) {  // evidence is written by a program, so damage is a data error
     throw urban_nav_core::DataError(error.parts());
   }
 }

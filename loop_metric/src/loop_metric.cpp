@@ -32,7 +32,7 @@ using urban_nav_registration::StereoClosure;
 
 namespace {
 
-constexpr std::size_t kKeptMatches = 8;  // some 50 kB each
+constexpr std::size_t kKeptMatches = 8;  // about 50 kB each
 
 std::string closureReason(const char* format, double value, double threshold) {
   std::array<char, 200> text{};
@@ -40,7 +40,8 @@ std::string closureReason(const char* format, double value, double threshold) {
   return text.data();
 }
 
-/// T_a_b of the moments from that of two views beside them. No information where it cannot be had.
+/// Returns T_a_b between the poses from that between two keyframes near them. Zero information if it cannot be
+/// computed.
 Constraint atMoments(const Constraint& views, const NearbyKeyframe& a, const NearbyKeyframe& b) {
   Constraint made;
   const auto covariance = urban_nav_core::invertPositiveDefinite(views.information);
@@ -57,7 +58,7 @@ Constraint atMoments(const Constraint& views, const NearbyKeyframe& a, const Nea
 
 }  // namespace
 
-/// One candidate on its way to a verdict.
+/// Measurement of one candidate.
 class Measuring {
  public:
   Measuring(LoopMetric& stage, const TopologicalClosure& candidate, const PlaceData& place_data)
@@ -66,8 +67,8 @@ class Measuring {
     measurement_.metric.b = candidate.b;
     measurement_.metric.probability = candidate.probability;
     measurement_.metric.source = "loop_metric";
-    if (const auto way = place_data.between(candidate.a, candidate.b))
-      gate_.emplace(*way, parameters_.registration.odometry_scale);
+    if (const auto path = place_data.between(candidate.a, candidate.b))
+      gate_.emplace(*path, parameters_.registration.odometry_scale);
   }
 
   CandidateMeasurement run() {
@@ -87,16 +88,15 @@ class Measuring {
     if (gate_) {
       const double apart = gate_->leastDistance(parameters_.gate);
       if (!test("least_distance_m", apart, parameters_.place_radius))
-        return refuse(
-            LoopReason::Odometry,
-            closureReason("by odometry the places are %.0f m apart at least: more than %.0f m are not one place", apart,
-                          parameters_.place_radius));
+        return refuse(LoopReason::Odometry,
+                      closureReason("distance by odometry at least %.0f m, larger than place_radius %.0f m", apart,
+                                    parameters_.place_radius));
     }
     if (parameters_.stereo && byStereo()) return;
     if (parameters_.icp && byClouds()) return;
-    if (metric.reason != 0) return;  // a transform was found, and is not allowed
+    if (metric.reason != 0) return;  // a transform was found, but rejected
     if (measurement_.attempts.stereo.empty() && !measurement_.attempts.icp)
-      return refuse(LoopReason::NothingKept, "neither two views that may show the same nor clouds of both moments");
+      return refuse(LoopReason::NothingKept, "neither keyframes with a common view nor clouds at both poses");
     std::string sentence;
     if (!measurement_.attempts.stereo.empty())
       sentence = "stereo: " + measurement_.attempts.stereo.front().result.sentence;
@@ -106,12 +106,13 @@ class Measuring {
   }
 
   bool byStereo() {
-    const double way = parameters_.keyframe_search_distance;
+    const double search_distance = parameters_.keyframe_search_distance;
     std::optional<PoseWithCovariance> T_a_b;
     if (gate_) T_a_b = gate_->T_a_b();
-    for (const KeyframePair& pair : chooseKeyframePairs(place_data_.views(measurement_.metric.a, way),
-                                                        place_data_.views(measurement_.metric.b, way), T_a_b, way,
-                                                        static_cast<std::size_t>(parameters_.stereo_tries))) {
+    for (const KeyframePair& pair :
+         chooseKeyframePairs(place_data_.views(measurement_.metric.a, search_distance),
+                             place_data_.views(measurement_.metric.b, search_distance), T_a_b, search_distance,
+                             static_cast<std::size_t>(parameters_.stereo_tries))) {
       StereoAttempt made{pair.a, pair.b, stage_.match(pair.a, pair.b, place_data_)};
       measurement_.attempts.stereo.push_back(made);
       if (made.result.verdict != ClosureVerdict::Accepted) continue;
@@ -142,16 +143,16 @@ class Measuring {
     Alignment& found = *measurement_.attempts.icp;
     if (found.verdict == ClosureVerdict::Rejected) return false;
     if (found.verdict == ClosureVerdict::Degenerate && !gate_) {
-      // One flat facade lies on any other: what slides tells no place from another, unless odometry has said that it is
-      // this one.
-      found.sentence += "; without odometry between the moments that is no proof of a place";
+      // A single planar facade matches any other: a transform with free directions does not identify the place, unless
+      // odometry confirms it.
+      found.sentence += "; without odometry between the poses this does not identify the place";
       return false;
     }
     return accept(ClosureMethod::Icp, {found.T_target_source, found.information}, found.free_directions,
                   found.sentence);
   }
 
-  /// False, with the reason, where odometry does not allow it.
+  /// Returns false, with the reason set, if the transform is inconsistent with odometry.
   bool accept(ClosureMethod method, const Constraint& measured,
               const std::vector<urban_nav_core::Vector6d>& free_directions, const std::string& sentence) {
     MetricClosure& metric = measurement_.metric;
@@ -160,7 +161,7 @@ class Measuring {
     metric.free_directions = free_directions;
     const double apart = measured.T_a_b.t().norm();
     if (!test("distance_m", apart, parameters_.place_radius)) {
-      refuse(LoopReason::OtherPlace, closureReason("the moments are %.1f m apart: more than %.1f m are not one place",
+      refuse(LoopReason::OtherPlace, closureReason("distance of the poses %.1f m, larger than place_radius %.1f m",
                                                    apart, parameters_.place_radius));
       return false;
     }
@@ -169,7 +170,7 @@ class Measuring {
       if (!test(method == ClosureMethod::Stereo ? "stereo_against_odometry" : "icp_against_odometry", deviations,
                 parameters_.gate)) {
         refuse(LoopReason::Odometry,
-               closureReason("the transform is %.1f standard deviations off what odometry says, at most %.1f allowed",
+               closureReason("the transform differs from odometry by %.1f standard deviations, at most %.1f allowed",
                              deviations, parameters_.gate));
         return false;
       }

@@ -10,7 +10,7 @@ using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on a separate line.
 // clang-format off
 const Table<Parameters>& table() {
   using P = Parameters;
@@ -24,7 +24,7 @@ const Table<Parameters>& table() {
            "Align clouds if stereo keyframes could not be registered.",
            "paper 4.2"},
           {"stereo_tries", &P::stereo_tries, "", std::int64_t{2}, std::int64_t{1}, std::int64_t{20}, {},
-           "Largest number of keyframe pairs that are tried.",
+           "Largest number of keyframe pairs to be matched.",
            "paper 4.1; measured", {}, Audience::Experts},
           {"keyframe_search_distance", &P::keyframe_search_distance, "m", 6.0, 0.0, 50.0, {},
            "Largest distance travelled between a pose and a keyframe that represents it.",

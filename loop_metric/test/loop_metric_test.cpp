@@ -26,7 +26,7 @@ using urban_nav_registration::testing::Photographer;
 
 constexpr StampNs kSecond = 1'000'000'000;
 
-/// A drive down a street, a metre a second, a view each metre. base_link is the left camera here.
+/// A drive along a street, a metre per second, a keyframe each metre. base_link is the left camera here.
 struct Drive {
   std::vector<Pose> poses;
 };
@@ -44,7 +44,7 @@ Drive drive(LinePlaceData& around, Photographer& photographer, const std::string
   return made;
 }
 
-/// Two drives down one street. Rendered once: each test has a copy to spoil.
+/// Two drives along one street. Rendered once: each test modifies a copy.
 struct Rendered {
   Photographer photographer{urban_nav_core::testing::texturedStreet()};
   LinePlaceData around;
@@ -82,7 +82,7 @@ TEST(LoopMetric, TwoViewsOfAPlaceAreATransformBetweenTheMomentsThemselves) {
   const Pose truth = lookingAlong({7.4, 0.0, 1.2}, 0.0).inverse() * lookingAlong({8.3, 0.7, 1.2}, 0.014);
   EXPECT_LT(urban_nav_core::distanceBetween(closure.metric.measured.T_a_b, truth), 0.03);
   EXPECT_LT(urban_nav_core::angleBetween(closure.metric.measured.T_a_b, truth), 0.0035);
-  EXPECT_FALSE(closure.metric.odometry_gate);  // nothing says how the two days lie to each other
+  EXPECT_FALSE(closure.metric.odometry_gate);  // the relative pose of the two days is unknown
 }
 
 TEST(LoopMetric, MomentsThatAreTooFarApartAreNotOnePlaceHoweverRightTheTransform) {
@@ -93,7 +93,7 @@ TEST(LoopMetric, MomentsThatAreTooFarApartAreNotOnePlaceHoweverRightTheTransform
 TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
   Street street;
   LinePlaceData& around = street.around;
-  // One session now, whose odometry says that the second pass was four metres further on.
+  // A single session whose odometry places the second pass four metres further on.
   std::vector<Pose> poses = rendered().a.poses;
   for (const Pose& pose : rendered().b.poses)
     poses.push_back(Pose(pose.q(), pose.t() + Eigen::Vector3d(4.0, 0.0, 0.0)));
@@ -112,7 +112,7 @@ TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
   const TopologicalClosure far{{"both", 0}, {"both", second + 12 * kSecond}, 0.9};
   const CandidateMeasurement closure = street.stage.measure(far, around);
   EXPECT_EQ(toReason(closure), "odometry");
-  EXPECT_TRUE(closure.attempts.stereo.empty());  // sixteen metres apart by odometry: no view is looked at
+  EXPECT_TRUE(closure.attempts.stereo.empty());  // sixteen metres apart by odometry: no keyframes are matched
 }
 
 TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
@@ -158,7 +158,8 @@ TEST(LoopMetric, AFacadeIsNoProofOfAPlaceUnlessOdometryHasBroughtUsThere) {
   ASSERT_EQ(held.metric.verdict, ClosureVerdict::Accepted) << held.metric.sentence;
   EXPECT_FALSE(held.metric.free_directions.empty());
   const auto d = urban_nav_core::boxMinus(poses[0].inverse() * poses[2], held.metric.measured.T_a_b);
-  EXPECT_LT(d.dot(held.metric.measured.information * d), 22.5);  // chi-square of six at 0.999: right where it says so
+  EXPECT_LT(d.dot(held.metric.measured.information * d), 22.5);  // chi-square of six at 0.999: consistent with its
+                                                                 // information
 }
 
 TEST(LoopMetric, UnknownMomentsAndEmptyPlacesAreNamed) {

@@ -24,9 +24,9 @@ using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::stand;
 
 constexpr StampNs kEffectSecond = 1'000'000'000;
-constexpr int kMetres = 6;  // of a drive, at a metre a second
+constexpr int kMetres = 6;  // length of a drive, at a metre per second
 
-/// Verdict and transform. Thresholds, which equal the parameters by themselves, are left out.
+/// Prints verdict and transform, without thresholds, which equal the parameters.
 std::string printVerdict(const MetricClosure& closure) {
   std::ostringstream text;
   text.precision(17);
@@ -36,7 +36,7 @@ std::string printVerdict(const MetricClosure& closure) {
   return text.str();
 }
 
-/// Two drives down one street, as two sessions, and as a single one whose odometry errs by 4 m between them.
+/// Two drives along one street, as two sessions, and as a single one whose odometry has an error of 4 m between them.
 class TwoDrives {
  public:
   TwoDrives() {
@@ -61,7 +61,7 @@ class TwoDrives {
   std::string measure(const Parameters& parameters, const PoseRef& a, const PoseRef& b) const {
     return measureWith(parameters, a, b, around_);
   }
-  /// As measure(), but the keyframe next to the place has no image.
+  /// measure() with a keyframe without image next to the pose.
   std::string measureBesideADarkKeyframe(const Parameters& parameters, const PoseRef& a, const PoseRef& b) const {
     LinePlaceData around = around_;
     around.keyframes[{"monday", kEffectSecond}].image.clear();
@@ -83,7 +83,7 @@ class TwoDrives {
   LinePlaceData around_;
 };
 
-/// Two sessions in a courtyard that have clouds alone.
+/// Two sessions in a courtyard with clouds only.
 std::string measureClouds(const Parameters& parameters) {
   static const urban_nav_core::testing::World world = urban_nav_core::testing::courtyard(5);
   const std::vector<Pose> there = {stand(0, 0, 0), stand(1, 0, 0)},

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accuracy on the real sequences with the shipped defaults, now and settled, beside other systems on the same frames;
-// and how consistent the covariance is there (NEES, mean over the frames: 6 is right).
+// Accuracy on the real sequences with the default parameters, filtered and smoothed, compared with other systems on the
+// same frames; consistency of the covariance (NEES, mean over the frames; expected 6).
 //   swf_vo-bench-accuracy [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]...
 //     [-o results/accuracy.json]
 // FOLDER: a sequence in KITTI's layout with poses.txt, such as render_sequence writes; default: the two real ones.
-// FILE: what another system made of the folder named SEQUENCE, poses of the left camera in KITTI's or (.tum) the TUM
-// format, one a frame.
+// FILE: result of another system for the folder named SEQUENCE, poses of the left camera in KITTI's or (.tum) the TUM
+// format, one per frame.
 #include <algorithm>
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the covariance honest on images? Normalised estimation error squared of the pose (6 degrees of freedom: 6 is
-// right) at frames 50, 100 and 200, averaged over runs in rendered rooms, wandering, turning through 360 deg with
-// stops, and round the room, at three levels of image noise, with the shipped defaults, with an exact calibration and
-// with one whose disparities are off by as much as the filter assumes; also of T_{i,i+100} composed of the relative
-// poses and their drifts, and of single steps.
+// Consistency of the covariance on images: normalised estimation error squared of the pose (6 degrees of freedom;
+// expected 6) at frames 50, 100 and 200, averaged over runs in rendered rooms: wandering, turning through 360 deg with
+// stops, and around the room, at three levels of image noise, with default parameters, with an exact calibration and
+// with one whose disparity error is that assumed by the filter; also of T_{i,i+100} composed of the relative poses and
+// their drifts, and of single steps.
 //   swf_vo-bench-consistency_images [--runs N] [--set swf_vo.NAME=VALUE]... [-o results/consistency_images.json]
 #include <algorithm>
 #include <array>
@@ -55,8 +55,7 @@ struct Score {
   int runs = 0;
 };
 
-// Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends
-// (RelativePose::drift_covariance).
+// Frames 50 to 150 from the settled relative poses: by their drifts and the two ends (RelativePose::drift_covariance).
 PoseWithCovariance composed(const Run& run) {
   constexpr std::size_t kFirst = 51, kLast = 150;
   PoseWithCovariance sum;
@@ -69,7 +68,7 @@ PoseWithCovariance composed(const Run& run) {
   return sum;
 }
 
-// Each step by its own covariance.
+// Each step with its covariance.
 void addSteps(Mean& steps, const Sequence& sequence, const Run& run) {
   for (std::size_t i = 1; i < run.settled.size(); ++i)
     steps.add(sequence.truth[i - 1].inverse() * sequence.truth[i],
@@ -103,7 +102,7 @@ int main(int argc, char** argv) try {
   BenchTable table({"calibration", "image noise (grey levels)", "motion", "runs", "NEES at 50", "at 100", "at 200",
                     "T_i,i+100 composed", "one step", "error at 200"},
                    argc, argv);
-  // By calibration and noise: of each motion, and of all.
+  // By calibration and noise: for each motion, and for all.
   std::vector<std::array<Score, kMotions.size() + 1>> scores(2 * noises.size());
   for (int r = 0; r < runs; ++r) {
     const std::size_t motion = static_cast<std::size_t>(r) % kMotions.size();

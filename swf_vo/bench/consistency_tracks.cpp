@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the covariance honest? Normalised squared errors (6 is right) over simulated tracks, moving straight, turning,
-// standing, and turning through 360 deg with stops: of the pose at steps 50, 100 and 200, and of T_{i,i+n} by
-// SettledPose's two covariances.
+// Consistency of the covariance: normalised squared errors (expected 6) over simulated tracks, moving straight,
+// turning, standing, and turning through 360 deg with stops: of the pose at steps 50, 100 and 200, and of T_{i,i+n} by
+// the two covariances of SettledPose.
 //   swf_vo-bench-consistency_tracks [--runs N] [-o OUT.json]
 #include <Eigen/Cholesky>
 #include <array>
@@ -54,7 +54,7 @@ struct Means {
   std::array<Mean, kLengths.size()> way, composed;
 };
 
-// The way from a settled pose to a later one as if its steps were independent, and as SettledPose says.
+// Motion between two settled poses, with steps treated as independent, and by the rule of SettledPose.
 void addWays(const Tracks& tracks, const std::vector<SettledPose>& settled, Means& means) {
   for (std::size_t l = 0; l < kLengths.size(); ++l)
     for (std::size_t first = 50; first + kLengths[l] + 10 < settled.size();
@@ -91,7 +91,7 @@ Means measure(const Case& test, int runs) {
     options.linearise_first = test.first;
     options.exact_undo = false;
     TrackRunner run(tracks, options);
-    run.first_information = diagonalInformation(1e-6, 1e-7);  // for all runs begin at the same pose
+    run.first_information = diagonalInformation(1e-6, 1e-7);  // since all runs begin at the same pose
     while (!run.done()) {
       run.step();
       for (std::size_t c = 0; c < kCheckpoints.size(); ++c)

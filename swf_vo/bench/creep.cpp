@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far do templates creep over their surface as the view of it changes? The front end alone, led along the true way
-// through rendered rooms: errors of what it measures, by how much the view has changed since the landmark was first
-// seen (Frobenius norm of the warp less the identity); and by how much their variance has grown since the change was
-// next to nothing, for a change of one, in units of the variance that the template was born with.
+// Template drift over the surface as the view changes. The front end follows the true path through rendered rooms:
+// errors of its measurements by view change since the first observation of the landmark (Frobenius norm of the warp
+// minus the identity); and growth of their variance relative to a negligible change, for a change of one, in units of
+// the initial variance of the template.
 //   swf_vo-bench-creep [--seeds N] [-o results/creep.json]
 #include <Eigen/Dense>
 #include <algorithm>
@@ -31,17 +31,17 @@ using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::Scene;
 
 constexpr std::array<double, 6> kLimits = {0.05, 0.1, 0.2, 0.4, 0.8, 10.0};
-constexpr double kRoughPx = 0.026;  // what a surface is beside a plane, added to the noise of the birth
+constexpr double kRoughPx = 0.026;  // deviation of the surface from a plane, added to the initial noise
 
-/// Errors of mean u, v and disparity (px), with the variance that the template was born with (px^2).
+/// Errors of mean u, v and disparity (px), with the initial variance of the template (px^2).
 struct Error {
   double change, birth;
   Vector3d px;
 };
 
-/// A landmark with its true place.
+/// A landmark with its true position.
 struct Point {
-  Vector3d p, a, b;  ///< in frame 0; two directions of its surface
+  Vector3d p, a, b;  ///< in frame 0; two tangents of its surface
   Eigen::Matrix2d born_as;
   double birth;
 };
@@ -57,7 +57,7 @@ Eigen::Matrix2d toView(const Sequence& sequence, const Pose& T, const Point& poi
   return view;
 }
 
-/// Mean u, v and disparity of (u_left, v, u_right).
+/// Converts (u_left, v, u_right) to mean u, v and disparity.
 Eigen::Matrix3d combination() {
   Eigen::Matrix3d C;
   C << 0.5, 0.0, 0.5, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0;
@@ -111,7 +111,7 @@ void follow(const RenderedOptions& options, std::vector<Error>& errors) {
   }
 }
 
-/// Without the few beyond four standard deviations (by the median), which are points on edges.
+/// Variance without outliers beyond four standard deviations (by the median), which are points on edges.
 double variance(const std::vector<double>& values) {
   std::vector<double> sizes;
   sizes.reserve(values.size());
@@ -124,7 +124,7 @@ double variance(const std::vector<double>& values) {
   return count == 0 ? 0.0 : sum / count;
 }
 
-/// Observations whose view has changed by about as much.
+/// Observations with similar view change.
 struct Bin {
   double change = 0.0, birth = 0.0;
   int count = 0;

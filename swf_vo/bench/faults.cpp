@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a second of trouble costs: the error at the end over that of the undisturbed run, for each fault of the images,
-// on pieces of kitti_raw_0926_0005 and in rendered rooms, where the covariance can be held against it too.
+// Effect of a second of image faults: ratio of the final error to that of the undisturbed run, for each fault, on parts
+// of kitti_raw_0926_0005 and in rendered rooms, there also relative to the covariance.
 //   swf_vo-bench-faults [-o results/faults.json]
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ constexpr int kRoomFrames = 80;
 
 struct Outcome {
   double error = 0.0, nees = 0.0;
-  int blamed = -1;  // frames that arrived from the first of the fault until the status was not OK any more
+  int blamed = -1;  // frames from the start of the fault until the status was not OK
   bool lost = false;
 };
 

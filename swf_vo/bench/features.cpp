@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many features are worth their time? Errors and ms a frame by the number that is followed; the defaults are the
-// rule of the area to the power of 2/3, and "by area" is the number in proportion to the area.
+// Errors and ms per frame by the number of tracked features; the default scales with the area to the power of 2/3, "by
+// area" is proportional to the area.
 //   swf_vo-bench-features [FOLDER...] [-o results/features.json]
 // FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones.
 #include <cmath>

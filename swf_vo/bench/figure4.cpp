@@ -54,13 +54,13 @@ TrackOptions scene(bool standing, std::uint64_t seed, int frames) {
   return options;
 }
 
-// What the wheels say, with the noise that is claimed of them: a centimetre and half a degree a step.
+// Wheel measurement with the stated noise: a centimetre and half a degree per step.
 ProcessInput wheels(const Tracks& tracks, std::size_t i, std::uint64_t& dice) {
   constexpr double kTranslation = 0.01, kRotation = 0.01;
   ProcessInput u;
   urban_nav_core::Vector6d noise;
   for (int c = 0; c < 6; ++c) {
-    double sum = -6.0;  // twelve uniform numbers make a normal one
+    double sum = -6.0;  // the sum of twelve uniform numbers is approximately normal
     for (int n = 0; n < 12; ++n)
       sum += static_cast<double>((dice = dice * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) /
              9007199254740992.0;
@@ -105,7 +105,7 @@ void run(const Method& method, const Tracks& tracks, std::uint64_t seed, Curve& 
       window.observe({sighting.landmark, static_cast<FrameId>(i), sighting.z, pixelInformation(tracks.sigma_px)});
     bool wanted = false;
     for (const std::size_t step : kSteps) wanted = wanted || step == i;
-    // The batch has nothing to hand on, so it is solved where it is looked at, and now and then so that it starts near.
+    // The batch has no state to pass on, so it is solved only where it is evaluated, and occasionally for a good start.
     if (method.size > 0 || wanted || i % 10 == 0) window.update();
     if (wanted) measure(window, tracks, i, curve[i]);
     for (const auto ended : tracks.frames[i].ended) window.endLandmark(ended);
@@ -114,7 +114,7 @@ void run(const Method& method, const Tracks& tracks, std::uint64_t seed, Curve& 
 
 double value(const Errors& errors, bool map) { return map ? errors.map / errors.points : errors.pose / errors.runs; }
 
-// One panel, both axes logarithmic.
+// Draws one panel, both axes logarithmic.
 void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const std::string& title, double left,
            double top) {
   constexpr double kWidth = 330.0, kHeight = 240.0;
@@ -137,7 +137,7 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
   for (const int step : {1, 10, 100})
     out << "<text x='" << x(step) << "' y='" << top + kHeight + 16 << "' text-anchor='middle'>" << step << "</text>\n";
   for (std::size_t m = 0; m < curves.size(); ++m) {
-    // The batch lies broad beneath those that meet it.
+    // The batch is drawn as a wide line below the others.
     out << "<polyline fill='none' stroke-width='" << (m == 0 ? 8 : 2) << "' stroke='" << kMethods[m].colour
         << "' points='";
     for (const auto& [step, errors] : curves[m])
@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
       {"motion", "method", "step 10: map, mm²", "step 50", "step 199", "step 10: position, mm²", "step 50", "step 199",
        "over batch (position, 199)"},
       argc, argv);
-  std::ofstream plot;  // takes nothing while it is not open
+  std::ofstream plot;  // ignores output unless it is open
   if (!path.empty()) plot.open(path.substr(0, path.rfind('.')) + ".svg");
   plot << "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='700' font-family='sans-serif' font-size='12'>\n"
           "<rect width='860' height='700' fill='white'/>\n";

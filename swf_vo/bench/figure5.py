@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 
 def kitti(path):
-    """Ahead and to the left of the first camera, m."""
+    """Returns coordinates ahead and to the left of the first camera, m."""
     rows = [[float(word) for word in line.split()] for line in Path(path).read_text().splitlines() if line.strip()]
     return [row[11] for row in rows], [-row[3] for row in rows]
 

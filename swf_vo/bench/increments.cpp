@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the covariance of odometry from one frame to a later one right? Squared errors of T_{i,i+n} (settled poses) over
-// the variances stated for them (urban_nav_core/trajectory/odometry_chain.hpp), translation and rotation apart, with
-// and without what residuals say of the drift, pooled over sequences of one name but for up to three last digits.
+// Consistency of the covariance between two frames: squared errors of T_{i,i+n} (settled poses) over the stated
+// variances (urban_nav_core/trajectory/odometry_chain.hpp), translation and rotation separately, with and without the
+// drift ratio from residuals, pooled over sequences whose names differ in up to three last digits.
 //   swf_vo-bench-increments [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]...
 //     [-o results/increments.json]
-// FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones. FILE: what another system made of
-// the folder named SEQUENCE (as for accuracy); its poses stand for the truth there.
+// FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones. FILE: result of another system for
+// the folder named SEQUENCE (as for accuracy); its poses are the reference there.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ using urban_nav_core::testing::cell;
 
 constexpr std::array<std::size_t, 5> kLags = {10, 50, 100, 200, 400};
 
-// Of the translation (m^2) and of the rotation (rad^2).
+// Sums for translation (m^2) and rotation (rad^2).
 struct Sums {
   std::array<double, 2> squared = {}, stated = {};
   int count = 0;
@@ -43,7 +43,7 @@ struct Pool {
   std::array<Sums, kLags.size()> at;
 };
 
-/// How T_{i,j} goes with the disparity offset, 1/px: two runs with constants.
+/// Derivative of T_{i,j} by the disparity offset, 1/px, from two runs with constant offsets.
 class PerOffset {
  public:
   PerOffset(Sequence sequence, swf_vo::Parameters parameters) {
@@ -61,7 +61,7 @@ class PerOffset {
   std::vector<Pose> at_zero_, beside_;
 };
 
-/// `rig_scale`: relative standard deviation of all lengths; with `per_offset` alone.
+/// `rig_scale`: relative standard deviation of all lengths; only with `per_offset`.
 void add(Pool& pool, const Sequence& sequence, const Run& run, const PerOffset* per_offset, double rig_scale = 0.0) {
   const urban_nav_core::OdometryChain chain = makeChain(sequence, run);
   ++pool.sequences;

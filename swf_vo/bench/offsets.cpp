@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What calibration and rectification left in a stereo pair, as the filter finds it: by how much the right image lies
-// lower, and by how much disparities are too large; and how much larger the errors of measurements are than their
-// alignments say. Beside it the same on rendered images, where there is neither, with a calibration that says so and
-// with one that does not.
+// Residual errors of calibration and rectification of a stereo pair as estimated by the filter: row offset of the right
+// image and disparity offset; and ratio of measurement errors to the alignments' standard deviations. For comparison,
+// rendered images without such errors, with a correct and with a wrong calibration.
 //   swf_vo-bench-offsets [FOLDER...] [-o results/offsets.json]
 // FOLDER: a sequence in KITTI's layout; default: the two real ones.
 #include <algorithm>
@@ -21,7 +20,7 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::quantile;
 
-constexpr double kWrongPx = 0.2;  // what the calibration says of the disparities, which are exact
+constexpr double kWrongPx = 0.2;  // disparity offset of the calibration; the true one is zero
 
 double medianScale(const std::vector<swf_vo::Statistics>& found) {
   std::vector<double> scales;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain visual odometry for comparison: from frame to frame, without a prior, with corners at whole pixels. Writes
-// poses.txt (left camera, KITTI's format), covariance.csv, and summary.json with the number of frames by status and the
-// median of ms a frame, for `urban_nav evaluate` and src/urban_nav/bench/worlds.py.
+// Plain visual odometry for comparison: frame to frame, without a prior, with corners at whole pixels. Writes poses.txt
+// (left camera, KITTI's format), covariance.csv, and summary.json with the number of frames by status and the median ms
+// per frame, for `urban_nav evaluate` and src/urban_nav/bench/worlds.py.
 //   swf_vo-bench-plain FOLDER OUT
 // FOLDER: a sequence in KITTI's layout. OUT: folder of the results, created if needed.
 #include <filesystem>
@@ -31,7 +31,7 @@ Run runPlainly(const Sequence& sequence) {
   return run(sequence, parameters, ablation);
 }
 
-/// Covariances in the axes of base_link (x forward, z up), which files of covariances have.
+/// Covariances in the axes of base_link (x forward, z up), as in covariance files.
 std::string printCovariances(const Sequence& sequence, const Run& run) {
   const Pose T_base_camera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d::Zero());
   const Matrix6d turn = urban_nav_core::adjoint(T_base_camera);

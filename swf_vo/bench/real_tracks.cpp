@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The back end alone on real feature tracks (folder stereo/ of URBAN_NAV_DATA): starry_night with known landmarks and
-// the IMU as input, beside the batch by Ceres; kitti00_tracks with its outliers; kitti07_tracks_ucsd with its
-// repeated frames.
+// The back end on real feature tracks (folder stereo/ of URBAN_NAV_DATA): starry_night with known landmarks and the IMU
+// as input, compared with the batch by Ceres; kitti00_tracks with its outliers; kitti07_tracks_ucsd with its repeated
+// frames.
 //   swf_vo-bench-real_tracks [-o OUT.json]     (data where URBAN_NAV_DATA says)
 #include <Eigen/LU>
 #include <array>
@@ -48,7 +48,7 @@ Vector3d triple(const CsvTable& table, std::size_t row, std::size_t first) {
   return {table.number(row, first), table.number(row, first + 1), table.number(row, first + 2)};
 }
 
-// Root mean square over all poses, m and deg, and the share of each axis inside three standard deviations.
+// Root mean square over all poses, m and deg, and share of each axis inside three standard deviations.
 struct Shares {
   double rmse_m = 0.0, rmse_deg = 0.0;
   std::array<double, 6> inside{};
@@ -76,8 +76,8 @@ Shares compare(const std::vector<Pose>& truth, const std::vector<PoseWithCovaria
 struct Starry {
   StereoCamera camera;
   Pose T_vehicle_camera;
-  std::vector<Pose> truth;           // of the vehicle
-  std::vector<ProcessInput> inputs;  // of the camera
+  std::vector<Pose> truth;           // poses of the vehicle
+  std::vector<ProcessInput> inputs;  // for the camera
   std::vector<Vector3d> landmarks;
   std::vector<std::vector<Observation>> frames;
 
@@ -119,7 +119,7 @@ struct Starry {
       Observation observation;
       observation.frame = seen.integer(r, 0);
       observation.landmark = seen.integer(r, 1);
-      // Two measurements of one row: their weighted mean says the same.
+      // Two measurements of one row: equivalent to their weighted mean.
       const double left = 1.0 / y_var[1], right = 1.0 / y_var[3];
       observation.z =
           Vector3d(seen.number(r, 2), (left * seen.number(r, 3) + right * seen.number(r, 5)) / (left + right),
@@ -140,7 +140,7 @@ struct Starry {
   }
 };
 
-/// Poses when they are the newest of the window, when they leave it, and after back-substitution.
+/// Poses when newest in the window, when they leave it, and after back-substitution.
 struct StarryEstimates {
   std::vector<PoseWithCovariance> now, settled, full;
 };
@@ -218,7 +218,7 @@ struct KittiTracks {
   std::map<LandmarkId, FrameId> last;
 };
 
-// Ends where a track repeats its numbers, and begins anew there (kitti07_tracks_ucsd/README.md).
+// Tracks end where their numbers repeat, and new ones begin there (kitti07_tracks_ucsd/README.md).
 KittiTracks readTracks(const std::string& folder, bool two_rows, double sigma_px) {
   KittiTracks data;
   data.truth = urban_nav_core::readKitti(folder + "/poses.txt");
@@ -252,7 +252,7 @@ KittiTracks readTracks(const std::string& folder, bool two_rows, double sigma_px
   return data;
 }
 
-// Constant velocity where nothing else is known.
+// Constant velocity without other information.
 ProcessInput constantVelocity(const std::vector<Pose>& before, double seconds) {
   ProcessInput u;
   const std::size_t n = before.size();

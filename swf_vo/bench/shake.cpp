@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A camera shaken in a hand, with motion blur, at few frames a second: how far from the truth it ends, and
-// how many frames go by prediction.
+// A shaken handheld camera, with motion blur, at low frame rates: final error and number of predicted frames.
 //   swf_vo-bench-shake [--set swf_vo.NAME=VALUE]... [-o results/shake.json]
 #include <algorithm>
 #include <cmath>
@@ -23,12 +22,12 @@ constexpr double kSeconds = 8.0;
 
 struct Shake {
   double rate;       // Hz, of frames
-  double reach, hz;  // m, and of the shaking
-  double step_deg;   // largest angle between two frames, about
+  double reach, hz;  // amplitude (m) and frequency of the shaking
+  double step_deg;   // approximate largest angle between two frames
   double exposure;   // s
 };
 
-/// What becomes of it.
+/// Result of a run.
 struct Outcome {
   double path_m = 0.0, end_m = 0.0, end_deg = 0.0, worst_m = 0.0;
   int frames = 0, lost = 0;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of a frame on one core over rendered images: the defaults, other windows, and what less work costs in accuracy.
-// It is time of the processor, so that what else runs does not count; ratios between the rows of one run depend least
-// on the machine.
+// Time per frame on one core over rendered images: default parameters, other windows, and the loss of accuracy with
+// less work. Processor time, independent of other processes; ratios between rows of one run depend least on the
+// machine.
 //   swf_vo-bench-speed [FOLDER...] [--frames N] [--peer NAME=SEQUENCE=MS]... [-o results/speed.json]
-// FOLDER: a sequence in KITTI's layout in place of those rendered here, so that a peer can be measured on the same
-// images.
+// FOLDER: a sequence in KITTI's layout instead of the rendered ones, for the comparison with a peer on the same images.
 #include <memory>
 #include <string>
 
@@ -64,7 +63,7 @@ std::vector<Sequence> sequences(const Options& options) {
   return made;
 }
 
-/// All images at once: every variant sees the same pixels.
+/// Loads all images, so that every variant uses the same pixels.
 Sequence inMemory(const Sequence& sequence) {
   const std::size_t count = sequence.stamps.size();
   const auto left = std::make_shared<std::vector<cv::Mat>>(count),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does a frame cost the same after a day as after a second? A loop through the rendered room is drawn once and played
-// forth and back.
+// Cost per frame over a day of operation. A loop through the rendered room is rendered once and played back and forth.
 //   swf_vo-bench-steady [FOLDER] [--frames N] [-o results/steady.json]
 #include <unistd.h>
 #include <fstream>
@@ -22,7 +21,7 @@ using urban_nav_core::testing::quantile;
 using urban_nav_core::testing::threadMs;
 
 constexpr std::size_t kDrawnFrames = 200;
-constexpr std::size_t kBlock = 900;  // frames of one row
+constexpr std::size_t kBlock = 900;  // frames per row
 constexpr std::int64_t kPeriodNs = 50000000;
 
 double residentMb() {

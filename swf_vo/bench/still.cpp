@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle that is said to stand (euroc_still): how far it goes and turns, says the filter, and how far its gyroscope
-// says it turns.
+// A vehicle stated to be at rest (euroc_still): distance and rotation by the filter, and rotation by its gyroscope.
 //   swf_vo-bench-still [--set swf_vo.NAME=VALUE]... [-o results/still.json]
 #include <algorithm>
 #include <cmath>
@@ -24,7 +23,7 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
 constexpr double kDeg = M_PI / 180.0;
-constexpr StampNs kCalmAfter = 1'750'000'000;  // ns: from there on the vehicle is at rest, and the rates are the bias
+constexpr StampNs kCalmAfter = 1'750'000'000;  // ns: from then on the vehicle is at rest, and the rates are the bias
 
 struct Eye {
   CsvTable files;
@@ -62,8 +61,7 @@ Sequence eurocFolder(const std::string& mav0) {
   return sequence;
 }
 
-/// By how much the gyroscope has turned since the first of the stamps, at each of them; its bias is what it says at
-/// rest.
+/// Returns the rotation of the gyroscope from the first of the stamps to each of them; its bias is the rate at rest.
 std::vector<double> turned(const std::string& imu, const std::vector<StampNs>& stamps) {
   const CsvTable table = CsvTable::read(imu);
   const auto rate = [&](std::size_t row) {

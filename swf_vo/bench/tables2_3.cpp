@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of Tables 2 and 3 of the paper, on real sequences: average, minimum and maximum of each.
+// Rows of Tables 2 and 3 of the paper, on real sequences: average, minimum and maximum of each.
 //   swf_vo-bench-tables2_3 [FOLDER...] [-o results/tables2_3.json]
 #include <algorithm>
 #include <cmath>

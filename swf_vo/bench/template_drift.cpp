@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far do templates drift over what they show, on surfaces that are no planes? The front end alone, led along the
-// true way through sequences whose images are exact: how far each landmark is measured from its own best place for the
-// true poses, now and so many frames later, beside what the filter allows for (Observation::template_drift_covariance).
-// Means of five frames each, less what these scatter by; the largest hundredth is left out.
+// Template drift on non-planar surfaces. The front end follows the true path through sequences with exact images:
+// distance of each landmark's measurement from its best position for the true poses, now and some frames later,
+// compared with the process noise (Observation::template_drift_covariance). Means of five frames, corrected for their
+// scatter; without the largest hundredth.
 //   swf_vo-bench-template_drift FOLDER... [-o results/template_drift.json]
-// FOLDER: a sequence in KITTI's layout with poses.txt; pooled over names but for up to three last digits.
+// FOLDER: a sequence in KITTI's layout with poses.txt; pooled over names that differ in up to three last digits.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -35,8 +35,8 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::quantile;
 
 constexpr std::array<std::size_t, 4> kGaps = {10, 25, 50, 100};
-constexpr std::size_t kHalf = 2;      // frames on either side of a mean
-constexpr double kFarthest = 1000.0;  // m: beyond, nothing has moved enough to show a landmark's place
+constexpr std::size_t kHalf = 2;      // frames on each side of a mean
+constexpr double kFarthest = 1000.0;  // m: beyond, motion is too small to determine the position of a landmark
 constexpr int kFittingSteps = 6;
 constexpr double kUsualResidual = 3.0;  // standard deviations; Huber
 
@@ -45,11 +45,11 @@ struct Sighting {
   std::size_t frame = 0;
   Pose T_camera_odom;
   Vector3d z, sigma;        ///< u_left, v and disparity, px
-  double sigma_px;          ///< of the alignment alone
-  double drift_u, drift_v;  ///< allowed for since its birth, px^2
+  double sigma_px;          ///< standard deviation of the alignment only
+  double drift_u, drift_v;  ///< process noise since the first observation, px^2
 };
 
-/// (x/z, y/z, 1/z) in the camera of its birth, and what was measured of it.
+/// (x/z, y/z, 1/z) in the camera of the first observation, and the measurements of a landmark.
 struct Life {
   Pose T_odom_birth;
   Vector3d place;
@@ -79,7 +79,7 @@ Matrix3d jacobian(const StereoCamera& camera, const Life& life, const Pose& T_ca
 
 Vector3d withDisparity(const Vector3d& z) { return {z[0], z[1], z[0] - z[2]}; }
 
-/// Follows the landmarks of a sequence by the true poses, which the front end is told.
+/// Tracks the landmarks of a sequence with the true poses, which the front end receives.
 class Follower {
  public:
   explicit Follower(Sequence sequence)
@@ -138,7 +138,7 @@ class Follower {
             std::sqrt(covariance(0, 0) + covariance(2, 2) - 2.0 * covariance(0, 2))};
   }
 
-  /// As a Kalman filter would have it, so that the front end looks for it where it is.
+  /// Kalman update, so that the front end searches at the right position.
   void update(const Observation& seen, std::size_t frame, const Pose& T_camera_odom) {
     if (!(seen.information(0, 0) > 0.0) || !(seen.information(2, 2) > 0.0)) return;
     Life& life = alive_.at(seen.landmark);
@@ -172,7 +172,7 @@ class Follower {
   std::vector<Life> lives_;
 };
 
-/// Distances from its best place (u, v, disparity, px), in each frame; empty where there is none.
+/// Returns the distances from the best position (u, v, disparity, px) in each frame; empty without one.
 std::vector<Vector3d> residualsAtBestPlace(const StereoCamera& camera, Life& life) {
   for (int step = 0; step < kFittingSteps; ++step) {
     Matrix3d H = Matrix3d::Zero();
@@ -194,10 +194,10 @@ std::vector<Vector3d> residualsAtBestPlace(const StereoCamera& camera, Life& lif
   return residuals;
 }
 
-/// How far a landmark has moved between two means of five frames: squares less those means' own scatter, px^2.
+/// Displacement of a landmark between two means of five frames: squares corrected for the scatter of the means, px^2.
 struct Moved {
   Vector3d squared;
-  double largest, allowed, sigma;  ///< of u and v; allowed: px^2, sigma: of the alignment, px
+  double largest, allowed, sigma;  ///< for u and v; allowed: px^2, sigma: of the alignment, px
 };
 
 void add(const std::vector<Vector3d>& residuals, const Life& life, std::size_t gap, std::vector<Moved>& moved) {

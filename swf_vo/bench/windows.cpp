@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does what the filter states of its certainty depend on the size of its window? Standard deviations stated for
-// T_{i,i+n} (settled poses), rms, over those with a window of ten frames; errors, rms, beside them.
+// Dependence of the stated uncertainty on the window size: standard deviations of T_{i,i+n} (settled poses), rms,
+// relative to those of a window of ten frames; with the errors, rms.
 //   swf_vo-bench-windows FOLDER... [-o results/windows.json]
-// FOLDER: a sequence in KITTI's layout with poses.txt; pooled over names but for up to three last digits.
+// FOLDER: a sequence in KITTI's layout with poses.txt; pooled over names that differ in up to three last digits.
 #include <array>
 #include <cmath>
 #include <map>
@@ -22,10 +22,10 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
 constexpr std::array<int, 3> kWindows = {1, 10, 25};
-constexpr std::size_t kUsual = 1;  // of `kWindows`
+constexpr std::size_t kUsual = 1;  // index in `kWindows`
 constexpr std::array<std::size_t, 3> kLags = {10, 50, 200};
 
-// Sums of squares: of the translation (m^2) and of the rotation (rad^2).
+// Sums of squares: translation (m^2) and rotation (rad^2).
 struct Sums {
   std::array<double, 2> error = {}, stated = {};
   int count = 0;

@@ -20,7 +20,7 @@ namespace topics = urban_nav_ros::topics;
 using urban_nav_ros::toRosTime;
 
 namespace {
-constexpr double kPathSpacing = 0.5;  // m, for display, and no more points than a viewer draws with ease
+constexpr double kPathSpacing = 0.5;  // m, for display
 constexpr std::size_t kPathPoints = 4000;
 }  // namespace
 
@@ -57,7 +57,7 @@ void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessio
 }
 
 void Publisher::publish(const Settled& settled, const urban_nav_core::OdometrySessionPtr& session) {
-  // The first pose of a session is the origin: it has no neighbour to be related to.
+  // The first pose of a session is the origin and has no previous pose.
   if (settled.from_previous.from == settled.from_previous.to) return;
   relative_.publish(urban_nav_ros::toRelativePoseMessage({settled.from_previous, session}, frames_.base));
 }

@@ -25,7 +25,7 @@ class Publisher {
   /// `node` must outlive it.
   explicit Publisher(urban_nav_ros::StageNode& node);
 
-  /// Begins a session: path and tracks start anew. `near_disparity_px`: drawn in the warmest colour.
+  /// Begins a session with empty path and tracks. `near_disparity_px`: drawn in the warmest colour.
   void startSession(const Frames& frames, double near_disparity_px);
   void publish(const Frame& frame, const urban_nav_core::OdometrySessionPtr& session,
                const urban_nav_core::StereoPair& pair, double process_ms);

@@ -34,10 +34,10 @@ class SwfVoStage {
   }
   std::string reset() {
     sessions_->end("reset");
-    return "the session has ended, the next pair begins a new one";
+    return "session ended; the next pair begins a new one";
   }
   void finish(std::chrono::milliseconds /*limit*/) { sessions_->end("shutdown"); }
-  static constexpr int kFinishOrder = 0;  // the others receive what the window holds
+  static constexpr int kFinishOrder = 0;  // the other stages receive the flushed poses
   void close() {
     if (ros::ok()) sessions_->end("shutdown");
   }

@@ -13,10 +13,10 @@ using urban_nav_core::ImageView;
 namespace {
 
 constexpr int kEdgeColumnStep = 4, kEdgeRowStep = 4;
-constexpr int kEdgeReach = 3;      // px: over which the slope of an edge is taken
-constexpr int kSteepestPart = 50;  // one in so many places: edges, even where most of the scene is smooth
+constexpr int kEdgeReach = 3;      // px, over which the slope of an edge is measured
+constexpr int kSteepestPart = 50;  // the steepest 2 % of the positions: edges, even if most of the scene is smooth
 
-/// Places by how much the image rises over `reach` pixels there, and the squared change of its slope.
+/// Histogram of positions by the change of grey level over kEdgeReach pixels, with the squared change of slope.
 struct Rises {
   std::array<std::int32_t, 256> count{};
   std::array<std::int64_t, 256> bends{};
@@ -42,7 +42,7 @@ struct Rises {
 };
 
 constexpr double kNoticed = 1.0;       // px^2
-constexpr double kScenesDiffer = 2.0;  // times
+constexpr double kScenesDiffer = 2.0;  // ratio of edge widths between scenes
 
 }  // namespace
 

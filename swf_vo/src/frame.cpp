@@ -22,8 +22,8 @@ std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs beg
   const auto second = [&](urban_nav_core::StampNs stamp) {
     return urban_nav_core::formatNumber(urban_nav_core::secondsBetween(begin, stamp), 3);
   };
-  return std::string(fault.is_wheels ? "wheels are" : "IMU: the gyroscope is") + " left out from second " +
-         second(fault.since) + (fault.until > 0 ? " to " + second(fault.until) : " on") + ": " + fault.sentence;
+  return std::string(fault.is_wheels ? "wheels" : "IMU: gyroscope") + " not used from " + second(fault.since) +
+         (fault.until > 0 ? " s to " + second(fault.until) + " s" : " s on") + ": " + fault.sentence;
 }
 
 void archive(Archive& archive, MotionSensorFault& fault) {

@@ -30,10 +30,10 @@ Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
   return 0.5 * (result + result.transpose());
 }
 
-// Pictures and clouds show what is near enough to mean something.
+// Landmarks beyond this depth are not written: it is not significant.
 constexpr double kFarAway = 200.0;  // m
 
-// Landmarks whose first frame is remembered, before those that have left are forgotten.
+// Landmarks whose first frame is stored; beyond this number, those that are no longer in the map are removed.
 constexpr std::size_t kLargestMemory = 16384;
 
 }  // namespace
@@ -74,7 +74,7 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
       frame_.features.push_back({observation.landmark, observation.z, age, window.weight(observation.landmark) >= 0.5});
     }
   }
-  // A landmark that no frame will ask for again: ids grow, so the dead gather at the front.
+  // Landmarks that are no longer in the map are at the front, since ids increase.
   if (born_.size() + 1024 > kLargestMemory) {
     const auto& map = window.map();
     born_.erase(std::remove_if(born_.begin(), born_.end(),
@@ -103,8 +103,8 @@ Velocity Output::velocity(FrameId frame, StampNs stamp, bool lost, const Window&
   const auto inner = compose(T_base_camera_, step);
   const auto outer = compose(inner.T_a_c, T_camera_base_);
   velocity.twist = urban_nav_core::logSe3(outer.T_a_c) / seconds;
-  // Steps that follow one another are known about equally well, so the last settled one speaks for this one, unless
-  // nothing was measured: then the process model alone does.
+  // Successive steps have similar covariances, so that of the last settled step is used, unless nothing was measured:
+  // then that of the process model.
   const bool settled = !lost && !step_covariance_.isZero();
   const Matrix6d covariance =
       settled ? step_covariance_ : moved(urban_nav_core::inverseByLu<6>(u.information), outer.J1 * inner.J2);
@@ -178,7 +178,8 @@ Settled Output::settle(const SettledPose& pose) {
   settled.from_previous.to = settled.stamp;
   settled.from_previous.T_from_to = any_settled_ ? outer.T_a_c : Pose();
   settled.from_previous.covariance = moved(pose.relative_covariance, outer.J1 * inner.J2);
-  // The difference of two poses far from the first one can lose all its digits in some direction; steps are much alike.
+  // The difference of two poses far from the first one can lose all significant digits in some direction; successive
+  // steps have similar covariances.
   if (!step_covariance_.isZero() && !isProper(settled.from_previous.covariance))
     settled.from_previous.covariance = step_covariance_;
   settled.from_previous.drift_covariance = moved(pose.drift_covariance, outer.J1 * inner.J2);
@@ -200,10 +201,10 @@ void Output::archive(urban_nav_core::Archive& archive, const Window& window) {
   archive.require(std::all_of(waiting_.begin(), waiting_.end(),
                               [&](const Waiting& waiting) { return window.hasPose(waiting.frame); }) &&
                       waiting_.size() == window.poses(),
-                  "the frames of the window are others");
+                  "frames differ from those of the window");
   const auto out_of_order =
       std::adjacent_find(born_.begin(), born_.end(), [](const auto& a, const auto& b) { return a.first >= b.first; });
-  archive.require(out_of_order == born_.end(), "landmarks are out of order");
+  archive.require(out_of_order == born_.end(), "landmark ids are not increasing");
 }
 
 }  // namespace swf_vo

@@ -11,26 +11,26 @@
 
 namespace swf_vo {
 
-/// Turns what the window knows of the left camera into what leaves the stage of base_link, in the convention of
+/// Converts estimates of the left camera in the window to the stage's output in base_link, in the convention of
 /// docs/conventions.md.
 class Output {
  public:
   explicit Output(const urban_nav_core::Pose& T_base_camera);
 
-  /// `u`: what the process model said of the step to this frame.
+  /// `u`: prediction of the process model for the step to this frame.
   const Frame& write(FrameId frame, urban_nav_core::StampNs stamp, const urban_nav_core::Status& status,
                      const Window& window, const ProcessInput& u, const FrontEndResult* seen,
                      const UpdateReport& update);
-  /// A frame that was not accepted because of its stamp: the last pose again.
-  /// Puts what is known of motion sensors into the frame that was written last.
+  /// Returns the output for a frame rejected because of its stamp, with the previous pose.
+  /// Sets the estimates of motion sensors in the newest frame.
   void setMotion(const MotionEstimates& motion) { frame_.motion = motion; }
   const Frame& refused(urban_nav_core::StampNs stamp);
   Settled settle(const SettledPose& pose);
-  /// `window`: whose frames are to settle.
+  /// `window`: contains the frames that are still to settle.
   void archive(urban_nav_core::Archive& archive, const Window& window);
 
  private:
-  struct Waiting {  // what a settled frame keeps from the time when it came
+  struct Waiting {  // data of a frame, kept until it settles
     FrameId frame = 0;
     urban_nav_core::StampNs stamp = 0;
     urban_nav_core::Status status;
@@ -46,9 +46,9 @@ class Output {
   std::vector<Waiting> waiting_;  // oldest first
   urban_nav_core::StampNs last_settled_ = 0;
   bool any_settled_ = false;
-  urban_nav_core::Pose last_T_odom_camera_;  // of the frame before, as it was known when it came
+  urban_nav_core::Pose last_T_odom_camera_;  // previous frame, filtered
   urban_nav_core::Matrix6d step_covariance_ =
-      urban_nav_core::Matrix6d::Zero();               // of the last settled step of base_link; zero: none yet
+      urban_nav_core::Matrix6d::Zero();               // last settled step of base_link; zero: none yet
   std::vector<std::pair<LandmarkId, FrameId>> born_;  // sorted by landmark: ids only grow
 };
 

@@ -12,7 +12,7 @@ using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on a line of its own.
 // clang-format off
 const Table<Parameters>& table() {
   using P = Parameters;
@@ -20,55 +20,57 @@ const Table<Parameters>& table() {
       "swf_vo",
       {
           {"window", &P::window, "frames", std::int64_t{10}, std::int64_t{1}, std::int64_t{100000}, {},
-           "Poses kept and estimated together. More is more accurate and slower; 1 is an extended Kalman filter, all "
+           "Number of poses estimated jointly. More is more accurate and slower; 1 is an extended Kalman filter, all "
            "frames are the batch solution.",
            "paper 2.2"},
           {"features", &P::features, "at 512x384 px", std::int64_t{100}, std::int64_t{20}, std::int64_t{2000}, {},
-           "Features followed at a time; in images of another size they follow the area to the power of 2/3.",
+           "Number of features tracked at a time; for other image sizes scaled by the area to the power of 2/3.",
            "paper 2.4 (v)"},
           urban_nav_core::pixelNoiseFloorRow<P>(),
           urban_nav_core::disparityOffsetRow<P>(),
           {"rig_scale", &P::rig_scale, "%", 0.05, 0.0, 10.0, {},
-           "Standard deviation of focal length times baseline, relative, left by calibration: of all lengths; no "
-           "image shows it. Poses' covariances have it, those of steps not.",
+           "Relative standard deviation of focal length times baseline after calibration, common to all lengths and "
+           "not observable in images. Included in covariances of poses, not in those of steps.",
            "docs/methods/swf_vo.md"},
           {"right_roll", &P::right_roll, "deg", 0.05, 1e-4, 10.0, {},
-           "Standard deviation of the roll of the right camera, left by rectification; estimated and reported.",
+           "Standard deviation of the roll of the right camera after rectification; estimated and reported.",
            "docs/methods/swf_vo.md", {}, Audience::Experts},
           {"shutter_delay", &P::shutter_delay, "ms", 0.1, 1e-4, 100.0, {},
-           "Standard deviation of the time by which the right shutter opens later; estimated and reported.",
+           "Standard deviation of the delay of the right shutter; estimated and reported.",
            "docs/methods/swf_vo.md", {}, Audience::Experts},
           {"robust_covariance", &P::robust_covariance, "", true, false, false, {},
-           "Scales the drift in covariances by what the residuals of each landmark's whole life show; without, it is "
-           "what the noise of measurements makes.",
+           "Scales the drift in covariances by a ratio estimated from the residuals of landmarks over their lives; if "
+           "false, the drift follows from the measurement noise.",
            "Liang, Zeger, Biometrika 1986", {}, Audience::Experts},
           {"huber", &P::huber, "standard deviations", 2.5, 0.0, 100.0, {},
-           "Residuals beyond this count linearly instead of squared; 0 switches the robust kernel off.",
+           "Threshold beyond which residuals are weighted linearly instead of quadratically; 0 disables the robust "
+           "kernel.",
            "paper 2.2", {}, Audience::Experts},
           {"iterations", &P::iterations, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{100}, {},
-           "Gauss-Newton steps of one frame, at most; fewer where the steps become small.",
+           "Maximum number of Gauss-Newton steps per frame; fewer if the steps become small.",
            "paper 2.1", {}, Audience::Experts},
           {"acceleration", &P::acceleration, "m/s^2", 10.0, 0.01, 1000.0, {},
-           "Process noise without an input u: standard deviation by which the velocity changes in a second.",
+           "Process noise without an input u: standard deviation of the change of velocity per second.",
            "paper 2.1, eq. 1"},
           {"angular_acceleration", &P::angular_acceleration, "rad/s^2", 10.0, 0.01, 1000.0, {},
-           "The same for the angular velocity.", "paper 2.1, eq. 1"},
+           "Process noise without an input u: standard deviation of the change of angular velocity per second.",
+           "paper 2.1, eq. 1"},
           {"search_radius", &P::search_radius, "px", 24.0, 4.0, 200.0, {},
-           "Half-width of the window in which a projected landmark is looked for, after the rotation between the "
-           "frames is taken out.",
+           "Half-width of the search window around a projected landmark, after compensation of the rotation between "
+           "the frames.",
            "paper 2.4 (iii)"},
           {"pyramid_levels", &P::pyramid_levels, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{6}, {},
-           "Image scales at which corners are extracted, each half the size of the one below.",
+           "Number of image scales at which corners are extracted, each half the size of the previous one.",
            "paper 2.4 (i)", {}, Audience::Experts},
           {"fast_threshold", &P::fast_threshold,
            "grey levels", std::int64_t{12}, std::int64_t{3}, std::int64_t{100}, {},
-           "Contrast that makes a FAST corner; lowered by itself where an image has too few.",
+           "Contrast threshold of FAST corners; lowered automatically if an image has too few.",
            "paper 2.4 (i)", {}, Audience::Experts},
           {"lost_features", &P::lost_features, "", std::int64_t{8}, std::int64_t{4}, std::int64_t{1000}, {},
-           "With fewer trusted matches than this the frame is LOST: the pose goes on by prediction.",
+           "Minimum number of trusted matches; with fewer, the frame is LOST and its pose is predicted.",
            "docs/conventions.md", {}, Audience::Experts},
           {"degraded_features", &P::degraded_features, "", std::int64_t{20}, std::int64_t{4}, std::int64_t{1000}, {},
-           "With fewer trusted matches than this the frame is DEGRADED.",
+           "Number of trusted matches below which the frame is DEGRADED.",
            "Tables 2 and 3: at least 37", {}, Audience::Experts},
       });
   return rows;

@@ -22,9 +22,9 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// Good images in which nothing is found where the velocity says, so many times in a row: the velocity is wrong.
+// Consecutive usable images without matches at the predicted positions after which the velocity is dropped.
 constexpr int kPatience = 3;
-// After a pause of that length a velocity says nothing: the motion is unknown, and none is made up.
+// Gap after which the velocity is not informative: the motion is unknown.
 constexpr double kVelocityHolds = 5.0;  // s
 
 Matrix6d fromSigmas(double translation, double rotation) {
@@ -34,15 +34,16 @@ Matrix6d fromSigmas(double translation, double rotation) {
   return diagonal.asDiagonal();
 }
 
-// From the tangent of base_link's motion to the camera's; both motions are T_from_to with (rho, phi) in `from`.
+// Transforms information from the tangent of base_link's motion to that of the camera; both are T_from_to, (rho, phi)
+// in `from`.
 Matrix6d toCamera(const Matrix6d& information_base, const Pose& T_base_camera) {
-  // d(camera) = A d(base), hence information_camera = A^-T information_base A^-1, and A^-1 is the map the other way.
+  // d(camera) = A d(base), hence information_camera = A^-T information_base A^-1, with A^-1 = adjoint(T_base_camera).
   const Matrix6d back = adjoint(T_base_camera);
   return back.transpose() * information_base * back;
 }
 
-// Inputs one after another as one motion. Their covariances add up; with n of about the same information, that is
-// the mean over n, which holds for singular ones too.
+// Successive inputs composed to one motion. Their covariances add up; for n inputs of similar information the
+// information is the mean over n, which is valid for singular ones too.
 struct Measured {
   int count = 0;
   double seconds = 0.0;
@@ -68,7 +69,7 @@ Measured together(const std::vector<MotionInput>& inputs) {
 }  // namespace
 
 ProcessInput fuse(ProcessInput u, const Pose& T_from_to, const Matrix6d& information) {
-  // Two measurements of one step, fused in the tangent at the prediction.
+  // Fusion of two measurements of one step in the tangent at the prediction.
   const Vector6d offset = boxMinus(T_from_to, u.T_from_to);
   const Matrix6d sum = u.information + information;
   u.T_from_to = boxPlus(u.T_from_to, urban_nav_core::solveByLdlt<6, 1>(sum, information * offset));
@@ -87,8 +88,7 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   const double steps = 1.0 + unmeasured_;
   const bool known = known_ && seconds < kVelocityHolds;
   u.T_from_to = known ? expSe3(fadedVelocity() * seconds) : Pose();
-  // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as
-  // uncertain as one.
+  // Sigma is limited to that of an unknown velocity; for m steps at one unknown velocity it is m times that of one.
   const double speed = kUnknownSpeed * std::sqrt(2.0 * steps - 1.0) * seconds,
                angular_speed = kUnknownAngularSpeed * std::sqrt(2.0 * steps - 1.0) * seconds;
   const double drift = steps * seconds * seconds;

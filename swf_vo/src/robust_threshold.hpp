@@ -11,7 +11,7 @@ namespace swf_vo {
 template <typename Iterator>
 double robustThreshold(Iterator begin, Iterator end) {
   constexpr double kGate = 4.0;
-  constexpr double kDeviation = 1.4826;  // standard deviation of a Gaussian over its median deviation
+  constexpr double kDeviation = 1.4826;  // standard deviation of a Gaussian over its median absolute deviation
   const Iterator middle = begin + (end - begin) / 2;
   std::nth_element(begin, middle, end);
   const double median = *middle;

@@ -30,17 +30,17 @@ using urban_nav_core::UserError;
 
 namespace {
 
-// The first pose is the origin by definition: held to a micrometre and a microradian.
+// The first pose is the origin by definition: sigma of a micrometre and a microradian.
 constexpr double kOriginSigma = 1e-6;
-// More than this many usual periods between two frames: something is missing.
+// Frames are missing if more than this number of frame periods have passed.
 constexpr double kGapPeriods = 1.7;
-// After more frames than a landmark may be missed in, as many are missing as a spell of darkness has.
-constexpr double kAstrayPeriods = 3.5;
-// Landmarks in the window for each that is followed: most live for a few frames, and the window for ten.
+// After a gap of more periods than a landmark may be missed, the prediction is treated as after a phase without images.
+constexpr double kLongGapPeriods = 3.5;
+// Landmarks in the window per tracked feature: most live for a few frames, and the window has ten.
 constexpr int kLandmarksPerFeature = 4;
 
 constexpr const char* kStateName = "swf_vo";
-constexpr std::uint32_t kStateVersion = 9;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t kStateVersion = 9;  // incremented with every change of the archived bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;
@@ -50,8 +50,8 @@ WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& ca
   options.huber = parameters.huber;
   options.iterations = parameters.iterations;
   options.disparity_offset = parameters.disparity_offset;
-  // Live, a frame must end within its period: what is refuted goes out at the estimates of now instead of by taking up
-  // to k steps again.
+  // Bounds the time per frame in live operation: withdrawn measurements are removed at the current estimates, without
+  // repeating up to k steps.
   options.exact_undo = false;
   options.tolerance = 1e-3;
   options.rig_scale = 0.01 * parameters.rig_scale;
@@ -78,21 +78,22 @@ double translationSigma(const ProcessInput& u) {
   return 1.0 / std::sqrt(std::max(1e-12, u.information.diagonal().head<3>().minCoeff()));
 }
 
-/// Returns whether sensors measured the rotation of a step better than images of other places do.
+/// Returns whether the rotation of a step was measured by sensors with higher accuracy than images of other places
+/// provide.
 bool isTurnKnown(const std::optional<ProcessInput>& reckoned) {
   constexpr double kKnown = 0.05;  // rad
   return reckoned && reckoned->information.diagonal().tail<3>().minCoeff() > 1.0 / (kKnown * kKnown);
 }
 
-/// Returns whether a pose is where sensors cannot have brought the camera.
+/// Returns whether a pose is inconsistent with the motion by sensors.
 bool isFarFrom(const ProcessInput& reckoned, const Pose& T_from_to) {
   constexpr double kFar = 100.0;  // squared standard deviations
   const urban_nav_core::Vector6d e = urban_nav_core::boxMinus(T_from_to, reckoned.T_from_to);
   return e.dot(reckoned.information * e) > kFar;
 }
 
-/// Returns the prediction of a frame in which no landmark was found, turned as its image as a whole shows: where only
-/// blur hides the landmarks, the heading stays known.
+/// Returns the prediction of a frame without tracked landmarks, with the rotation estimated from the whole image: with
+/// blurred images the heading remains known.
 ProcessInput turned(const ProcessInput& u, const Pose& last, const FrontEndResult& seen) {
   constexpr double kLeastSigma = 0.01, kSigmaPerAngle = 0.05;  // rad, rad/rad
   ProcessInput result = u;
@@ -102,8 +103,8 @@ ProcessInput turned(const ProcessInput& u, const Pose& last, const FrontEndResul
   return result;
 }
 
-/// Returns "name = value" of each setting, as stored states have them: parts of an ablation were parameters when these
-/// began.
+/// Returns "name = value" of each setting as in stored states. Parts of an ablation were parameters in earlier
+/// versions.
 std::vector<std::string> storedSettings(const Parameters& parameters, const Ablation& ablation) {
   std::vector<std::string> settings;
   for (const urban_nav_core::RowInfo& row : table().rows()) {
@@ -120,27 +121,27 @@ std::vector<std::string> storedSettings(const Parameters& parameters, const Abla
 
 }  // namespace
 
-/// A state is of use with the parameters and the calibration that it was made with, and no others.
-void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const Ablation& ablation,
-           const StereoCamera& camera, const Pose& T_base_camera) {
+/// Checks that a state was created with these parameters and this calibration. Throws UserError otherwise.
+void checkCompatible(urban_nav_core::Archive& archive, const Parameters& parameters, const Ablation& ablation,
+                     const StereoCamera& camera, const Pose& T_base_camera) {
   for (const std::string& now : storedSettings(parameters, ablation)) {
     std::string then = now;
     archive(then);
     if (then != now)
-      throw UserError("state of swf_vo", "was made with " + then + " and is to go on with " + now,
-                      "the same parameters");
+      throw UserError("state of swf_vo", "created with " + then + ", used with " + now + ": parameters must be equal",
+                      "");
   }
-  // Parameters that the input has now; what they were does not matter to a filter that goes on.
+  // Parameters that are now parameters of the input; their values have no effect here.
   for (std::string moved : {"motion_input = none", "wheel_noise = 0.05", "gyro_noise = 0.1"}) archive(moved);
   StereoCamera camera_then = camera;
   Pose T_then = T_base_camera;
   archive(camera_then, T_then);
   const bool same_place = T_then.q().coeffs() == T_base_camera.q().coeffs() && T_then.t() == T_base_camera.t();
   if (!isApprox(camera_then, camera, 0.0) || !same_place)
-    throw UserError("state of swf_vo", "was made with another calibration", "the same camera and extrinsics");
+    throw UserError("state of swf_vo", "created with another calibration: camera and extrinsics must be equal", "");
 }
 
-/// The story of one frame; no algorithm.
+/// Sequence of the processing steps of a frame.
 class SwfVo::Implementation {
  public:
   Implementation(const Ablation& ablation, const Parameters& parameters, const StereoCamera& camera,
@@ -163,17 +164,17 @@ class SwfVo::Implementation {
     Evidence evidence;
     evidence.first = !started_;
     const urban_nav_core::StampNs before = stamp_;
-    const double periods = takeTime(pair.stamp);
+    const double periods = updateFramePeriod(pair.stamp);
     evidence.gap = periods > kGapPeriods;
     const CorruptRowRepair::Repaired repaired = row_repair_.repair(pair);
     evidence.corrupted = repaired.corrupted;
-    evidence.image = images_.look(repaired.pair, doubtful_);
+    evidence.image = images_.check(repaired.pair, degraded_);
     const StereoPair usable =
         evidence.image.exchange ? StereoPair{pair.stamp, repaired.pair.right, repaired.pair.left} : repaired.pair;
 
     const Pose last = started_ ? window_.newest().pose : T_odom_first_camera_;
     const Predicted predicted = predict(before, pair.stamp, last, inputs);
-    const bool is_gap_long = periods > kAstrayPeriods;
+    const bool is_gap_long = periods > kLongGapPeriods;
     const FrontEndResult* seen =
         evidence.image.usable ? &process(usable, last, predicted, is_gap_long, evidence) : nullptr;
 
@@ -183,32 +184,32 @@ class SwfVo::Implementation {
       evidence.rows_disagree_px = rows_.measureSometimes(usable, seen != nullptr ? seen->row_offset_px : 0.0);
     const bool trusted = health_.isTrusted(evidence);
     const bool blurred = evidence.image.reason == Reason::Blurred;
-    // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
-    const bool is_loose = started_ && trusted && isAdrift(*seen);
+    // Tracks may be recovered after blurred images: the window is not restarted.
+    const bool is_loose = started_ && trusted && isTrackingLost(*seen);
     const bool by_images = trusted && !is_loose;
-    // Sensors have no part in a step that images measure, and learn from it.
+    // Sensors do not contribute to steps measured by images, and are calibrated from them.
     const bool reckons =
         predicted.reckoned && (!by_images || evidence.gap || evidence.tracked < parameters_.degraded_features);
     ProcessInput u = reckons ? predicted.with_sensors : predicted.u;
     if (started_ && !trusted && seen != nullptr && seen->turned && !isTurnKnown(predicted.reckoned))
       u = turned(u, last, *seen);
-    // Too long a time to predict over: from metres away no residual would lead to where the images say.
+    // After a long gap the prediction is too far off for the optimisation to converge: it starts at the pose by images.
     if (started_ && trusted && is_gap_long) u.T_from_start = last.inverse() * seen->T_odom_camera;
     takeStep(u, is_loose && !blurred ? seen : nullptr);
     sensors_.addFrame(frame_, seconds_, by_images, reckons);
-    if (seen != nullptr && (trusted || !started_) && !(is_loose && blurred)) remember(*seen);
+    if (seen != nullptr && (trusted || !started_) && !(is_loose && blurred)) updateNewestKnown(*seen);
     if (seen != nullptr) observe(*seen, trusted);
     const UpdateReport update = window_.update();
     if (started_ && by_images && !reckons && window_.hasPose(frame_ - 1)) check(before, pair.stamp, predicted);
 
     if (started_) learn(last, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
-    doubtful_ = status.health != urban_nav_core::Health::Ok;
+    degraded_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
     const Frame& frame = output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
     for (const Settled& settled : frame.settled) sensors_.learn(settled);
     output_.setMotion(sensors_.estimates());
-    giveUp(window_.driftingLandmarks());
+    dropLandmarks(window_.driftingLandmarks());
     return frame;
   }
 
@@ -220,32 +221,32 @@ class SwfVo::Implementation {
 
   std::string state() {
     urban_nav_core::Archive archive;
-    agree(archive, parameters_, ablation_, camera_, T_odom_first_camera_);
+    checkCompatible(archive, parameters_, ablation_, camera_, T_odom_first_camera_);
     this->archive(archive);
     return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
   }
 
   void restore(std::string_view state) {
     urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), "state of swf_vo");
-    agree(archive, parameters_, ablation_, camera_, T_odom_first_camera_);
+    checkCompatible(archive, parameters_, ablation_, camera_, T_odom_first_camera_);
     this->archive(archive);
     archive.finish();
   }
 
   void archive(urban_nav_core::Archive& archive) {
-    archive(started_, doubtful_, frame_, newest_known_, stamp_, seconds_, period_);
+    archive(started_, degraded_, frame_, newest_known_, stamp_, seconds_, period_);
     archive(images_, rows_, prediction_, sensors_, mean_choice_, front_end_, window_, health_);
     output_.archive(archive, window_);
     archive.require(!started_ || window_.poses() > 0, "the window is empty");
   }
 
  private:
-  /// A step before the images of its end are processed.
+  /// Prediction of a step, before the images of its end are processed.
   struct Predicted {
-    ProcessInput u;                        // at constant velocity; its mean may be that by sensors
+    ProcessInput u;                        // at constant velocity, or with the mean by sensors
     Pose steady;                           // at constant velocity
-    std::optional<ProcessInput> reckoned;  // by sensors alone
-    ProcessInput with_sensors;             // by both
+    std::optional<ProcessInput> reckoned;  // motion by sensors only
+    ProcessInput with_sensors;             // fusion of both
   };
   Predicted predict(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Pose& last,
                     const std::vector<MotionInput>& inputs) {
@@ -261,7 +262,7 @@ class SwfVo::Implementation {
     return predicted;
   }
 
-  /// Compares what predicted a step with what images measured.
+  /// Compares the predictions of a step with the motion by images.
   void check(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Predicted& predicted) {
     const Pose measured = window_.pose(frame_ - 1).inverse() * window_.newest().pose;
     sensors_.check(from, to, measured);
@@ -283,15 +284,15 @@ class SwfVo::Implementation {
     evidence.features = evidence.tracked + static_cast<int>(seen.fresh.size());
     evidence.candidates = seen.candidates;
     evidence.inlier_share = seen.inlier_share;
-    // After a pause a few matches agree by chance, somewhere.
+    // After a gap a few matches may be consistent by chance.
     if (is_gap_long && predicted.reckoned && evidence.tracked < parameters_.degraded_features &&
         isFarFrom(*predicted.reckoned, last.inverse() * seen.T_odom_camera))
       evidence.localised = false;
     return seen;
   }
 
-  // Notes the time step; how many usual ones it is.
-  double takeTime(urban_nav_core::StampNs stamp) {
+  // Updates the frame period; returns the step in units of it.
+  double updateFramePeriod(urban_nav_core::StampNs stamp) {
     seconds_ = started_ ? secondsBetween(stamp_, stamp) : 0.0;
     stamp_ = stamp;
     const double periods = period_ > 0.0 ? seconds_ / period_ : 1.0;
@@ -300,28 +301,28 @@ class SwfVo::Implementation {
     return periods;
   }
 
-  // Too little is recognised that is older than the loss of frames: what few there are may be matched wrongly.
-  bool isAdrift(const FrontEndResult& seen) const {
+  // Too few matches of landmarks from before the loss of frames; those few may be mismatches.
+  bool isTrackingLost(const FrontEndResult& seen) const {
     const auto old = std::count_if(seen.tracked.begin(), seen.tracked.end(), [&](const Observation& observation) {
       return observation.landmark <= newest_known_;
     });
     return old < parameters_.lost_features;
   }
 
-  void remember(const FrontEndResult& seen) {
+  void updateNewestKnown(const FrontEndResult& seen) {
     for (const auto* group : {&seen.tracked, &seen.fresh})
       for (const Observation& observation : *group) newest_known_ = std::max(newest_known_, observation.landmark);
   }
 
-  // `adrift`: what was seen, where nothing but the prediction ties it to the frames before the loss. Held by that alone
-  // for ever, the window would be as loose as a second of darkness leaves it, too loose to be linear; anew, it is firm
-  // in itself and carries what is not known of its place.
-  void takeStep(const ProcessInput& u, const FrontEndResult* adrift) {
+  // `after_loss`: result of the front end if only the prediction links it to the frames before the loss. If constrained
+  // by the prediction only, the window would remain too uncertain to linearise; so it is restarted, with the
+  // uncertainty of the prediction carried separately.
+  void takeStep(const ProcessInput& u, const FrontEndResult* after_loss) {
     if (!started_) {
       window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (kOriginSigma * kOriginSigma));
-    } else if (adrift != nullptr) {
-      // Its landmarks begin with this frame, from where they say that it is.
-      window_.restart(frame_, {window_.newest().pose.inverse() * adrift->T_odom_camera, u.information});
+    } else if (after_loss != nullptr) {
+      // Landmarks start with this frame, at its pose by images.
+      window_.restart(frame_, {window_.newest().pose.inverse() * after_loss->T_odom_camera, u.information});
     } else if (window_.map().empty()) {
       window_.restart(frame_, u);
     } else {
@@ -330,16 +331,15 @@ class SwfVo::Implementation {
     }
   }
 
-  // The step as the window has it now. The frame before may have been moved by this one's measurements, and after
-  // darkness is moved far: from where it was assumed to be until now, the step would have the error of the whole dead
-  // reckoning in it.
+  // Uses the current estimate of the previous pose, which may have changed, by a large amount after a phase without
+  // images: with the former estimate the step would contain the whole error of dead reckoning.
   void learn(const Pose& last, bool trusted, bool blind) {
     const bool smoothed = window_.hasPose(frame_ - 1);
     const Pose from = smoothed ? window_.pose(frame_ - 1) : last;
     prediction_.learn(from.inverse() * window_.newest().pose, seconds_, trusted, blind, smoothed);
   }
 
-  void giveUp(const std::vector<LandmarkId>& landmarks) {
+  void dropLandmarks(const std::vector<LandmarkId>& landmarks) {
     for (const LandmarkId landmark : landmarks) {
       window_.withdrawAll(landmark);
       window_.endLandmark(landmark);
@@ -347,7 +347,7 @@ class SwfVo::Implementation {
   }
 
   void observe(const FrontEndResult& seen, bool trusted) {
-    giveUp(seen.refuted);
+    dropLandmarks(seen.refuted);
     for (const LandmarkId landmark : seen.ended) window_.endLandmark(landmark);
     if (trusted)
       for (const Observation& observation : seen.tracked) window_.observe(observation);
@@ -370,9 +370,9 @@ class SwfVo::Implementation {
   Output output_;
 
   bool started_ = false;
-  bool doubtful_ = true;
+  bool degraded_ = true;
   FrameId frame_ = 0;
-  LandmarkId newest_known_ = -1;  // of the last frame that is tied to the first by measurements
+  LandmarkId newest_known_ = -1;  // newest landmark of the last frame linked to the first one by measurements
   urban_nav_core::StampNs stamp_ = 0;
   double seconds_ = 0.0;
   double period_ = 0.0;

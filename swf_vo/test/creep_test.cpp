@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot that has stood and starts at 2 cm/s, a millimetre a frame: the first five centimetres are neither swallowed
-// nor jumped over.
+// A robot at rest that starts to move at 2 cm/s, a millimetre per frame: the first five centimetres are measured
+// without loss or jump.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double kSpeed = 0.02;                            // m/s
 struct Start {
   const char* name;
   Vector3d direction;  ///< in the camera: x right, z forward
-  double yaw;          ///< of the camera in the room, rad
+  double yaw;          ///< yaw of the camera in the room, rad
   double noise;        ///< grey levels
 };
 void PrintTo(const Start& start, std::ostream* out) { *out << start.name << ", noise " << start.noise; }

@@ -16,7 +16,7 @@ using urban_nav_core::ImageView;
 
 constexpr int kEdgeImageWidth = 400, kEdgeImageHeight = 300;
 
-/// Edges of all contrasts every `apart` pixels along both axes, as a lens of this blur shows them.
+/// Edges of all contrasts every `apart` pixels along both axes, with a Gaussian blur.
 std::vector<std::uint8_t> edges(double sigma_x, double sigma_y, double contrast = 100.0, double noise = 1.0,
                                 double apart = 40.0) {
   std::mt19937 seed(1);
@@ -37,7 +37,7 @@ Eigen::Vector2d of(const std::vector<std::uint8_t>& pixels) {
   return edgeVariance({pixels.data(), kEdgeImageWidth, kEdgeImageHeight, kEdgeImageWidth});
 }
 
-// Straight edges all alike are where it says the most: their steepest places do not bend at all.
+// The effect is largest for equal straight edges, which have no curvature at their steepest positions.
 TEST(EdgeVariance, GrowsByWhatTheLensAdds) {
   for (const double sigma : {1.5, 2.0, 3.0}) {
     const Eigen::Vector2d seen = of(edges(sigma, sigma));

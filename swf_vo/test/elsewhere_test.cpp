@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When frames come again after a gap, and show another place: some patches look like some of before, and a few of them
-// agree on a motion by chance.
+// Frames after a gap that show another place: some patches resemble earlier ones, and a few are consistent with a
+// motion by chance.
 #include <algorithm>
 #include <cmath>
 
@@ -18,12 +18,12 @@ GreyImage upsideDown(GreyImage image) {
   return image;
 }
 
-/// The world turned about the optical axis by half a turn: a proper pair of another place, made of the same things.
+/// The world rotated about the optical axis by 180 deg: a valid pair of another place with similar texture.
 StereoFrame elsewhere(const StereoFrame& frame) {
   return {frame.stamp, upsideDown(frame.right), upsideDown(frame.left)};
 }
 
-/// A piece of the picture of before in front of the other place: what is carried along, or looks the same there.
+/// Copies a part of the earlier image into that of the other place, as by an object that moves with the camera.
 StereoFrame pastePiece(const StereoFrame& before, StereoFrame frame) {
   const int width = frame.left.width, height = frame.left.height;
   for (int v = height / 3; v < 2 * height / 3; ++v) {

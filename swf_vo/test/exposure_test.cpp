@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras that hold their exposure on the dark, so that what is bright is cut off, now more of it and now less: where
-// it is cut off is no place.
+// Cameras with exposure for the dark and varying saturation of bright regions: the border of a saturated region is not
+// a landmark.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,11 +17,11 @@ using urban_nav_core::Pose;
 using urban_nav_core::testing::GreyImage;
 
 struct ExposureOutcome {
-  double squares = 0.0;  ///< of the position's error, m^2, mean
+  double squares = 0.0;  ///< mean square of the position error, m^2
   double nees = 0.0;     ///< mean
 };
 
-/// `gain`: of the light, by the number of the frame.
+/// `gain`: of the light, by frame number.
 template <typename Gain>
 ExposureOutcome follow(const Recording& room, const Gain& gain) {
   SwfVo filter(Parameters(), room.camera, Pose());

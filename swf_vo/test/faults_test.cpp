@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong with cameras, on the frames of a rendered room and of a real street: it is named, survived, and does
-// not pass for knowledge.
+// Camera faults on frames of a rendered room and of a real street: they are reported with a reason, the filter
+// recovers, and the covariance accounts for them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,15 +25,15 @@ using urban_nav_core::testing::readSequenceFolder;
 
 struct Trouble {
   const char* fault;
-  std::vector<Reason> names;  ///< what it may be called
+  std::vector<Reason> names;  ///< acceptable reasons
 };
 void PrintTo(const Trouble& trouble, std::ostream* out) { *out << trouble.fault; }
 
-/// What became of a recording.
+/// Result of a recording with a fault.
 struct FaultOutcome {
-  int named = -1;  ///< frames that arrived from the first of the fault until it was called by its name
-  Frame last;      ///< the last that was accepted
-  Pose truth;      ///< of that
+  int named = -1;  ///< frames from the start of the fault until it was reported with an acceptable reason
+  Frame last;      ///< last accepted frame
+  Pose truth;      ///< true pose of `last`
   double error() const { return distanceBetween(truth, last.T_odom_base.pose); }
 };
 
@@ -53,7 +53,7 @@ FaultOutcome play(const Recording& recording, const Trouble& trouble) {
   return outcome;
 }
 
-// The fault after all frames is none.
+// A fault after the last frame has no effect.
 FaultOutcome undisturbed(const Recording& recording) { return play(recording, {"black:1000:1", {}}); }
 
 double computeLength(const Recording& recording) {
@@ -75,7 +75,7 @@ double undisturbedError(const std::string& motion) {
   return known[motion];
 }
 
-// What was measured before frames were left out says nothing beside a pose of after.
+// Measurements from before a gap must not be compared with poses after it.
 TEST(Darkness, SaysNothingOfTheNoise) {
   double before = 0.0;
   playWithFault(inTheRoom("wander", 1.0, 80), "black:1.5:0.1", [&](const Played& played) {
@@ -88,7 +88,7 @@ TEST(Darkness, SaysNothingOfTheNoise) {
   EXPECT_GT(before, 0.0);
 }
 
-// A clock that is set ten seconds forwards does not move the camera: the images say where it is.
+// A forward clock jump of ten seconds does not move the camera; the motion is measured by the images.
 TEST(ClockJump, MovesNothing) {
   for (const char* motion : {"loop", "wander"}) {
     const Recording& room = inTheRoom(motion, 1.0, 80);
@@ -104,8 +104,8 @@ TEST(ClockJump, MovesNothing) {
   }
 }
 
-// Wheels that are off by one and a half of what they claim bridge a second without images, and the images then have the
-// word: neither counts twice.
+// Wheels with errors of 1.5 times their standard deviation bridge a second without images; the images are used
+// afterwards. No measurement counts twice.
 TEST(GapOnWheels, IsCrossed) {
   for (const char* motion : {"loop", "wander", "turns"}) {
     SCOPED_TRACE(motion);
@@ -135,7 +135,7 @@ TEST(GapOnWheels, IsCrossed) {
 
 class FaultsInTheRoom : public ::testing::TestWithParam<Trouble> {};
 
-// One end point is a throw of dice: three of them, root mean square.
+// Root mean square of three runs, since a single end point has a large variance.
 TEST_P(FaultsInTheRoom, AreNamedWithinTwoFramesAndOvercome) {
   constexpr int kCount = 3;
   double squares = 0.0, usual = 0.0, nees = 0.0;
@@ -164,8 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
                       Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}}));
 
-// kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for turning
-// fast.
+// kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for fast
+// turns.
 struct Street {
   Recording faults, turning;
   double usual = 0.0;
@@ -196,10 +196,10 @@ const Street* street() {
   return read;
 }
 
-// The truth is from a laser: a common scale of half a per cent is within what the calibrations of laser and camera can
-// differ by (the folder's README), so the distance has that as its own error. Nothing is stated of its headings, and
-// the undisturbed run is 0.2 deg from them where the filter, which takes the calibration as exact, says 0.02: of those
-// the test says nothing.
+// The ground truth is from a laser: laser and camera may differ by a common scale of half a per cent (the folder's
+// README), which is the assumed error of the distance. The accuracy of its headings is not stated, and the undisturbed
+// run differs from them by 0.2 deg where the filter, which assumes an exact calibration, has a standard deviation of
+// 0.02: headings are not tested.
 bool isWithinWhatIsStated(const FaultOutcome& outcome, double length) {
   PoseWithCovariance end = outcome.last.T_odom_base;
   end.covariance.topLeftCorner<3, 3>() += std::pow(0.005 * length, 2) * Eigen::Matrix3d::Identity();
@@ -227,9 +227,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}},
                       Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
 
-// A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of
-// all, turns through the bend at 59 deg/s, and goes at 20 m/s. From each of the first four frames, root mean square,
-// since one end point is a throw of dice.
+// Fast motion without an image fault; it must be tracked without a status. Every fourth of the real frames at the
+// original rate gives a turn of 59 deg/s at 20 m/s. Root mean square over runs from each of the first four frames,
+// since a single end point has a large variance.
 TEST(Turning, SixtyDegreesASecondAreFollowedInTheStreet) {
   if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
   const Recording& whole = street()->turning;
@@ -260,7 +260,7 @@ TEST(Turning, SixtyDegreesASecondAreFollowedInTheRoom) {
   EXPECT_LT(outcome.error(), 0.01);
 }
 
-// Two frames in the wrong order: the later is used, the earlier refused.
+// Two frames in the wrong order: the later one is used, the earlier one is rejected.
 TEST(FramesInTheWrongOrder, AreRefused) {
   Recording room = inTheRoom("loop", 1.0, 80);
   room.frames.resize(40);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A van ahead that drives off: a third of the features move, agree with each other, and do not carry the estimate away.
+// A van ahead that drives off: a third of the features move consistently and must not bias the estimate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,18 +22,18 @@ using urban_nav_core::testing::straight;
 using urban_nav_core::testing::texturedRoom;
 
 constexpr double kAhead = 2.5, kVanWidth = 1.5, kVanHeight = 1.7,
-                 kDepth = 1.0;  // m, of the van's rear from the camera at the start
+                 kDepth = 1.0;  // m, distance of the van's rear from the camera at the start
 constexpr int kMovingFrames = 45;
 
 struct Drive {
   const char* name;
-  double (*way)(double t, double own);  ///< of the van along the camera's axis, m; `own`: what the camera has gone
+  double (*way)(double t, double own);  ///< motion of the van along the camera's axis, m; `own`: that of the camera
 };
 void PrintTo(const Drive& drive, std::ostream* out) { *out << drive.name; }
 
 class Van : public ::testing::TestWithParam<Drive> {};
 
-// Features on the van's rear, as a share of all.
+// Returns the share of features on the van's rear.
 double shareOnTheVan(const Frame& frame, double distance) {
   const auto camera = roomCamera();
   const double half = camera.fx * 0.5 * kVanWidth / distance,
@@ -66,7 +66,7 @@ TEST_P(Van, DoesNotCarryTheEstimateAway) {
     expectProper(now);
     const double t = sequence.time(i), gone = own(t);
     if (i == 20) {
-      EXPECT_GT(shareOnTheVan(now, kAhead - gone), 0.3) << "else the test says little";
+      EXPECT_GT(shareOnTheVan(now, kAhead - gone), 0.3) << "otherwise the test is not significant";
     }
     const double off = distanceBetween(now.T_odom_base.pose, start.inverse() * motion(t));
     EXPECT_LT(off, 0.005 + 0.01 * gone) << i;

@@ -8,8 +8,8 @@
 namespace swf_vo {
 namespace {
 
-/// Health, poses, covariances, and estimates of the constants of the rig. Reasons and standard deviations that state
-/// parameters by themselves are left out.
+/// Prints health, poses, covariances, and rig estimates. Excludes reasons and standard deviations that depend directly
+/// on parameters.
 std::string printEstimate(const Frame& frame) {
   std::ostringstream text;
   text.precision(17);
@@ -22,7 +22,7 @@ std::string printEstimate(const Frame& frame) {
   return text.str();
 }
 
-/// Estimates along 24 frames around the room with a fault (parseFault).
+/// Returns the estimates along 24 frames around the room with a fault (parseFault).
 std::string playRoom(const Parameters& parameters, const std::string& fault) {
   SwfVo filter(parameters, stereoCamera(), kPlace);
   std::string text;

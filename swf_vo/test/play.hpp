@@ -11,17 +11,17 @@
 
 namespace swf_vo {
 
-/// What the filter says of a frame that arrived.
+/// Result of the filter for a frame.
 struct Played {
-  std::size_t index;   ///< of it in the recording
-  int since;           ///< frames that arrived since the fault began: 0 for the first, -1 before
-  const Frame& frame;  ///< lives until the next
+  std::size_t index;   ///< index in the recording
+  int since;           ///< frames since the fault began: 0 for the first, -1 before
+  const Frame& frame;  ///< valid until the next frame
 };
 
-/// What wheels say from one frame of a recording to another.
+/// Wheel measurements between two frames of a recording.
 using Wheels = std::function<std::vector<urban_nav_core::MotionInput>(std::size_t from, std::size_t to)>;
 
-/// A recording with one fault on it (parseFault) through a filter; `see` gets a Played for each frame that arrives.
+/// Runs a recording with one fault (parseFault) through a filter; `see` is called with a Played for each frame.
 template <typename See>
 void playWithFault(const urban_nav_core::testing::Recording& recording, const std::string& what, const See& see,
                    const Parameters& parameters = Parameters(), const Wheels& wheels = {}) {

@@ -32,7 +32,7 @@ inline Recording inTheRoom(const urban_nav_core::testing::Motion& motion, double
   return record(sequence, count);
 }
 
-/// The room along one of the motions with a name, drawn once for all tests; it may be longer than asked for.
+/// The room along a named motion, rendered once for all tests; it may be longer than requested.
 inline const Recording& inTheRoom(const std::string& motion, double noise, int count) {
   static std::map<std::string, Recording> drawn;
   Recording& result = drawn[motion + std::to_string(noise)];

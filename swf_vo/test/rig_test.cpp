@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A right camera that is rolled, and one whose shutter opens later, as a whole odometry finds them.
+// Estimation of roll and shutter delay of the right camera by the whole odometry.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -18,7 +18,7 @@ using urban_nav_core::testing::texturedRoom;
 
 constexpr int kRigFrames = 50;
 
-/// The rendered room with a right camera that is turned about its optical axis, and late.
+/// The rendered room with a right camera that is rotated about its optical axis and delayed.
 RigConstants findRig(double roll_rad, double delay_s) {
   const Motion motion = namedMotion("wander", "room", 1);
   SequenceOptions options;
@@ -32,7 +32,7 @@ RigConstants findRig(double roll_rad, double delay_s) {
   };
   RenderedSequence left(texturedRoom(), motion, options), right(texturedRoom(), right_motion, options);
   Parameters parameters;
-  parameters.shutter_delay = 5.0;  // two seconds of a slow camera say less than the usual prior
+  parameters.shutter_delay = 5.0;  // two seconds of a slow camera are less informative than the usual prior
   SwfVo filter(parameters, stereoCamera(), Pose());
   RigConstants found;
   for (int i = 0; i < kRigFrames; ++i) {
@@ -57,7 +57,7 @@ TEST(Rig, ARolledCameraIsFound) {
   EXPECT_LT(std::abs(found.roll_rad - kRoll), 5.0 * found.roll_sigma_rad);
 }
 
-// Of one camera and one room: what else errs is the same in both.
+// For one camera and room, so that other errors are equal.
 TEST(Rig, ALateShutterIsToldFromAnEarlyOne) {
   constexpr double kDelay = 4e-3;
   const RigConstants late = findRig(0.0, kDelay), early = findRig(0.0, -kDelay);

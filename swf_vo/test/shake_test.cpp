@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A camera shaken in a hand, at few frames a second: the velocity of one step says little about the next.
+// A shaken handheld camera at a low frame rate: the velocities of successive steps are hardly correlated.
 #include <gtest/gtest.h>
 
 #include "recordings.hpp"

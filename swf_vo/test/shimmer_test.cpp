@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images that shimmer as over a hot road: everything is where it should not be by a fifth of a pixel, another way in
-// each frame, and no patch looks any worse for it. The filter has to find out from what the measurements leave.
+// Shimmering images, as above a hot road: displacements of a fifth of a pixel, different in each frame and without
+// effect on patch residuals. The filter must estimate the noise from the residuals of the window.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
@@ -22,7 +22,7 @@ using urban_nav_core::testing::texturedRoom;
 constexpr int kShimmerFrames = 60, kCell = 12;  // px
 constexpr double kAmplitude = 0.2;              // px, standard deviation
 
-/// A field of displacements that are alike within a patch, and not further away.
+/// A field of displacements with a correlation length of a patch.
 void shimmer(const ImageView& image, cv::RNG& random, cv::Mat& moved) {
   const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
                       static_cast<std::size_t>(image.stride));

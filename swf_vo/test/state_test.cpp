@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A filter that is made from the state of another goes on with its bits, wherever the cut is.
+// A filter created from the state of another one gives bit-identical results, at any cut.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -29,7 +29,7 @@ std::string toBytes(std::vector<Settled> settled) {
 
 std::string process(SwfVo& filter, const Step& step) { return toBytes(filter.process(step.frame.pair(), step.inputs)); }
 
-/// Cuts a run everywhere in `cuts`, and has each part go on for some frames, one of them to the end.
+/// Cuts a run at each of `cuts` and continues each part for some frames, one of them to the end.
 void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t>& cuts,
                     const Parameters& parameters = Parameters(), const Ablation& ablation = Ablation()) {
   constexpr std::size_t kLongerThanTheWindow = 14;
@@ -87,7 +87,7 @@ TEST(State, GoesOnWithOtherParameters) {
   std::vector<Parameters> kinds(3);
   kinds[0].window = 1;
   kinds[1].window = 25;
-  kinds[1].features = 20;  // few landmarks and many poses: the path is eliminated first
+  kinds[1].features = 20;  // few landmarks and many poses: poses are eliminated first
   kinds[2].disparity_offset = 0.3;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     SCOPED_TRACE("parameters " + std::to_string(i));
@@ -95,7 +95,7 @@ TEST(State, GoesOnWithOtherParameters) {
   }
 }
 
-// States of earlier versions stay readable: what was a parameter when they began keeps its name and its place.
+// States of earlier versions remain readable: former parameters keep their names and positions.
 TEST(State, BeginsWithTheSettingsAsTheyWereOnceCalled) {
   const std::string state = SwfVo(Parameters(), stereoCamera(), kPlace).state();
   std::size_t at = 0;
@@ -115,8 +115,7 @@ TEST(State, BelongsToThePartsThatAreSwitchedOff) {
     FAIL();
   } catch (const urban_nav_core::UserError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "state of swf_vo: was made with forget = delete and is to go on with forget = schur: allowed the same "
-              "parameters");
+              "state of swf_vo: created with forget = delete, used with forget = schur: parameters must be equal");
   }
 }
 

@@ -75,8 +75,8 @@ TEST(SwfVo, MovesTheBaseNotTheCamera) {
     const auto& frame = room.frames[static_cast<std::size_t>(i)];
     const Pose T_first_camera = camera.process(frame.pair()).T_odom_base.pose;
     const Pose T_odom_base = base.process(frame.pair()).T_odom_base.pose;
-    // In other axes sums round otherwise; once that has decided about a feature, the runs are as far apart as their
-    // errors.
+    // In other axes the rounding of sums differs; once that changes the selection of a feature, the runs differ by
+    // their errors.
     EXPECT_TRUE(isApprox(T_odom_base, T_base_camera * T_first_camera * T_base_camera.inverse(), i < 3 ? 1e-5 : 1e-3))
         << i;
   }
@@ -108,13 +108,13 @@ TEST(SwfVo, AllocatesNothingAfterFrame50) {
   if (!countsAllocations()) GTEST_SKIP() << "the sanitizer's allocator cannot be counted";
   const Recording& room = inTheRoom("loop", 1.0, 70);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
-  std::int64_t made = 0;
+  std::int64_t result = 0;
   for (std::size_t i = 0; i < room.frames.size(); ++i) {
     const AllocationCount count;
     filter.process(room.frames[i].pair());
-    if (i >= 50) made += count.sofar();
+    if (i >= 50) result += count.sofar();
   }
-  EXPECT_EQ(made, 0);
+  EXPECT_EQ(result, 0);
 }
 
 struct Effort {
@@ -126,7 +126,7 @@ void PrintTo(const Effort& effort, std::ostream* out) {
 
 class SwfVoEfforts : public ::testing::TestWithParam<Effort> {};
 
-// For a while the window holds nothing but poses that only the process model ties together.
+// For a while the window contains only poses linked by the process model.
 TEST_P(SwfVoEfforts, OvercomeAPauseInTheMeasurements) {
   const Recording& room = inTheRoom("loop", 1.0, 70);
   for (const char* fault : {"blur:1:0.5", "blur:0.5:1.5", "black:0.7:1.5"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md and config/swf_vo.yaml say of the parameters; test/parameters_test.cpp holds them equal to the tables.
+// Prints the parameter tables of README.md and config/swf_vo.yaml; test/parameters_test.cpp checks that they are equal
+// to the code's.
 #include "live/nodelet_parameters.hpp"
 #include "swf_vo/parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"

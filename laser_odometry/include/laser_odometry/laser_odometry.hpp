@@ -13,7 +13,7 @@
 
 namespace laser_odometry {
 
-/// Reason of a status that is not OK: Status::reason of every output of this stage.
+/// Reason for a status other than OK (Status::reason of this stage).
 enum class Reason : int {
   None = 0,
   NoPoints,       ///< no valid return in the sweep
@@ -21,23 +21,23 @@ enum class Reason : int {
   Covered,        ///< most returns are nearer than min_range: the robot itself, or a cover
   FreeDirection,  ///< the surroundings do not constrain a direction of the motion
   Mismatch,       ///< the sweep does not fit the local map
-  BadStamp,       ///< the reference time is not later than the last one: the sweep is dropped
-  Gap,            ///< much more time since the last sweep than between the sweeps before
-  Overlap,        ///< the sweep begins long before the last one ended
+  BadStamp,       ///< the reference time is not later than the previous one: the sweep is dropped
+  Gap,            ///< time since the previous sweep much longer than the usual sweep period
+  Overlap,        ///< the sweep begins long before the end of the previous one
 };
 /// Returns "" for None, else the enumerator in small letters and underscores.
 const char* toString(Reason reason);
 
 /// Motion of base_link between two sweeps by another sensor (stereo, wheels, gyroscope).
 struct MotionPrior {
-  urban_nav_core::RelativePose step;  ///< from the last sweep's reference time to that of this sweep
+  urban_nav_core::RelativePose step;  ///< from the previous sweep's reference time to that of this sweep
 };
 
-/// Figures of one sweep.
+/// Statistics of one sweep.
 struct Statistics {
   int points = 0;           ///< valid beams
   int near = 0;             ///< beams nearer than min_range
-  int used = 0;             ///< beams that belong to a matched surface patch
+  int used = 0;             ///< beams in matched surface patches
   int moving = 0;           ///< beams of patches that contradict the local map
   int patches = 0;          ///< surface patches of the sweep that were matched
   int iterations = 0;       ///< of all rounds
@@ -49,7 +49,7 @@ struct Statistics {
 /// Result for one sweep. `odom` is the first base_link.
 struct LaserPose {
   urban_nav_core::StampNs stamp = 0;  ///< reference time of the sweep
-  bool accepted = true;               ///< false: dropped because of its stamp; the pose is the last one
+  bool accepted = true;               ///< false: dropped because of its stamp; the pose is the previous one
   urban_nav_core::Pose T_odom_base;
   /// Covariance of T_first_base in the axes of the first pose, tangent as in PoseWithCovariance.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
@@ -73,15 +73,15 @@ struct MapPoint {
 /// Odometry by 3D LiDAR: each sweep is registered to a local map of surface elements
 /// (docs/derivations/laser_odometry.md).
 ///
-/// Accepts any sweep in any order of time; each gives a finite pose and a positive definite covariance. Bad sweeps are
-/// reported in the status with a reason. Reads no clock, prints nothing, never throws for data. Not thread-safe;
-/// different objects are independent. The same calls give the same bits.
+/// Accepts any sweep in any order of time; each gives a finite pose and a positive definite covariance. Unusable sweeps
+/// give a status with a reason. Bad data never causes an exception. Reads no clock, prints nothing. Not thread-safe;
+/// different objects are independent. Deterministic: equal calls give bit-identical results.
 class LaserOdometry {
  public:
   /// T_base_lidar: the sensor's frame in base_link.
   LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar);
-  /// Continues from the `state` of another object. Throws UserError if that had other parameters or another
-  /// T_base_lidar, DataError if the bytes are damaged or of another version.
+  /// Resumes from the `state` of another object. Throws UserError if that had other parameters or another T_base_lidar,
+  /// DataError if the bytes are damaged or of another version.
   LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar, std::string_view state);
   ~LaserOdometry();
   LaserOdometry(LaserOdometry&&) noexcept;
@@ -90,10 +90,10 @@ class LaserOdometry {
   /// Registers a sweep. `prior` replaces the prediction by constant velocity; its covariance must be positive definite.
   LaserPose process(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior = std::nullopt);
 
-  /// Returns the planes of the local map, at the finest resolution at which each place has one.
+  /// Returns the planes of the local map, at the finest resolution with a plane at each position.
   std::vector<MapPoint> localMap() const;
 
-  /// Returns everything that further results depend on: an object made from it gives the same bits as this one.
+  /// Returns the complete state: an object constructed from it gives bit-identical results.
   std::string state() const;
 
  private:

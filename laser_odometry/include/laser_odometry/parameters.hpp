@@ -5,7 +5,7 @@
 
 namespace laser_odometry {
 
-/// Parameters of the stage. table() states meaning, unit, default and range of each.
+/// Parameters of the stage; table() has description, unit, default and range of each.
 struct Parameters {
   double cell;                  // m
   int levels;                   // resolutions
@@ -24,7 +24,7 @@ struct Parameters {
   Parameters();
 };
 
-/// Returns the table of the stage's parameters: the only place of their defaults and ranges. Thread-safe.
+/// Returns the table of the stage's parameters: the single source of defaults and ranges. Thread-safe.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace laser_odometry

@@ -9,7 +9,7 @@ namespace laser_odometry {
 
 void LiveLaserOdometry::place(const urban_nav_core::Pose& T_base_lidar) {
   if (is_placed_ && isApprox(T_base_lidar, T_base_lidar_, 0.0)) return;
-  end("the LiDAR is mounted elsewhere");
+  end("the mounting of the LiDAR changed");
   T_base_lidar_ = T_base_lidar;
   is_placed_ = true;
 }
@@ -47,7 +47,7 @@ urban_nav_live::StageReport LiveLaserOdometry::report() const {
   report.status = newest_.status;
   report.reason_name = toString(static_cast<Reason>(newest_.status.reason));
   if (!odometry_ || !fault_.empty()) {
-    report.status.health = urban_nav_core::Health::Ok;  // of no sweep; the warning counts
+    report.status.health = urban_nav_core::Health::Ok;  // no sweep; the warning below determines the level
     report.summary = fault_.empty() ? waiting_ : fault_;
     report.is_warning = true;
   }

@@ -12,24 +12,24 @@
 
 namespace laser_odometry {
 
-/// Laser odometry of a live robot: one object for each session, and figures for the operator. Used by one thread.
+/// Laser odometry of a live robot: one object per session, and a report for the operator. Used by one thread.
 class LiveLaserOdometry {
  public:
   using Listener = std::function<void(const LaserPose& pose, double process_ms)>;
 
-  /// `robot`, `recording`: parts of the ids of sessions; may be empty.
+  /// `robot`, `recording`: parts of the session ids; may be empty.
   LiveLaserOdometry(const Parameters& parameters, Listener listener, const std::string& robot = "",
                     std::string recording = "")
       : parameters_(parameters), listener_(std::move(listener)), recording_(std::move(recording)), namer_(robot) {}
 
-  /// Sets where the LiDAR is mounted. Another place than before ends the session.
+  /// Sets the pose of the LiDAR on the robot. A change ends the session.
   void place(const urban_nav_core::Pose& T_base_lidar);
-  /// Processes a sweep. The first one begins a session; so does one whose reference is more than a second before the
-  /// newest. Requires place().
+  /// Processes a sweep. The first one begins a session, as does a sweep whose reference is more than a second before
+  /// the newest. Requires place().
   void process(const urban_nav_core::Sweep& sweep);
   /// Ends the session. `why`: for the report.
   void end(const std::string& why);
-  /// Sets the reason for which sweeps cannot be used; empty: none.
+  /// Sets the reason why sweeps cannot be used; empty: no fault.
   void setFault(const std::string& fault) { fault_ = fault; }
 
   bool isPlaced() const { return is_placed_; }
@@ -39,7 +39,7 @@ class LiveLaserOdometry {
   const urban_nav_core::OdometrySessionPtr& session() const { return session_; }
   /// Returns the planes of the local map; empty without a session.
   std::vector<MapPoint> localMap() const;
-  /// Returns the state for the operator: a warning while there is no session.
+  /// Returns the report for the operator: a warning while there is no session.
   urban_nav_live::StageReport report() const;
 
  private:

@@ -9,7 +9,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on a separate line.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -19,14 +19,14 @@ const Table<NodeletParameters>& nodeletTable() {
           {"base_frame", &P::base_frame, "", urban_nav_core::frames::kBaseLink, false, false, {},
            "Frame of the robot.", "REP-105"},
           {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
-           "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
+           "Frame of the odometry; its origin is the first base_link.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", false, false, true, {},
-           "Whether to publish odom_frame to base_frame on /tf: only where this is the odometry of the robot.",
+           "Whether to publish odom_frame to base_frame on /tf: only if this is the robot's odometry.",
            "REP-105"},
           {"robot", &P::robot, "", "", false, false, {},
-           "Name of the robot, a part of the ids of its sessions.", "docs/architecture.md"},
+           "Name of the robot, part of the session ids.", "docs/architecture.md"},
           {"recording", &P::recording, "", "", false, false, {},
-           "Name of the recording, a part of the ids of its sessions; a second round of it is \"NAME (2)\".",
+           "Name of the recording, part of the session ids; a second run of it is \"NAME (2)\".",
            "docs/architecture.md"},
           {"deskewed", &P::deskewed, "", false, false, true, {},
            "Whether the driver has compensated the motion within a sweep already.", "docs/architecture.md"},

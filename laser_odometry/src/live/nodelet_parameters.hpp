@@ -7,7 +7,7 @@
 
 namespace laser_odometry {
 
-/// Parameters of the nodelet apart from those of the stage (laser_odometry/parameters.hpp). One member per row of
+/// Parameters of the nodelet besides those of the stage (laser_odometry/parameters.hpp). One member per row of
 /// nodeletTable().
 struct NodeletParameters {
   std::string base_frame, odom_frame;

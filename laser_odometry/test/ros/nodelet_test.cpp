@@ -19,7 +19,7 @@
 namespace laser_odometry::test {
 namespace {
 
-/// A sweep as Velodyne's driver writes it: the header has the time of the last point.
+/// A sweep as published by Velodyne's driver: the header has the time of the last point.
 sensor_msgs::PointCloud2 toVelodyneCloud(const Sweep& sweep) {
   sensor_msgs::PointCloud2 cloud;
   cloud.header.stamp = urban_nav_ros::toRosTime(sweep.reference + 50'000'000);
@@ -58,7 +58,7 @@ sensor_msgs::PointCloud2 toVelodyneCloud(const Sweep& sweep) {
   return cloud;
 }
 
-/// A robot that publishes, and a listener that keeps everything.
+/// A robot that publishes, and a listener that records everything.
 class LaserGraph : public urban_nav_ros::testing::Listener {
  public:
   LaserGraph() : Listener("laser_odometry"), receipts_("laser_odometry") {
@@ -98,7 +98,7 @@ TEST(LaserOdometryNodelet, FollowsADriveAndSaysWhatIsWrong) {
   const SpinningLidar lidar{16, 900, -20.0, 12.0, 0.1, 0.01, T_base_lidar};
   const auto motion = makeDrive(0.8, 0.2);
 
-  graph.show(lidar.scan(world, motion, 0.0, 1));  // before the place of the LiDAR is known
+  graph.show(lidar.scan(world, motion, 0.0, 1));  // before the pose of the LiDAR is known
   const auto named = [&] {
     for (const auto& array : graph.diagnostics)
       for (const auto& status : array.status)

@@ -17,7 +17,7 @@ using urban_nav_core::Sweep;
 using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
-/// A half space, or the inside or outside of a box: enough to build rooms and streets. Surfaces are exact planes.
+/// A half space, or the inside or outside of a box: elements of rooms and streets. Surfaces are exact planes.
 struct Wall {
   Vector3d low, high;  ///< corners of an axis-parallel box, m
 };
@@ -67,7 +67,7 @@ inline BoxWorld makeStreet(std::uint64_t seed) {
   return world;
 }
 
-/// A smooth tunnel along x, 6 m wide and 5 m high, without end.
+/// A smooth, infinite tunnel along x, 6 m wide and 5 m high.
 inline BoxWorld makeTunnel() {
   BoxWorld world;
   world.boxes.push_back({{-500, -10, -1}, {500, 10, 0}});
@@ -77,7 +77,7 @@ inline BoxWorld makeTunnel() {
   return world;
 }
 
-/// Level ground without end.
+/// Infinite level ground.
 inline BoxWorld makeField() {
   BoxWorld world;
   world.boxes.push_back({{-500, -500, -1}, {500, 500, 0}});
@@ -98,8 +98,7 @@ inline BoxWorld makeRoom() {
   return world;
 }
 
-/// A spinning LiDAR on a moving base: rings of beams from backwards over the left... to backwards, each at its own
-/// time.
+/// A spinning LiDAR on a moving base: rings of beams from backwards over the left... to backwards, each with its time.
 struct SpinningLidar {
   int rings = 16, columns = 900;
   double lowest_deg = -20.0, highest_deg = 12.0;
@@ -151,7 +150,7 @@ inline std::function<Pose(double)> makeDrive(double speed, double rate) {
   };
 }
 
-/// The same with a sway of `amplitude` (rad) in roll at `hz`, as of a vehicle on soft springs.
+/// makeDrive() with a sway of `amplitude` (rad) in roll at `hz`, as of a vehicle on soft springs.
 inline std::function<Pose(double)> makeSwayingDrive(double speed, double amplitude, double hz) {
   const std::function<Pose(double)> drive = makeDrive(speed, 0.0);
   return [drive, amplitude, hz](double t) {

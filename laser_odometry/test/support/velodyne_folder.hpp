@@ -16,7 +16,8 @@
 
 namespace laser_odometry {
 
-/// Raw sweeps of KITTI with the true poses of the left camera. The base has the camera's place and the axes of REP-103.
+/// Raw sweeps of KITTI with the true poses of the left camera. The base has the position of the camera and the axes of
+/// REP-103.
 struct VelodyneFolder {
   std::vector<std::string> files;
   std::vector<urban_nav_core::StampNs> times;

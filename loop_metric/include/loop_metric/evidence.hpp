@@ -10,20 +10,21 @@
 
 namespace loop_metric {
 
-/// Reasons of a verdict, small enough to be stored for every candidate; shown by `urban_nav why`.
+/// Data of a verdict, small enough to be stored for every candidate; shown by `urban_nav why`.
 struct Evidence {
   struct Try {
     urban_nav_core::ClosureMethod method = urban_nav_core::ClosureMethod::None;
     urban_nav_core::PoseRef keyframe_a,
-        keyframe_b;  ///< of stereo: whose keyframes were matched; of icp: the moments of the clouds
+        keyframe_b;  ///< stereo: matched keyframes; icp: poses of the clouds
     urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Rejected;
     std::string reason, sentence;
     std::vector<urban_nav_registration::ClosureTest> tests;
-    std::vector<urban_nav_registration::MatchedPixels> pixels;  ///< of stereo, at most a hundred, spread over all
-    std::optional<urban_nav_core::Pose> guess, T_a_b;  ///< of icp: where it began, and where it ended, right or not
+    std::vector<urban_nav_registration::MatchedPixels> pixels;  ///< stereo: at most a hundred, evenly selected
+    std::optional<urban_nav_core::Pose> guess, T_a_b;           ///< icp: initial and final pose, accepted or not
   };
   std::vector<Try> tries;
-  std::vector<urban_nav_registration::ClosureTest> gate;  ///< of the transform against odometry and its neighbours
+  std::vector<urban_nav_registration::ClosureTest> gate;  ///< tests of the transform against odometry and neighbouring
+                                                          ///< closures
 };
 
 /// Returns the evidence of a measured closure.
@@ -33,7 +34,7 @@ Evidence collectEvidence(const CandidateMeasurement& measurement);
 std::string printEvidence(const Evidence& evidence);
 /// Parses printEvidence(). Throws DataError naming the line for any other text.
 Evidence parseEvidence(std::string_view text);
-/// Returns the part of a longer text that printEvidence() wrote, up to its end; empty if there is none.
+/// Returns the part of a longer text written by printEvidence(), up to its end; empty if there is none.
 std::string_view evidenceIn(std::string_view text);
 
 }  // namespace loop_metric

@@ -13,13 +13,13 @@
 
 namespace loop_metric {
 
-/// Reason why a candidate has no transform. Numbers are stored: new ones are appended.
+/// Reason for a rejected candidate. Values are stored: append new ones at the end.
 enum class LoopReason {
   None = 0,           ///< accepted
   UnknownMoment = 1,  ///< one of the poses is outside its session, or the session is unknown
-  NothingKept = 2,    ///< neither keyframes nor clouds of one of the poses
+  NothingKept = 2,    ///< neither keyframes nor clouds are stored for one of the poses
   NotRegistered = 3,  ///< neither keyframes nor clouds gave a transform
-  Odometry = 4,       ///< odometry does not allow the transform
+  Odometry = 4,       ///< the transform is inconsistent with odometry
   Contradicted = 5,   ///< neighbouring closures contradict it
   OtherPlace = 6,     ///< the transform is valid, but the poses are too far apart for one place
 };
@@ -34,10 +34,10 @@ struct StereoAttempt {
 
 /// Attempts to register the views and clouds of a candidate: the data of its verdict.
 struct RegistrationAttempts {
-  std::vector<StereoAttempt> stereo;  ///< in the order in which they were made; the last is the accepted one, if any is
-  std::optional<urban_nav_registration::Alignment> icp;    ///< where clouds were aligned: source b, target a
-  urban_nav_core::Pose icp_guess;                          ///< T_a_b from which the alignment began
-  std::vector<urban_nav_registration::ClosureTest> tests;  ///< of the transform against odometry
+  std::vector<StereoAttempt> stereo;  ///< in order of execution; the last one is the accepted one, if any
+  std::optional<urban_nav_registration::Alignment> icp;    ///< if clouds were aligned: source b, target a
+  urban_nav_core::Pose icp_guess;                          ///< initial T_a_b of the alignment
+  std::vector<urban_nav_registration::ClosureTest> tests;  ///< tests of the transform against odometry
 };
 
 /// Result of LoopMetric::measure(). `metric.evidence` is printEvidence() of both (evidence.hpp).
@@ -50,9 +50,9 @@ struct CandidateMeasurement {
 /// keyframes of the place can be registered (4.1), otherwise by the clouds of the lasers around both poses (4.2:
 /// opposite direction of travel). The result is compared with the odometry between the poses.
 ///
-/// Requires that both poses have the same camera. Failure of any kind is a verdict with a sentence; only exceptions of
-/// PlaceData pass through. The same candidate with the same data gives the same bits, whatever came before. Not thread-
-/// safe; objects are independent.
+/// Requires that both poses have the same camera. Any failure is a verdict with a sentence; only exceptions of
+/// PlaceData are passed on. Stateless: the same candidate with the same data gives bit-identical results. Not
+/// thread-safe; different objects are independent.
 class LoopMetric {
  public:
   LoopMetric(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
@@ -61,14 +61,14 @@ class LoopMetric {
   CandidateMeasurement measure(const urban_nav_core::TopologicalClosure& candidate, const PlaceData& place_data);
 
  private:
-  friend class Measuring;  // one candidate on its way to a verdict
+  friend class Measuring;  // measurement of one candidate
   const urban_nav_registration::StereoClosure& match(const NearbyKeyframe& a, const NearbyKeyframe& b,
                                                      const PlaceData& place_data);
 
   Parameters parameters_;
   urban_nav_core::Pose T_base_left_;
   urban_nav_registration::StereoMatcher matcher_;
-  std::list<StereoAttempt> matched_;  // the last ones: candidates half a second apart choose the same views
+  std::list<StereoAttempt> matched_;  // most recent ones: candidates half a second apart use the same keyframes
 };
 
 }  // namespace loop_metric

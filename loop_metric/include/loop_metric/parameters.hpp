@@ -8,19 +8,19 @@ namespace loop_metric {
 
 /// Parameters of loop closures; one member per row of table(), and those of the registration.
 struct Parameters {
-  bool stereo;                      // try it
-  bool icp;                         // try it where stereo fails
+  bool stereo;                      // enabled
+  bool icp;                         // enabled, used if stereo fails
   int stereo_tries;                 // pairs of views
   double keyframe_search_distance;  // m
   double place_radius;              // m
   double gate;                      // standard deviations
 
-  urban_nav_registration::Parameters registration;  ///< not part of table(): a table of its own
+  urban_nav_registration::Parameters registration;  ///< in a separate table
 
   Parameters();
 };
 
-/// The table: the only definition of the defaults, ranges, units and descriptions of these parameters.
+/// The parameter table: the single source of defaults, ranges, units and descriptions.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace loop_metric

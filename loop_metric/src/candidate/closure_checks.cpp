@@ -15,7 +15,7 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-// s between closures that are compared, as in consistency.hpp.
+// Maximum time between compared closures, s, as in consistency.hpp.
 constexpr double kMaxNeighbourTime = 120.0;
 
 bool areNeighbours(const PoseRef& one, const PoseRef& other) {

@@ -19,16 +19,17 @@ using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
-constexpr double kNearClosureWay = 30.0;          // m: over which odometry is good to some centimetres
-constexpr double kClosureMetresPerRadian = 10.0;  // for directions of which a closure knows nothing
-constexpr double kNearTime = 120.0;               // s: nor does it take longer
+constexpr double kNearPathLength = 30.0;          // m: path length over which the error of odometry is a few
+                                                  // centimetres
+constexpr double kClosureMetresPerRadian = 10.0;  // for directions without information in a closure
+constexpr double kNearTime = 120.0;               // s: maximum time for this path
 
 PoseWithCovariance toMeasured(const MetricClosure& closure) {
   return {closure.measured.T_a_b,
           urban_nav_core::covarianceForDisplay(closure.measured.information, kClosureMetresPerRadian)};
 }
 
-/// Empty where the two are no neighbours; else root mean square deviations of their ring.
+/// Returns the root mean square deviation of the loop of two closures; empty if they are not neighbours.
 std::optional<double> computeRing(const MetricClosure& i, const MetricClosure& j, const PlaceData& place_data,
                                   const Parameters& parameters) {
   const auto apart = [](const urban_nav_core::PoseRef& x, const urban_nav_core::PoseRef& y) {
@@ -36,7 +37,7 @@ std::optional<double> computeRing(const MetricClosure& i, const MetricClosure& j
   };
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
   const auto along_a = place_data.between(i.a, j.a), along_b = place_data.between(i.b, j.b);
-  if (!along_a || !along_b || along_a->length > kNearClosureWay || along_b->length > kNearClosureWay)
+  if (!along_a || !along_b || along_a->length > kNearPathLength || along_b->length > kNearPathLength)
     return std::nullopt;
   const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.registration.odometry_scale).T_a_b(),
                            T_bi_bj = OdometryGate(*along_b, parameters.registration.odometry_scale).T_a_b();
@@ -77,8 +78,8 @@ std::vector<Neighbours> pairwiseConsistencyCheck(std::vector<MetricClosure>& clo
     closure.verdict = ClosureVerdict::Rejected;
     closure.reason = static_cast<int>(LoopReason::Contradicted);
     closure.reason_name = toString(LoopReason::Contradicted);
-    closure.sentence = std::to_string(counts[worst].contradicting) + " closures beside it say something else, " +
-                       std::to_string(counts[worst].agreeing) + " agree";
+    closure.sentence = "contradicted by " + std::to_string(counts[worst].contradicting) +
+                       " neighbouring closures, supported by " + std::to_string(counts[worst].agreeing);
     closure.measured.information.setZero();
     for (const auto& [pair, agrees] : agree)
       for (const auto& [one, other] : {pair, std::make_pair(pair.second, pair.first)})

@@ -12,15 +12,15 @@ using urban_nav_core::PoseWithCovariance;
 namespace {
 
 constexpr double kWidestTurn =
-    1.05;  // rad, 60 deg: two views with less than a third of the image in common are not matched
-constexpr double kPairMetresPerRadian =
-    4.0;                              // a turn costs as many matches as this way, at a field of view of some 65 deg
-constexpr double kUsefulSigma = 2.0;  // m: odometry that knows less does not tell which views are near each other
-constexpr double kDoubts = 3.0;       // standard deviations
+    1.05;  // rad, 60 deg: with less than a third of the image in common, keyframes are not matched
+constexpr double kPairMetresPerRadian = 4.0;  // effect of a rotation on the number of matches, as a distance, for a
+                                              // field of view of about 65 deg
+constexpr double kUsefulSigma = 2.0;          // m: with less accurate odometry, the nearest keyframes are unknown
+constexpr double kDoubts = 3.0;               // standard deviations for certainly different headings
 
-const NearbyKeyframe& nearestView(const std::vector<NearbyKeyframe>& views, double way) {
-  return *std::min_element(views.begin(), views.end(), [way](const NearbyKeyframe& x, const NearbyKeyframe& y) {
-    return std::abs(x.way - way) < std::abs(y.way - way);
+const NearbyKeyframe& nearestView(const std::vector<NearbyKeyframe>& views, double offset) {
+  return *std::min_element(views.begin(), views.end(), [offset](const NearbyKeyframe& x, const NearbyKeyframe& y) {
+    return std::abs(x.path_offset - offset) < std::abs(y.path_offset - offset);
   });
 }
 
@@ -28,7 +28,7 @@ double largestSigma(const PoseWithCovariance& pose, int half) {
   return std::sqrt(pose.covariance.diagonal().segment<3>(3 * half).maxCoeff());
 }
 
-/// How the views lie to each other, if the moments do as `T_a_b` says.
+/// Returns the relative pose of two keyframes for the relative pose `T_a_b` of the closure's poses.
 Pose between(const Pose& T_a_b, const NearbyKeyframe& a, const NearbyKeyframe& b) {
   return a.T_place_keyframe.pose.inverse() * T_a_b * b.T_place_keyframe.pose;
 }
@@ -38,7 +38,9 @@ double turn(const Pose& T) {
 }
 
 void add(std::vector<KeyframePair>& pairs, const NearbyKeyframe& a, const NearbyKeyframe& b) {
-  if (a.at == b.at) return;  // beside both moments: what it says of itself is odometry's, and looks sure
+  if (a.at == b.at)
+    return;  // near both poses: a match with itself only reproduces odometry, with too small a
+             // covariance
   for (const KeyframePair& pair : pairs)
     if (pair.a.at == a.at && pair.b.at == b.at) return;
   pairs.push_back({a, b});
@@ -48,7 +50,7 @@ void add(std::vector<KeyframePair>& pairs, const NearbyKeyframe& a, const Nearby
 
 std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>& views_a,
                                               const std::vector<NearbyKeyframe>& views_b,
-                                              const std::optional<PoseWithCovariance>& T_a_b, double way,
+                                              const std::optional<PoseWithCovariance>& T_a_b, double search_distance,
                                               std::size_t most) {
   std::vector<KeyframePair> pairs;
   if (views_a.empty() || views_b.empty()) return pairs;
@@ -71,7 +73,7 @@ std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>&
     if (largestSigma(*T_a_b, 0) < kUsefulSigma) pairs.push_back(*best);
   }
   add(pairs, a, b);
-  for (const double along : {-0.5 * way, 0.5 * way}) add(pairs, nearestView(views_a, along), b);
+  for (const double along : {-0.5 * search_distance, 0.5 * search_distance}) add(pairs, nearestView(views_a, along), b);
   if (pairs.size() > most) pairs.resize(most);
   return pairs;
 }

@@ -14,9 +14,11 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kLeastSigma = 1e-4;           // m, rad: between moments of one frame odometry claims to know all
-constexpr double kGateMetresPerRadian = 10.0;  // what tells known directions from free ones must not depend on units
-constexpr double kKnown = 1e-9;                // of the best known direction
+constexpr double kLeastSigma = 1e-4;           // m, rad: lower limit, as odometry between poses of one frame has no
+                                               // covariance
+constexpr double kGateMetresPerRadian = 10.0;  // makes the distinction of known and free directions independent of
+                                               // units
+constexpr double kKnown = 1e-9;                // relative to the best known direction
 
 int directionsKnown(const Matrix6d& information) {
   Vector6d units;
@@ -32,7 +34,7 @@ int directionsKnown(const Matrix6d& information) {
 double rootMeanDeviation(const Vector6d& d, const Matrix6d& covariance, const Matrix6d& information) {
   const int directions = directionsKnown(information);
   if (directions == 0) return 0.0;
-  // (C + W^-1)^-1 = W - W (W + C^-1)^-1 W also where W is singular.
+  // (C + W^-1)^-1 = W - W (W + C^-1)^-1 W, also valid for singular W.
   const auto prior = urban_nav_core::invertPositiveDefinite(covariance);
   if (!prior) return 0.0;
   const auto both = urban_nav_core::invertPositiveDefinite(Matrix6d(information + *prior));
@@ -41,8 +43,8 @@ double rootMeanDeviation(const Vector6d& d, const Matrix6d& covariance, const Ma
   return std::sqrt(std::max(0.0, d.dot(w) - w.dot(*both * w)) / directions);
 }
 
-OdometryGate::OdometryGate(const PlaceData::Way& way, double scale) : T_a_b_(way.T_a_b) {
-  const double common = scale * way.length;
+OdometryGate::OdometryGate(const PlaceData::OdometryPath& path, double scale) : T_a_b_(path.T_a_b) {
+  const double common = scale * path.length;
   T_a_b_.covariance.diagonal().head<3>().array() += common * common + kLeastSigma * kLeastSigma;
   T_a_b_.covariance.diagonal().tail<3>().array() += kLeastSigma * kLeastSigma;
 }

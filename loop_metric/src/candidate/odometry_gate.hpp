@@ -5,28 +5,29 @@
 
 namespace loop_metric {
 
-/// Odometry's word on how two moments lie to each other, to hold transforms against.
+/// Test of measured transforms against odometry between two poses.
 class OdometryGate {
  public:
-  /// `scale`: what may be wrong with all steps in common, as a share of the way, is added to the covariance: the chain
-  /// does not know it.
-  OdometryGate(const PlaceData::Way& way, double scale);
+  /// `scale`: error common to all steps, as a share of the path length; added to the covariance, as it is not part of
+  /// that of the chain.
+  OdometryGate(const PlaceData::OdometryPath& path, double scale);
 
-  /// The same with that error in it.
+  /// Returns odometry with that error included.
   const urban_nav_core::PoseWithCovariance& T_a_b() const { return T_a_b_; }
 
-  /// Root mean square of the difference between `measured` and odometry, in standard deviations, over the directions
-  /// that `measured` knows anything of: 1 is usual. 0 where it knows nothing.
+  /// Returns the root mean square difference between `measured` and odometry, in standard deviations, over the
+  /// directions with information in `measured`; the expected value is 1. 0 without information.
   double deviations(const urban_nav_core::Constraint& measured) const;
-  /// m by which the moments are apart at least, if odometry is wrong by at most so many standard deviations.
+  /// Returns the minimum distance of the poses, m, for an error of odometry of at most this number of standard
+  /// deviations.
   double leastDistance(double deviations) const;
 
  private:
   urban_nav_core::PoseWithCovariance T_a_b_;
 };
 
-/// Mean of d^T (covariance + information^-1)^-1 d over the directions with information, its root. `information` may be
-/// singular.
+/// Returns the root of the mean of d^T (covariance + information^-1)^-1 d over the directions with information.
+/// `information` may be singular.
 double rootMeanDeviation(const urban_nav_core::Vector6d& d, const urban_nav_core::Matrix6d& covariance,
                          const urban_nav_core::Matrix6d& information);
 

@@ -15,18 +15,18 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double kLeastCloudShare = 1e-3;  // so that a standing robot does not repeat its information
+constexpr double kLeastCloudShare = 1e-3;  // limits the repetition of information by a standing robot
 
 bool isOfClouds(const MetricClosure& closure) {
   return closure.verdict == ClosureVerdict::Accepted && closure.method == ClosureMethod::Icp;
 }
 
-/// Returns the distance from the cloud around `x` to that around `y` along the drive, in lengths of a cloud; nullopt if
+/// Returns the distance from the cloud around `x` to that around `y` along the path, in lengths of a cloud; nullopt if
 /// they do not overlap.
 std::optional<double> shift(const PoseRef& x, const PoseRef& y, const PlaceData& place_data, double length) {
-  const auto way = place_data.between(x, y);
-  if (!way || !(way->length < length)) return std::nullopt;
-  return (y.stamp < x.stamp ? -1.0 : 1.0) * way->length / length;
+  const auto path = place_data.between(x, y);
+  if (!path || !(path->length < length)) return std::nullopt;
+  return (y.stamp < x.stamp ? -1.0 : 1.0) * path->length / length;
 }
 
 /// Shift of a unit square relative to another one that it overlaps.
@@ -34,7 +34,7 @@ struct Shift {
   double at_a, at_b;
 };
 
-/// Returns whether a shift is in the list already, as all are for a standing robot.
+/// Returns whether a shift is already in the list, which is the case for a standing robot.
 bool isAmong(const std::vector<Shift>& covered, const Shift& shift) {
   constexpr double kSame = 1e-3;
   return std::any_of(covered.begin(), covered.end(), [&](const Shift& other) {
@@ -42,7 +42,7 @@ bool isAmong(const std::vector<Shift>& covered, const Shift& shift) {
   });
 }
 
-/// Returns the share of the unit square that none of the shifted ones covers.
+/// Returns the share of the unit square not covered by the shifted ones.
 double uncovered(const std::vector<Shift>& others) {
   std::vector<double> edges{0.0, 1.0};
   for (const Shift& other : others) edges.push_back(other.at_a < 0.0 ? 1.0 + other.at_a : other.at_a);
@@ -67,7 +67,7 @@ double uncovered(const std::vector<Shift>& others) {
 void discountSharedClouds(std::vector<MetricClosure>& closures, const PlaceData& place_data,
                           const Parameters& parameters) {
   const double length = 2.0 * parameters.registration.cloud_half_length;
-  // Share of the cloud around one moment that is in the cloud around the other.
+  // Share of the cloud around one pose that is in the cloud around the other.
   const auto common = [&](const PoseRef& x, const PoseRef& y) {
     const auto shifted = shift(x, y, place_data, length);
     return shifted ? 1.0 - std::abs(*shifted) : 0.0;

@@ -16,7 +16,7 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double kLeastViewShare = 1e-3;  // not nothing: information that is zero says that nothing was measured
+constexpr double kLeastViewShare = 1e-3;  // not zero: zero information means that nothing was measured
 
 auto orderKey(const PoseRef& at) { return std::tie(at.session, at.stamp); }
 

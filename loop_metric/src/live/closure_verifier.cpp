@@ -26,12 +26,12 @@ using urban_nav_store::SessionId;
 namespace {
 
 constexpr std::size_t kMaxInputs = 100'000;  // over an hour of odometry at 20 Hz, while a candidate is measured
-// s; odometry lags by seconds at most, so that it will not reach a pose further ahead.
+// s: odometry lags by seconds at most, so that a pose further ahead will not be reached.
 constexpr double kMaxAhead = 60.0;
 
 double secondsAfter(StampNs stamp, StampNs reference) { return 1e-9 * static_cast<double>(stamp - reference); }
 
-/// Returns the name by which place data knows a gapless part of a session.
+/// Returns the name of a gapless part of a session in the place data.
 std::string partName(const SessionId& id, std::size_t part) {
   return part == 0 ? id : id + "#" + std::to_string(part + 1);
 }
@@ -96,7 +96,7 @@ void ClosureVerifier::handle(Input& input) {
 void ClosureVerifier::setCamera(const MountedCamera& camera) {
   camera_ = camera;
   stage_.reset();
-  // Whether the camera of another session is this one has to be read again.
+  // Conversions of other sessions depend on the camera and must be computed again.
   for (auto each = sessions_.begin(); each != sessions_.end();)
     each = each->first == running_ ? std::next(each) : sessions_.erase(each);
   if (!running_.empty()) sessions_[running_].has_camera = true, sessions_[running_].conversion = nullptr;
@@ -130,23 +130,23 @@ void ClosureVerifier::endSession(const SessionStarted* next) {
   session.id = running_;
   session.has_camera = camera_.has_value();
   session.conversion = nullptr;
-  session.lasers.clear();  // the recorder reports them again
+  session.lasers.clear();  // reported again by the recorder
   outdated_ = true;
   last_step_ = Clock::now();
 }
 
-/// Recognition of places may name the session that begins next before its odometry comes here.
+/// Place recognition may refer to the next session before its odometry arrives here.
 bool ClosureVerifier::isKnown(const PoseRef& at) {
   if (at.session.empty() || sessions_.count(at.session) > 0) return true;
   try {
     return reader_ && reader_->sessions().find(at.session);
   } catch (const urban_nav_core::Error&) {
-    return true;  // it is named when the candidate is measured
+    return true;  // reported when the candidate is measured
   }
 }
 
-/// A candidate is due if neither pose is of the running session, or if the robot has driven on from the later one by
-/// the extent of a cloud (of the keyframe search, without lasers), or has had the time to, or if odometry has ended.
+/// A candidate is due if neither pose is of the running session, or if the robot has driven on from the later pose by
+/// the extent of a cloud (of the keyframe search, without lasers) or has had the time for it, or if odometry has ended.
 bool ClosureVerifier::isDue(const Candidate& candidate) {
   StampNs later = 0;
   for (const PoseRef* at : {&candidate.closure.a, &candidate.closure.b})
@@ -184,7 +184,7 @@ void ClosureVerifier::verify(const Candidate& candidate, bool by_id) {
   try {
     measurement = measure(candidate.closure);
     if (place_data_) checks_.apply(measurement.metric, *place_data_, parameters_);
-  } catch (const urban_nav_core::Error& error) {  // the data of this place is damaged or cannot be read
+  } catch (const urban_nav_core::Error& error) {  // data of this place is damaged or cannot be read
     measurement.metric = {};
     measurement.metric.probability = candidate.closure.probability;
     measurement.metric.source = "loop_metric";
@@ -193,8 +193,8 @@ void ClosureVerifier::verify(const Candidate& candidate, bool by_id) {
   report(candidate, measurement, by_id, begin);
 }
 
-/// Poses are reported by the frames of odometry, sessions as the candidate names them: a pose without a name is of the
-/// running session, whatever its id.
+/// Reports poses by the frames of odometry, and sessions by the names in the candidate: a pose without a name belongs
+/// to the running session, irrespective of its id.
 void ClosureVerifier::report(const Candidate& candidate, CandidateMeasurement& measurement, bool by_id,
                              Clock::time_point begin) {
   MetricClosure& reported = measurement.metric;
@@ -221,8 +221,8 @@ void ClosureVerifier::report(const Candidate& candidate, CandidateMeasurement& m
              std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
 }
 
-/// While writes wait for the disk, keyframes have been announced that cannot be read. Then, and once more when the
-/// store is in order again, its contents are read anew and results of missing keyframes are dropped.
+/// Keyframes of pending writes are announced but cannot be read yet. During a fault of the store, and once after it,
+/// the contents are read again and results of missing keyframes are dropped.
 void ClosureVerifier::followStore() {
   store_.flush();
   std::string fault = store_.state().fault;
@@ -236,25 +236,25 @@ void ClosureVerifier::followStore() {
 CandidateMeasurement ClosureVerifier::measure(const TopologicalClosure& closure) {
   followStore();
   TopologicalClosure candidate{resolve(closure.a), resolve(closure.b), closure.probability};
-  CandidateMeasurement made;
-  made.metric.a = candidate.a;
-  made.metric.b = candidate.b;
-  made.metric.probability = candidate.probability;
-  made.metric.source = "loop_metric";
+  CandidateMeasurement result;
+  result.metric.a = candidate.a;
+  result.metric.b = candidate.b;
+  result.metric.probability = candidate.probability;
+  result.metric.source = "loop_metric";
   if (!reader_) {
-    reject(made.metric, LoopReason::NothingKept,
-           "nothing is kept: " + (store_fault_.empty() ? "no store yet" : store_fault_));
-    return made;
+    reject(result.metric, LoopReason::NothingKept,
+           "no stored data: " + (store_fault_.empty() ? "no store yet" : store_fault_));
+    return result;
   }
   if (running_.empty() && (closure.a.session.empty() || closure.b.session.empty())) {
-    reject(made.metric, LoopReason::UnknownMoment, "no odometry has come: no session is being recorded");
-    return made;
+    reject(result.metric, LoopReason::UnknownMoment, "no odometry received: no session is being recorded");
+    return result;
   }
   if (outdated_) renewPlaceData();
-  made = stage_->measure(candidate, *place_data_);
-  if (!store_fault_.empty() && made.metric.verdict == ClosureVerdict::Rejected)
-    made.metric.sentence += "; what came last is not in the store: " + store_fault_;
-  return made;
+  result = stage_->measure(candidate, *place_data_);
+  if (!store_fault_.empty() && result.metric.verdict == ClosureVerdict::Rejected)
+    result.metric.sentence += "; the latest data is not in the store: " + store_fault_;
+  return result;
 }
 
 void ClosureVerifier::openReader() {

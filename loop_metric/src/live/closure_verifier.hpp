@@ -22,15 +22,15 @@
 
 namespace loop_metric {
 
-/// Takes live candidates to their verdicts in a thread of its own. Each candidate waits until the robot has driven on
-/// by what its clouds may need (isDue), is measured with the contents of the store, and is checked against the closures
-/// accepted before it. Thread-safe.
+/// Measures live candidates in a separate thread. Each candidate waits until the robot has driven on by the length that
+/// its clouds need (isDue), is measured with the contents of the store, and is checked against earlier accepted
+/// closures. Thread-safe.
 class ClosureVerifier {
  public:
-  /// The recorder has begun a session.
+  /// Event: the recorder has started a session.
   struct SessionStarted {
     urban_nav_store::SessionId id;
-    bool continues = false;  ///< after the odometry that the store has of it
+    bool continues = false;  ///< the session continues after the odometry in the store
   };
   struct KeyframeStored {
     urban_nav_core::StampNs stamp = 0;
@@ -42,46 +42,46 @@ class ClosureVerifier {
   using Input = std::variant<urban_nav_core::RelativePose, Candidate, SessionStarted, KeyframeStored,
                              urban_nav_registration::LaserAt, urban_nav_registration::MountedCamera>;
 
-  /// A verdict, and access to the data of its picture.
+  /// A verdict, with access to the data of its picture.
   struct Verdict {
     urban_nav_core::MetricClosure metric;
     const RegistrationAttempts& attempts;
-    /// By the references in `attempts.stereo`.
+    /// Keyframes by the references in `attempts.stereo`.
     std::function<urban_nav_registration::Keyframe(const urban_nav_core::PoseRef&)> keyframe;
-    /// By the poses of `metric`.
+    /// Clouds by the poses of `metric`.
     std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> cloud;
     double ms = 0.0;
   };
-  /// Called in the thread of the verifier.
+  /// Called from the verifier's thread.
   using Listener = std::function<void(const Verdict&)>;
   struct Counts {
-    std::int64_t dropped = 0;  ///< inputs for which the queue had no room
+    std::int64_t dropped = 0;  ///< inputs dropped because the queue was full
     std::int64_t waiting = 0, stereo = 0, icp = 0, rejected = 0;
-    std::int64_t parts = 0;  ///< gapless parts of the running session's odometry
+    std::int64_t parts = 0;  ///< parts of the running session's odometry without gaps
   };
 
-  /// `timeout`: s that a candidate waits at most. `store` must outlive it.
+  /// `timeout`: maximum waiting time of a candidate, s. `store` must outlive this object.
   ClosureVerifier(const Parameters& parameters, double timeout, urban_nav_live::StoreWriterLink& store,
                   Listener listener);
-  /// Blocks until the candidate at work has its verdict; those that wait are dropped.
+  /// Blocks until the current candidate is measured; drops waiting ones.
   ~ClosureVerifier() { loop_.stop(); }
   ClosureVerifier(const ClosureVerifier&) = delete;
   ClosureVerifier& operator=(const ClosureVerifier&) = delete;
 
   void push(Input input) { loop_.push(std::move(input)); }
-  /// Ends the session: all candidates that wait are measured with what is stored. Blocks. Returns false on timeout.
+  /// Ends the session: measures all waiting candidates with the stored data. Blocks. Returns false on timeout.
   bool finishSession(std::chrono::milliseconds timeout);
   Counts counts() const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// A session that candidates may name, as far as it is known.
+  /// Data of a session that candidates may refer to.
   struct KnownSession {
     urban_nav_store::SessionId id;
     urban_nav_registration::SessionOdometry odometry;
     std::vector<urban_nav_registration::LaserAt> lasers;
     bool has_camera = false;
-    std::shared_ptr<const urban_nav_registration::KeyframeConversion> conversion = nullptr;  ///< to the present camera
+    std::shared_ptr<const urban_nav_registration::KeyframeConversion> conversion = nullptr;  ///< to the current camera
   };
 
   void handle(Input& input);
@@ -92,12 +92,12 @@ class ClosureVerifier {
   bool isDue(const Candidate& candidate);
   /// Returns false if no candidate is due.
   bool verifyNext();
-  /// `by_id`: the running session is named by its id, since another one is about to begin.
+  /// `by_id`: refers to the running session by its id, since another one is about to start.
   void verify(const Candidate& candidate, bool by_id);
   void report(const Candidate& candidate, CandidateMeasurement& measurement, bool by_id, Clock::time_point begin);
   CandidateMeasurement measure(const urban_nav_core::TopologicalClosure& closure);
   void followStore();
-  /// Returns the pose by the name of its part and the nearest frame of odometry.
+  /// Returns the pose with the name of its part and the nearest frame of odometry.
   urban_nav_core::PoseRef resolve(const urban_nav_core::PoseRef& at);
   void restoreName(urban_nav_core::PoseRef& at) const;
   void openReader();
@@ -109,15 +109,15 @@ class ClosureVerifier {
   urban_nav_live::StoreWriterLink& store_;
   const Listener listener_;
 
-  // Used by the thread alone.
+  // Members used by the thread only.
   std::optional<urban_nav_registration::MountedCamera> camera_;
   std::unique_ptr<LoopMetric> stage_;
   std::optional<urban_nav_store::Store> reader_;
   std::map<urban_nav_store::SessionId, KnownSession> sessions_;
-  urban_nav_store::SessionId running_;  // empty: none yet
+  urban_nav_store::SessionId running_;  // empty: none
   std::unique_ptr<StoredPlaceData> place_data_;
-  bool outdated_ = true;     // place_data_ lacks some of sessions_
-  std::string store_fault_;  // at the last candidate: writes that wait for the disk cannot be read
+  bool outdated_ = true;     // place_data_ does not contain all of sessions_
+  std::string store_fault_;  // at the last candidate: data of pending writes cannot be read
   std::deque<Candidate> waiting_;
   SequentialChecks checks_;
   Clock::time_point last_step_ = Clock::now();

@@ -36,7 +36,7 @@ const char* toString(StageFault fault) {
 
 std::string givenUp(std::int64_t candidates) {
   return std::to_string(candidates) +
-         " candidates of loop closures are given up: not measured within drain_s; raise it";
+         " candidates of loop closures were dropped: not measured within drain_s; raise it";
 }
 
 urban_nav_live::StageReport makeReport(const LoopsState& state) {

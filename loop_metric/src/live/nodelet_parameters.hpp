@@ -8,7 +8,8 @@
 
 namespace loop_metric {
 
-/// Parameters of the nodelet of loop closures alone: names, transport, timeout. One member per row of nodeletTable().
+/// Parameters of the nodelet besides those of the stage: names, transport, timeout. One member per row of
+/// nodeletTable().
 struct NodeletParameters : urban_nav_live::StereoInputParameters {
   std::string robot;
   std::string recording;

@@ -20,7 +20,7 @@ bool OdometryRows::write(const SessionId& session, const RelativePose& step, std
   if (!newest_ || step.from > newest_->stamp) {
     Node first;
     first.stamp = step.from;
-    // After a gap the chain continues where it ended, for lack of a better estimate.
+    // After a gap the chain continues from its last pose, as there is no better estimate.
     if (newest_) first.T_odom_base = newest_->T_odom_base;
     newest_ = first;
     nodes.push_back(first);

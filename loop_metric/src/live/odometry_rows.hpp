@@ -9,12 +9,13 @@
 
 namespace loop_metric {
 
-/// Steps of odometry as rows of the graph, equal to those of pose_graph, so that stores of one session merge.
+/// Converts steps of odometry to rows of the graph, equal to those of pose_graph, so that stores of one session can be
+/// merged.
 class OdometryRows {
  public:
   /// Continues from a pose of the store.
   void continueFrom(const urban_nav_store::Node& newest) { newest_ = newest; }
-  /// Makes the rows of a step. Returns false, and makes none, if the step is invalid or earlier than those before.
+  /// Creates the rows of a step. Returns false without rows if the step is invalid or earlier than the previous ones.
   bool write(const urban_nav_store::SessionId& session, const urban_nav_core::RelativePose& step,
              std::vector<urban_nav_store::Node>& nodes, std::optional<urban_nav_store::Edge>& edge);
 

@@ -21,7 +21,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-// What arrives before the first step of odometry, which comes a window of frames later: 25 s of two lasers at 75 Hz.
+// Data received before the first step of odometry, which is delayed by a window of frames: 25 s of two lasers at 75 Hz.
 constexpr std::size_t kMaxWritesBefore = 4000;
 
 }  // namespace
@@ -134,7 +134,7 @@ SessionNamer::Named SessionRecorder::nameSession(const SessionStep& first) {
     };
     return name(file.sessions().all(), endsAt);
   } catch (const urban_nav_core::Error&) {
-    return name({}, {});  // a store that cannot be read is named when it is written
+    return name({}, {});  // an unreadable store is reported when it is written
   }
 }
 

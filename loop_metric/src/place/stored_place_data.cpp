@@ -53,14 +53,14 @@ bool StoredPlaceData::knows(const PoseRef& at, std::string& why) const {
   return false;
 }
 
-std::vector<NearbyKeyframe> StoredPlaceData::views(const PoseRef& at, double way) const {
+std::vector<NearbyKeyframe> StoredPlaceData::views(const PoseRef& at, double distance) const {
   std::vector<NearbyKeyframe> views;
   const StoredSession* session = find(at);
   const auto stamps = stamps_.find(at.session);
   if (session == nullptr || stamps == stamps_.end() || !session->odometry->nearestFrame(at.stamp)) return views;
   const OdometryChain& odometry = *session->odometry;
   const double here = odometry.distance(at.stamp);
-  const auto [first, last] = stretchAround(odometry, at.stamp, way);
+  const auto [first, last] = stretchAround(odometry, at.stamp, distance);
   for (auto stamp = std::lower_bound(stamps->second.begin(), stamps->second.end(), first);
        stamp != stamps->second.end() && *stamp <= last; ++stamp) {
     auto T_place_keyframe = odometry.between(at.stamp, *stamp);
@@ -82,23 +82,23 @@ Keyframe StoredPlaceData::keyframe(const PoseRef& at) const {
   return stored && session->conversion ? session->conversion->convert(keyframe) : keyframe;
 }
 
-PointCloud StoredPlaceData::cloud(const PoseRef& at, double way) const {
+PointCloud StoredPlaceData::cloud(const PoseRef& at, double distance) const {
   const StoredSession* session = find(at);
   if (session == nullptr) return {};
-  return localCloud(*session->odometry, at.stamp, way, storedScans(scans_, session->id, session->lasers));
+  return localCloud(*session->odometry, at.stamp, distance, storedScans(scans_, session->id, session->lasers));
 }
 
-double StoredPlaceData::deformationSigma(const PoseRef& at, double way) const {
+double StoredPlaceData::deformationSigma(const PoseRef& at, double distance) const {
   const StoredSession* session = find(at);
-  return session == nullptr ? 0.0 : urban_nav_registration::deformationSigma(*session->odometry, at.stamp, way);
+  return session == nullptr ? 0.0 : urban_nav_registration::deformationSigma(*session->odometry, at.stamp, distance);
 }
 
-std::optional<PlaceData::Way> StoredPlaceData::between(const PoseRef& a, const PoseRef& b) const {
+std::optional<PlaceData::OdometryPath> StoredPlaceData::between(const PoseRef& a, const PoseRef& b) const {
   const StoredSession* session = find(a);
   if (session == nullptr || a.session != b.session) return std::nullopt;
   const auto T_a_b = session->odometry->between(a.stamp, b.stamp);
   if (!T_a_b) return std::nullopt;
-  return Way{*T_a_b, std::abs(session->odometry->distance(b.stamp) - session->odometry->distance(a.stamp))};
+  return OdometryPath{*T_a_b, std::abs(session->odometry->distance(b.stamp) - session->odometry->distance(a.stamp))};
 }
 
 }  // namespace loop_metric

@@ -25,14 +25,14 @@ class ClosureChecks : public ::testing::Test {
   }
   static Pose at(double x, double y) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, y, 0.0}); }
   static MetricClosure closure(int metre, const Pose& T_a_b = at(0.0, 0.5)) {
-    MetricClosure made;
-    made.a = {"day", metre * StampNs{1'000'000'000}};
-    made.b = {"day", (20 + metre) * StampNs{1'000'000'000}};
-    made.method = ClosureMethod::Icp;
-    made.measured.T_a_b = T_a_b;
-    made.measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
-    made.verdict = ClosureVerdict::Accepted;
-    return made;
+    MetricClosure result;
+    result.a = {"day", metre * StampNs{1'000'000'000}};
+    result.b = {"day", (20 + metre) * StampNs{1'000'000'000}};
+    result.method = ClosureMethod::Icp;
+    result.measured.T_a_b = T_a_b;
+    result.measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
+    result.verdict = ClosureVerdict::Accepted;
+    return result;
   }
 
   testing::LinePlaceData place_data_;

@@ -17,7 +17,7 @@ constexpr StampNs kClosureSecond = 1'000'000'000;
 
 Pose closurePose(double x, double y) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, y, 0.0}); }
 
-/// Twice along the same metres, and the closures between each metre of one pass and the same of the other.
+/// Two passes along the same metres, and the closures between corresponding metres of both.
 struct TwoPasses {
   testing::LinePlaceData around;
   std::vector<MetricClosure> closures;
@@ -30,13 +30,13 @@ struct TwoPasses {
       closures.push_back(closure(i, 20 + i, Pose(urban_nav_core::Quaterniond::Identity(), {0, 0.5, 0})));
   }
   static MetricClosure closure(StampNs a, StampNs b, const Pose& T_a_b) {
-    MetricClosure made;
-    made.a = {"day", a * kClosureSecond};
-    made.b = {"day", b * kClosureSecond};
-    made.measured.T_a_b = T_a_b;
-    made.measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
-    made.verdict = ClosureVerdict::Accepted;
-    return made;
+    MetricClosure result;
+    result.a = {"day", a * kClosureSecond};
+    result.b = {"day", b * kClosureSecond};
+    result.measured.T_a_b = T_a_b;
+    result.measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
+    result.verdict = ClosureVerdict::Accepted;
+    return result;
   }
 };
 

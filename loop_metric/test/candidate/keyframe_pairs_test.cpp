@@ -11,7 +11,7 @@ namespace {
 using urban_nav_core::Pose;
 using urban_nav_core::PoseWithCovariance;
 
-/// Views each metre along x, `before` m before the time to `after` m after it.
+/// Keyframes at each metre along x, from `before` m before the pose to `after` m after it.
 std::vector<NearbyKeyframe> row(const char* session, int before, int after) {
   std::vector<NearbyKeyframe> views;
   for (int i = -before; i <= after; ++i) {
@@ -19,7 +19,7 @@ std::vector<NearbyKeyframe> row(const char* session, int before, int after) {
     view.at = {session, 1000 + i};
     view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {static_cast<double>(i), 0.0, 0.0});
     view.T_place_keyframe.covariance.setZero();
-    view.way = i;
+    view.path_offset = i;
     views.push_back(view);
   }
   return views;
@@ -35,10 +35,10 @@ PoseWithCovariance odometry(double x, double heading, double sigma_m, double sig
 }
 
 TEST(ViewPairs, AViewBesideBothMomentsIsNotMatchedWithItself) {
-  // To and fro within seven metres: the same views lie around both moments.
+  // Back and forth within seven metres: the same keyframes are near both poses.
   auto back = row("a", 6, 6);
   for (NearbyKeyframe& view : back)
-    view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.way + 0.3, 0.0, 0.0});
+    view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.path_offset + 0.3, 0.0, 0.0});
   for (const auto& T_a_b :
        {std::optional<PoseWithCovariance>(odometry(0.0, 0.0, 0.01, 0.001)), std::optional<PoseWithCovariance>()}) {
     const auto pairs = chooseKeyframePairs(row("a", 6, 6), back, T_a_b, 6.0, 5);

@@ -14,18 +14,18 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-PlaceData::Way makeWay(double sigma_m, double sigma_rad, double length) {
-  PlaceData::Way way;
-  way.T_a_b.pose = Pose(urban_nav_core::expSo3({0.0, 0.0, 0.3}), {3.0, 1.0, 0.0});
-  way.T_a_b.covariance.setZero();
-  way.T_a_b.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m),
+PlaceData::OdometryPath makePath(double sigma_m, double sigma_rad, double length) {
+  PlaceData::OdometryPath path;
+  path.T_a_b.pose = Pose(urban_nav_core::expSo3({0.0, 0.0, 0.3}), {3.0, 1.0, 0.0});
+  path.T_a_b.covariance.setZero();
+  path.T_a_b.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m),
       Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
-  way.length = length;
-  return way;
+  path.length = length;
+  return path;
 }
 
 TEST(OdometryGate, CountsStandardDeviationsOverBothErrors) {
-  const OdometryGate gate(makeWay(0.3, 0.01, 0.0), 0.0);
+  const OdometryGate gate(makePath(0.3, 0.01, 0.0), 0.0);
   Constraint measured;
   measured.T_a_b = boxPlus(gate.T_a_b().pose, (Vector6d() << 1.0, 0, 0, 0, 0, 0).finished());
   measured.information.diagonal() << Eigen::Vector3d::Constant(1.0 / 0.16), Eigen::Vector3d::Constant(1e6);
@@ -50,7 +50,7 @@ TEST(OdometryGate, AgreesWithTheInverseOfTheSumOfCovariancesWhereItExists) {
 }
 
 TEST(OdometryGate, AFreeDirectionCountsForNothing) {
-  const OdometryGate gate(makeWay(0.1, 0.01, 0.0), 0.0);
+  const OdometryGate gate(makePath(0.1, 0.01, 0.0), 0.0);
   Constraint measured;
   measured.T_a_b = boxPlus(gate.T_a_b().pose, (Vector6d() << 5.0, 0.1, 0, 0, 0, 0).finished());
   measured.information.diagonal() << 0.0, Eigen::Vector2d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
@@ -60,7 +60,7 @@ TEST(OdometryGate, AFreeDirectionCountsForNothing) {
 }
 
 TEST(OdometryGate, AScaleErrorGrowsWithTheWay) {
-  const OdometryGate near(makeWay(0.1, 0.01, 10.0), 0.01), far(makeWay(0.1, 0.01, 1000.0), 0.01);
+  const OdometryGate near(makePath(0.1, 0.01, 10.0), 0.01), far(makePath(0.1, 0.01, 1000.0), 0.01);
   Constraint other;
   other.T_a_b = boxPlus(near.T_a_b().pose, (Vector6d() << 0, 5.0, 0, 0, 0, 0).finished());
   other.information.diagonal() << Eigen::Vector3d::Constant(100.0), Eigen::Vector3d::Constant(1e4);
@@ -69,9 +69,9 @@ TEST(OdometryGate, AScaleErrorGrowsWithTheWay) {
 }
 
 TEST(OdometryGate, KnowsHowFarApartTheMomentsAreAtLeast) {
-  PlaceData::Way way = makeWay(1.0, 0.01, 0.0);
-  way.T_a_b.pose = Pose(urban_nav_core::Quaterniond::Identity(), {30.0, 0.0, 0.0});
-  const OdometryGate gate(way, 0.0);
+  PlaceData::OdometryPath path = makePath(1.0, 0.01, 0.0);
+  path.T_a_b.pose = Pose(urban_nav_core::Quaterniond::Identity(), {30.0, 0.0, 0.0});
+  const OdometryGate gate(path, 0.0);
   EXPECT_NEAR(gate.leastDistance(5.0), 30.0 - 5.0 * std::sqrt(3.0), 1e-3);
   EXPECT_EQ(gate.leastDistance(50.0), 0.0);
 }

@@ -18,7 +18,7 @@ using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 
-/// A metre a second, 200 m along a line; clouds reach 10 m to both sides.
+/// A metre per second, 200 m along a line; clouds extend 10 m to both sides.
 class SharedClouds : public ::testing::Test {
  protected:
   SharedClouds() {
@@ -28,37 +28,37 @@ class SharedClouds : public ::testing::Test {
     parameters_.registration.cloud_half_length = 10.0;
   }
   void add(int a, int b, ClosureMethod method = ClosureMethod::Icp, ClosureVerdict verdict = ClosureVerdict::Accepted) {
-    MetricClosure made;
-    made.a = {"day", a * StampNs{1'000'000'000}};
-    made.b = {"day", b * StampNs{1'000'000'000}};
-    made.method = method;
-    made.verdict = verdict;
-    made.measured.information = Matrix6d::Identity();
-    closures_.push_back(made);
+    MetricClosure result;
+    result.a = {"day", a * StampNs{1'000'000'000}};
+    result.b = {"day", b * StampNs{1'000'000'000}};
+    result.method = method;
+    result.verdict = verdict;
+    result.measured.information = Matrix6d::Identity();
+    closures_.push_back(result);
   }
-  /// By how much what each one knows was divided.
+  /// Returns the factors by which the information of the closures was divided.
   std::vector<double> sharing() {
     discountSharedClouds(closures_, around_, parameters_);
-    std::vector<double> made;
+    std::vector<double> result;
     for (const MetricClosure& closure : closures_) {
       EXPECT_TRUE(closure.measured.information.isApprox(closure.measured.information(0, 0) * Matrix6d::Identity()));
-      made.push_back(1.0 / closure.measured.information(0, 0));
+      result.push_back(1.0 / closure.measured.information(0, 0));
     }
-    return made;
+    return result;
   }
 
-  /// What each one keeps where they come one after another, in the order of adding.
+  /// Returns the remaining shares of information for closures in order of arrival.
   std::vector<double> kept() {
-    std::vector<double> made;
+    std::vector<double> result;
     for (std::size_t i = 0; i < closures_.size(); ++i) {
       MetricClosure discounted = closures_[i];
       discountAgainst(discounted, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
                       parameters_);
       EXPECT_TRUE(
           discounted.measured.information.isApprox(discounted.measured.information(0, 0) * Matrix6d::Identity()));
-      made.push_back(discounted.measured.information(0, 0));
+      result.push_back(discounted.measured.information(0, 0));
     }
-    return made;
+    return result;
   }
   double keptTogether() {
     const std::vector<double> each = kept();
@@ -72,7 +72,7 @@ class SharedClouds : public ::testing::Test {
 
 TEST_F(SharedClouds, ThoseWithTheSameCloudsKnowWhatOneOfThemKnows) {
   for (int i = 0; i < 5; ++i) add(20, 120);
-  add(20, 160);  // one cloud alone is the same
+  add(20, 160);  // only one cloud is the same
   add(60, 160);
   const std::vector<double> shared = sharing();
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(shared[static_cast<std::size_t>(i)], 5.0, 1e-9);
@@ -83,7 +83,7 @@ TEST_F(SharedClouds, ThoseWithTheSameCloudsKnowWhatOneOfThemKnows) {
 TEST_F(SharedClouds, PartsCountAsParts) {
   add(20, 120);
   add(25, 110);  // 15 m and 10 m of 20 m
-  add(115, 30);  // the other way about: 15 m and 10 m with the first, 15 m and 15 m with the second
+  add(115, 30);  // reversed: 15 m and 10 m with the first, 15 m and 15 m with the second
   const std::vector<double> shared = sharing();
   EXPECT_NEAR(shared[0], 1.0 + 0.75 * 0.5 + 0.75 * 0.5, 1e-9);
   EXPECT_NEAR(shared[1], 1.0 + 0.75 * 0.5 + 0.75 * 0.75, 1e-9);
@@ -99,12 +99,12 @@ TEST_F(SharedClouds, ViewsAndWhatWasRejectedHaveNoPartInIt) {
 
 TEST_F(SharedClouds, OneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
   for (int i = 0; i < 100; ++i) add(20, 120);
-  add(120, 20);  // the other way about
-  add(20, 160);  // one cloud alone is the same
+  add(120, 20);  // reversed
+  add(20, 160);  // only one cloud is the same
   const std::vector<double> each = kept();
   EXPECT_EQ(each[0], 1.0);
   for (std::size_t i = 1; i <= 100; ++i) EXPECT_NEAR(each[i], 0.0, 0.0011);
-  EXPECT_GT(each[1], 0.0) << "it is a witness, and no closure that knows nothing";
+  EXPECT_GT(each[1], 0.0) << "zero information would mean a closure without measurement";
   EXPECT_EQ(each[101], 1.0);
   EXPECT_LT(keptTogether(), 2.2);
 }
@@ -124,7 +124,7 @@ TEST_F(SharedClouds, OneAfterAnotherPartsCountAsParts) {
 TEST_F(SharedClouds, AllTogetherTellTheSameInAnyOrder) {
   for (int i = 0; i < 60; ++i) add(20 + i, 160 - i + (i * 7) % 5);
   const double in_order = keptTogether();
-  EXPECT_GT(in_order, 4.0);  // 60 m of both ways, of which a cloud has 20 m
+  EXPECT_GT(in_order, 4.0);  // 60 m on both sides, of which a cloud covers 20 m
   EXPECT_LT(in_order, 12.0);
   std::reverse(closures_.begin(), closures_.end());
   EXPECT_NEAR(keptTogether(), in_order, 0.05);

@@ -16,23 +16,23 @@ using urban_nav_core::MetricClosure;
 using urban_nav_core::PoseRef;
 
 Evidence::Try toTry(ClosureMethod method, const PoseRef& a, const PoseRef& b) {
-  Evidence::Try made;
-  made.method = method;
-  made.keyframe_a = a;
-  made.keyframe_b = b;
-  return made;
+  Evidence::Try result;
+  result.method = method;
+  result.keyframe_a = a;
+  result.keyframe_b = b;
+  return result;
 }
 
-/// A closure that was tried with views that did not do, and then with those of `a` and `b`.
+/// A closure that was first tried with unsuitable keyframes, and then with those of `a` and `b`.
 MetricClosure toClosure(const PoseRef& a, const PoseRef& b, ClosureMethod method = ClosureMethod::Stereo) {
-  MetricClosure made;
-  made.method = method;
-  made.verdict = ClosureVerdict::Accepted;
-  made.measured.information = 6.0 * Matrix6d::Identity();
+  MetricClosure result;
+  result.method = method;
+  result.verdict = ClosureVerdict::Accepted;
+  result.measured.information = 6.0 * Matrix6d::Identity();
   Evidence evidence;
   evidence.tries = {toTry(ClosureMethod::Stereo, {"day", 1}, {"day", 2}), toTry(ClosureMethod::Stereo, a, b)};
-  made.evidence = printEvidence(evidence);
-  return made;
+  result.evidence = printEvidence(evidence);
+  return result;
 }
 
 double knows(const MetricClosure& closure) {

@@ -116,7 +116,7 @@ TEST_F(SessionRecorderTest, ASessionOfTheOdometryGoesOnAfterARestart) {
   const auto announced = announce("monday", kStart);
   drive(0, 5, kStart, announced);
   restart();
-  drive(8, 10, kStart, announced);  // poses between are lost
+  drive(8, 10, kStart, announced);  // intermediate poses are lost
   ASSERT_EQ(stored().size(), 1U);
   EXPECT_EQ(nodes(stored()[0]), 9U);
 }

@@ -40,8 +40,8 @@ Keyframe someKeyframe(StampNs stamp) {
   return keyframe;
 }
 
-/// 40 s straight ahead at 1 m/s, a view each 2 m, and a laser 1 m above base_link that sees one thing 2 m to its left
-/// all the time.
+/// 40 s straight ahead at 1 m/s, a keyframe every 2 m, and a laser 1 m above base_link that always measures one point 2
+/// m to its left.
 class StoredSurroundingsTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -80,9 +80,9 @@ class StoredSurroundingsTest : public ::testing::Test {
 
 TEST_F(StoredSurroundingsTest, ViewsOfTheWayAroundAMomentInOrder) {
   const auto views = place_data_->views({"day", 10 * kRowSecond + kRowSecond / 2}, 4.0);
-  ASSERT_EQ(views.size(), 4U);  // at 8, 10, 12 and 14 m: 6 is 4.5 m off
+  ASSERT_EQ(views.size(), 4U);  // at 8, 10, 12 and 14 m; the one at 6 m is 4.5 m away
   EXPECT_EQ(views.front().at.stamp, 8 * kRowSecond);
-  EXPECT_NEAR(views.front().way, -2.5, 1e-9);
+  EXPECT_NEAR(views.front().path_offset, -2.5, 1e-9);
   EXPECT_NEAR(views.back().T_place_keyframe.pose.t().x(), 3.5, 1e-9);
   EXPECT_TRUE(place_data_->views({"another", 0}, 4.0).empty());
 }
@@ -94,7 +94,7 @@ TEST_F(StoredSurroundingsTest, KeyframesComeBackAsTheyWere) {
   EXPECT_EQ(keyframe.at, (urban_nav_core::PoseRef{"day", 4 * kRowSecond}));
   ASSERT_EQ(keyframe.points.size(), 1U);
   EXPECT_EQ(keyframe.points[0].disparity, 3.5F);
-  EXPECT_TRUE(place_data_->keyframe({"day", 5 * kRowSecond}).points.empty());  // none was kept there
+  EXPECT_TRUE(place_data_->keyframe({"day", 5 * kRowSecond}).points.empty());  // no keyframe is stored there
 }
 
 TEST_F(StoredSurroundingsTest, ADamagedKeyframeIsNamed) {
@@ -117,8 +117,8 @@ TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame
   EXPECT_TRUE(place_data_->cloud({"day", 900 * kRowSecond}, 3.0).points.empty());
 }
 
-// Nine steps of 1 mm and 1 mrad to each side of the middle: 9 mm2 along and 9 mrad2 about each axis, the latter at 10 m
-// and across the way driven; a third of the sum of the three axes, and of that a third.
+// Nine steps of 1 mm and 1 mrad to each side of the centre: 9 mm2 along and 9 mrad2 about each axis, the latter at 10 m
+// and across the path; a third of the sum of the three axes, and of that a third.
 TEST_F(StoredSurroundingsTest, OdometrysDriftBendsACloud) {
   EXPECT_NEAR(place_data_->deformationSigma({"day", 20 * kRowSecond}, 9.0), 0.019, 0.0015);
   EXPECT_LT(place_data_->deformationSigma({"day", 20 * kRowSecond}, 4.0), 0.014);
@@ -133,10 +133,10 @@ TEST_F(StoredSurroundingsTest, KnowsItsMomentsAndTheWayBetweenThem) {
   EXPECT_NE(why.find("no frames around"), std::string::npos);
   EXPECT_FALSE(place_data_->knows({"night", 0}, why));
   EXPECT_NE(why.find("there are: day"), std::string::npos);
-  const auto way = place_data_->between({"day", 30 * kRowSecond}, {"day", 10 * kRowSecond});
-  ASSERT_TRUE(way);
-  EXPECT_NEAR(way->T_a_b.pose.t().x(), -20.0, 1e-9);
-  EXPECT_NEAR(way->length, 20.0, 1e-9);
+  const auto path = place_data_->between({"day", 30 * kRowSecond}, {"day", 10 * kRowSecond});
+  ASSERT_TRUE(path);
+  EXPECT_NEAR(path->T_a_b.pose.t().x(), -20.0, 1e-9);
+  EXPECT_NEAR(path->length, 20.0, 1e-9);
   EXPECT_FALSE(place_data_->between({"day", 0}, {"night", 0}));
 }
 

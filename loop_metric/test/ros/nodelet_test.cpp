@@ -44,7 +44,7 @@ pid_t findProcess(const std::string& node) {
   return static_cast<int>(ask(host, port, "getPid", nullptr)[2]);
 }
 
-/// While it lives no file of that process can grow.
+/// Prevents the growth of any file of this process during its lifetime.
 class FullDisk {
  public:
   explicit FullDisk(pid_t process) : process_(process) {
@@ -97,7 +97,7 @@ class LoopMetricNodelet : public ::testing::Test {
     for (const double each : closure.information) EXPECT_EQ(each, 0.0);
   }
 
-  /// Share of the pixels that have the blue which most of them have.
+  /// Returns the share of pixels with the most frequent blue value.
   static double measurePlainShare(const sensor_msgs::Image& picture) {
     std::map<std::uint8_t, double> levels;
     for (std::size_t i = 0; i < picture.data.size(); i += 3) levels[picture.data[i]] += 1.0;
@@ -113,7 +113,7 @@ Robot* LoopMetricNodelet::robot_ = nullptr;
 TEST_F(LoopMetricNodelet, ARevisitIsUpgradedAndAFalsePairIsNot) {
   robot().drive(0, kLap + 7);
   robot().recognise(3, kLap + 3);
-  robot().recognise(3, 15);  // the other side of the room
+  robot().recognise(3, 15);  // the opposite side of the room
   ASSERT_TRUE(robot().judged(2));
   const bool in_order = robot().closures[0].b.stamp == urban_nav_ros::toRosTime(robot().toStamp(kLap + 3));
   const MetricClosure &right = robot().closures[in_order ? 0 : 1], &wrong = robot().closures[in_order ? 1 : 0];
@@ -122,12 +122,12 @@ TEST_F(LoopMetricNodelet, ARevisitIsUpgradedAndAFalsePairIsNot) {
   EXPECT_EQ(right.a.session, "") << "who names no session means the running one";
   EXPECT_EQ(right.a.stamp, urban_nav_ros::toRosTime(robot().toStamp(3)));
   EXPECT_DOUBLE_EQ(right.probability, 0.99);
-  expectRejected(wrong, "nothing_kept");  // no two views look the same way, by odometry
+  expectRejected(wrong, "nothing_kept");  // by odometry, no two keyframes have a common view
   ASSERT_TRUE(Robot::until([&] { return !robot().pictures.empty(); }));
   EXPECT_EQ(robot().pictures.front().encoding, "bgr8");
   EXPECT_GE(robot().pictures.front().width, 2U * 512U);
   EXPECT_EQ(robot().pictures.front().data.size(), robot().pictures.front().step * robot().pictures.front().height);
-  EXPECT_LT(measurePlainShare(robot().pictures.front()), 0.3) << "views, and no panels that say that there are none";
+  EXPECT_LT(measurePlainShare(robot().pictures.front()), 0.3) << "views instead of panels without images";
   EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
 }
 
@@ -156,7 +156,7 @@ TEST_F(LoopMetricNodelet, TheViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
 }
 
 TEST_F(LoopMetricNodelet, MomentsThatAreNotKnownAreNamed) {
-  robot().recognise(0, 5);  // no odometry yet: it waits for the patience by the clock
+  robot().recognise(0, 5);  // without odometry it waits for the timeout by the clock
   ASSERT_TRUE(robot().judged(1));
   expectRejected(robot().closures[0], "unknown_moment");
   robot().drive(0, 8);
@@ -260,7 +260,7 @@ TEST_F(LoopMetricNodelet, AnEarlierSessionOfTheStoreIsKnownAgain) {
   ASSERT_TRUE(robot().judged(1));
   expectTrue(robot().closures[0], 5, 5);
   EXPECT_EQ(robot().closures[0].a.session, earlier);
-  EXPECT_FALSE(robot().closures[0].odometry_gate) << "odometry says nothing between sessions";
+  EXPECT_FALSE(robot().closures[0].odometry_gate) << "no odometry between sessions";
 }
 
 }  // namespace

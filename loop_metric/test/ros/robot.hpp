@@ -16,7 +16,7 @@ namespace loop_metric::test {
 
 using namespace urban_nav_ros::testing;
 
-/// A robot with odometry and recognition of places, and a listener to the verdicts of the nodelet.
+/// A robot with odometry and place recognition, and a listener to the verdicts of the nodelet.
 class Robot : public DrivingRobot {
  public:
   explicit Robot(urban_nav_core::testing::RenderedSequence sequence = room())
@@ -32,7 +32,7 @@ class Robot : public DrivingRobot {
     places_.publish(urban_nav_ros::toTopologicalClosureMessage({a, b, 0.99}));
   }
   void recognise(int a, int b) { recognise({"", toStamp(a)}, {"", toStamp(b)}); }
-  /// The verdict that comes next.
+  /// Waits for the next verdict.
   bool judged(std::size_t count) {
     return until([&] { return closures.size() >= count; });
   }

@@ -44,14 +44,14 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   const Pose T_a_b = *urban_nav_ros::toPose(first.T_a_b);
   const Evidence evidence = parseEvidence(first.evidence);
   ASSERT_EQ(evidence.tries.back().method, urban_nav_core::ClosureMethod::Icp);
-  EXPECT_GT(urban_nav_core::distanceBetween(*evidence.tries.back().guess, truth), 0.3) << "odometry knows less";
+  EXPECT_GT(urban_nav_core::distanceBetween(*evidence.tries.back().guess, truth), 0.3) << "odometry is less accurate";
   EXPECT_LT(urban_nav_core::distanceBetween(T_a_b, truth), 0.03);
   EXPECT_LT(urban_nav_core::angleBetween(T_a_b, truth), 0.005);
   const Vector6d off = urban_nav_core::boxMinus(T_a_b, truth);
   EXPECT_LT(off.dot(toInformation(first) * off), 22.5) << "chi2 of 6, one in a thousand";
-  EXPECT_GT(toInformation(first).diagonal().minCoeff(), 1.0 / (0.1 * 0.1)) << "and it knows something";
+  EXPECT_GT(toInformation(first).diagonal().minCoeff(), 1.0 / (0.1 * 0.1)) << "with information";
 
-  // The picture shows both clouds: red where the first was, blue where the second.
+  // The picture shows both clouds: red for the first, blue for the second.
   ASSERT_TRUE(Robot::until([&] { return !robot.pictures.empty(); }));
   const sensor_msgs::Image picture = robot.pictures.front();
   EXPECT_EQ(picture.encoding, "bgr8");
@@ -64,7 +64,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   EXPECT_GT(red, 1000U);
   EXPECT_GT(blue, 1000U);
 
-  // Half a metre further on nearly the same beams were seen: what they said is not said again.
+  // Half a metre further on, nearly the same beams are measured: their information is not counted again.
   recognise(a - 5, b + 5);
   ASSERT_TRUE(robot.judged(2));
   const MetricClosure& second = robot.closures[1];
@@ -72,7 +72,7 @@ TEST(LoopMetricNodeletScans, WhereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   EXPECT_EQ(second.method, MetricClosure::ICP);
   const double share = toInformation(second).trace() / toInformation(first).trace();
   EXPECT_GT(share, 0.01);
-  EXPECT_LT(share, 0.2) << "0.1: two ways of half a metre to 20 m";
+  EXPECT_LT(share, 0.2) << "0.1: two displacements of half a metre relative to 20 m";
 }
 
 }  // namespace

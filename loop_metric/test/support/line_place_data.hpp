@@ -9,14 +9,14 @@
 
 namespace loop_metric::testing {
 
-/// Sessions whose odometry is exact but for what `noise` says of each step, with views and clouds that a test puts in.
+/// Sessions whose odometry is exact apart from the noise of each step, with keyframes and clouds set by a test.
 class LinePlaceData : public PlaceData {
  public:
   std::map<std::string, urban_nav_core::OdometryChain> odometry;
   std::map<urban_nav_core::PoseRef, urban_nav_registration::Keyframe> keyframes;
   std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> clouds;
 
-  /// A session that is at these poses, one a second from 0; sigmas of one step.
+  /// Adds a session with these poses, one per second from 0; sigmas of one step.
   void drive(const std::string& session, const std::vector<urban_nav_core::Pose>& T_world_base, double sigma_m,
              double sigma_rad) {
     for (std::size_t i = 1; i < T_world_base.size(); ++i) {
@@ -37,34 +37,35 @@ class LinePlaceData : public PlaceData {
     why = "no data there";
     return false;
   }
-  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const override {
-    std::vector<NearbyKeyframe> made;
+  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double distance) const override {
+    std::vector<NearbyKeyframe> result;
     const auto its = odometry.find(at.session);
-    if (its == odometry.end()) return made;
+    if (its == odometry.end()) return result;
     for (const auto& [ref, keyframe] : keyframes) {
       if (ref.session != at.session) continue;
       const double along = its->second.distance(ref.stamp) - its->second.distance(at.stamp);
-      if (std::abs(along) <= way) made.push_back({ref, *its->second.between(at.stamp, ref.stamp), along});
+      if (std::abs(along) <= distance) result.push_back({ref, *its->second.between(at.stamp, ref.stamp), along});
     }
-    return made;
+    return result;
   }
   urban_nav_registration::Keyframe keyframe(const urban_nav_core::PoseRef& at) const override {
     const auto its = keyframes.find(at);
-    urban_nav_registration::Keyframe made;
-    if (its != keyframes.end()) made = its->second;
-    made.at = at;
-    return made;
+    urban_nav_registration::Keyframe result;
+    if (its != keyframes.end()) result = its->second;
+    result.at = at;
+    return result;
   }
   double deformationSigma(const urban_nav_core::PoseRef&, double) const override { return 0.0; }
   urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double) const override {
     return clouds ? clouds(at) : urban_nav_core::PointCloud();
   }
-  std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const override {
+  std::optional<OdometryPath> between(const urban_nav_core::PoseRef& a,
+                                      const urban_nav_core::PoseRef& b) const override {
     const auto its = odometry.find(a.session);
     if (its == odometry.end() || a.session != b.session) return std::nullopt;
     const auto T_a_b = its->second.between(a.stamp, b.stamp);
     if (!T_a_b) return std::nullopt;
-    return Way{*T_a_b, std::abs(its->second.distance(b.stamp) - its->second.distance(a.stamp))};
+    return OdometryPath{*T_a_b, std::abs(its->second.distance(b.stamp) - its->second.distance(a.stamp))};
   }
 };
 

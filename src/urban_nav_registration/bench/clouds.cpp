@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real pairs of clouds: how far the alignment ends from the stored pose, what it takes from the points of both clouds
-// to the verdict, and how many of some random starts (up to 5 m and any heading away) end in the right place; beside
-// what other programs took on the same machine.
+// Real pairs of clouds: distance of the alignment from the stored pose, processor time from the points of both clouds
+// to the verdict, and share of random starts (up to 5 m and any heading away) that converge to the right pose; compared
+// with other programs on the same machine.
 //   urban_nav_registration-bench-clouds [--peers FILE] [--runs N] [--starts N] [-o results/clouds.json]
 // FILE: pair,peer,ms,metres,deg as CSV, metres and deg from the stored pose. Clouds: URBAN_NAV_DATA/clouds.
 #include <algorithm>
@@ -33,7 +33,7 @@ using urban_nav_core::testing::Dice;
 using urban_nav_core::testing::processMs;
 
 constexpr double kDegrees = 57.29577951308232;
-constexpr double kRightM = 0.3, kRightDeg = 2.0;  // of a random start
+constexpr double kRightM = 0.3, kRightDeg = 2.0;  // limits of a correct result from a random start
 
 struct Options {
   std::string peers, output;
@@ -73,7 +73,7 @@ Pose readPose(const std::string& path) {
 }
 
 std::vector<Pair> chooseKeyframePairs(const std::string& folder) {
-  // As it stands in libpointmatcher's examples/data/carCloudList.csv.
+  // From libpointmatcher's examples/data/carCloudList.csv.
   Eigen::Matrix4d car;
   car << 0.981715, 0.169605, -0.0864239, 0.0614127, -0.152902, 0.973034, 0.172703, 0.191433, 0.113385, -0.15633,
       0.981175, -0.0338571, 0, 0, 0, 1;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of pairs of local clouds without a guess: how many are aligned by how far apart and how turned the robot
-// was, how wrong those are, how consistent their information is (NEES: as many as directions are held), and
-// what is made of pairs of different places.
+// Alignment of local clouds without a guess: number of accepted pairs by distance and relative heading, their errors,
+// the consistency of their information (NEES: the expected value is the number of constrained directions), and verdicts
+// of pairs of different places.
 //   urban_nav_registration-bench-local_clouds FOLDER... [--true N] [--false N] [--list] [--unknown]
 //     [--set registration.NAME=VALUE]... [-o results/local_clouds.json]
-// FOLDER: clouds with places.csv, such as urban_nav_sim-bench-local_clouds makes. --unknown: as `urban_nav icp` has
-// clouds out of files, without what odometry says of their bend.
+// FOLDER: clouds with places.csv, such as urban_nav_sim-bench-local_clouds makes. --unknown: without the deformation
+// known from odometry, as for clouds from files in `urban_nav icp`.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,9 +60,9 @@ Options parse(int argc, char** argv) {
 
 constexpr double kPlaceRadiusM = 9.0;  // loop_metric.place_radius
 constexpr double kDegrees = 57.29577951308232;
-constexpr double kElsewhereM = 10.0;              // from here on it is another place
-constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is a mistake rather than inexact
-constexpr double kLeastWayM = 25.0;               // between places of one day: their clouds share no beam
+constexpr double kElsewhereM = 10.0;              // minimum distance of different places
+constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is wrong rather than inaccurate
+constexpr double kLeastWayM = 25.0;               // between places of one day, so that their clouds share no beam
 
 struct Place {
   int day = 0;
@@ -157,7 +157,7 @@ class Program {
       ++tally.degenerate;
       return;
     }
-    if (alignment.T_target_source.t().norm() > kPlaceRadiusM) return;  // the caller's own test
+    if (alignment.T_target_source.t().norm() > kPlaceRadiusM) return;  // test of the caller
     tally.metres.push_back(metres);
     tally.deg.push_back(deg);
     tally.nees.push_back(nees);

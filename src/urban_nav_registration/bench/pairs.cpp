@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pairs of views are upgraded to a transform, by how far apart they were taken; how wrong those are, how far
-// their information is consistent (NEES: 6 is right), and what it takes; beside what OpenCV has for the purpose on
-// the same pairs. And what is made of pairs of different places.
+// Stereo closures of pairs of views by their distance: acceptance, errors, consistency of the information (NEES;
+// expected 6), and processor time; compared with OpenCV on the same pairs. Also verdicts of pairs of different places.
 //   urban_nav_registration-bench-pairs FOLDER... [--false N] [--no-peers] [--draw DIR] [--list]
 //     [--set registration.NAME=VALUE]... [-o results/pairs.json]
-// FOLDER: frames in KITTI's layout with poses.txt, in any order, of as many days as there are, such as
+// FOLDER: frames in KITTI's layout with poses.txt, in any order, of any number of days, such as
 // urban_nav_sim-bench-revisits makes.
 #include <algorithm>
 #include <array>
@@ -61,11 +60,11 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
-constexpr double kElsewhereM = 40.0;  // from here on it is another place
+constexpr double kElsewhereM = 40.0;  // minimum distance of different places
 constexpr double kDegrees = 57.29577951308232;
 
-constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is a mistake rather than inexact
-constexpr std::size_t kPeersEvery = 3;            // pairs: they take their time
+constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is wrong rather than inaccurate
+constexpr std::size_t kPeersEvery = 3;            // every third pair, since the peers are slow
 
 struct Outcome {
   double metres = 0.0, deg = 0.0, nees = 0.0;
@@ -101,7 +100,7 @@ struct Tally {
                       : cell(100.0 * static_cast<double>(upgraded.size()) / static_cast<double>(pairs), 0) + " % (" +
                             std::to_string(wrong) + ")";
   }
-  /// The median, and what 95 % are below.
+  /// Returns the median and the 95 % quantile.
   std::string spread(double Outcome::*member, double unit, int decimals) const {
     if (upgraded.empty()) return "-";
     return cell(unit * quantile(of(member), 0.5), decimals) + " (" + cell(unit * quantile(of(member), 0.95), decimals) +
@@ -116,7 +115,7 @@ struct Tally {
   std::string time() const { return pairs == 0 ? "-" : cell(quantile(ms, 0.5), 0); }
 };
 
-/// A row: ours, and beside it what came of the peers.
+/// Adds a row with our results and those of the peers.
 void addRow(BenchTable& table, const std::string& where, const std::string& which, const Tally& ours, const Tally& sift,
             const Tally& orb, bool is_one_place = true) {
   if (ours.pairs == 0) return;
@@ -178,7 +177,7 @@ class Program {
         const Class* kind = classify(metres, deg);
         if (kind == nullptr) continue;
         const auto k = static_cast<std::size_t>(kind - kClasses.data());
-        StereoMatcher matcher(recording.camera, parameters_);  // nothing kept from before: all in
+        StereoMatcher matcher(recording.camera, parameters_);  // new, so that all processing is included
         const double before = processMs();
         const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
         const double taken = processMs() - before + ms[i] + ms[j];
@@ -212,7 +211,7 @@ class Program {
                                     std::string(bytes.begin(), bytes.end()));
   }
 
-  /// Each coordinate's error over its standard deviation.
+  /// Returns the error of each coordinate over its standard deviation.
   static std::string whitened(const StereoClosure& closure, const urban_nav_core::Vector6d& d) {
     const auto covariance = urban_nav_core::invertPositiveDefinite(closure.lefts.information);
     std::string text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the alignment says of planar scans of different places and of one place, drawn from recordings with known poses.
+// Verdicts on planar scans of different places and of one place, drawn from recordings with known poses.
 //   urban_nav_registration-bench-planar_scans LOG... [--pairs N] [--seed S] [-o results/planar_scans.json]
 // LOG: CARMEN's text format; lines `FLASER n ranges... x y theta ...` with corrected poses, beams over 180 deg.
 #include <Eigen/Eigenvalues>
@@ -83,7 +83,7 @@ struct Tally {
     const double turn = std::atan2(R(1, 0), R(0, 0)) - pair.source->heading + pair.target->heading;
     const Eigen::Vector3d off(alignment.T_target_source.t().x() - c * dx - s * dy,
                               alignment.T_target_source.t().y() + s * dx - c * dy, std::remainder(turn, 2 * kHalfTurn));
-    covariance.diagonal() += Eigen::Vector3d(0.0025, 0.0025, 3e-4);  // of the log's poses: 5 cm, 1 deg
+    covariance.diagonal() += Eigen::Vector3d(0.0025, 0.0025, 3e-4);  // covariance of the log's poses: 5 cm, 1 deg
     wrong += off.dot(covariance.inverse() * off) > 25.0 ? 1 : 0;
   }
 };
@@ -107,7 +107,7 @@ PlanarOptions parsePlanarOptions(int argc, char** argv) {
   return options;
 }
 
-/// Draws pairs of scans out of logs.
+/// Draws pairs of scans from logs.
 class PairDraw {
  public:
   PairDraw(const std::vector<std::vector<LoggedScan>>& logs, unsigned seed) : logs_(logs), random_(seed) {}

@@ -24,7 +24,7 @@ using urban_nav_core::testing::World;
 
 constexpr int kDigits = 17;
 
-/// Result without thresholds: those equal the parameters by themselves.
+/// Prints a result without thresholds, which equal the parameters.
 template <typename Verdict, typename Reason>
 std::string printMatch(Verdict verdict, Reason reason, const urban_nav_core::Constraint& T_a_b) {
   std::ostringstream text;
@@ -68,7 +68,7 @@ std::string matchStereo(const Parameters& parameters) {
   return printMatch(closure.verdict, closure.reason, closure.lefts);
 }
 
-/// Two scans of one world, or of two, with the sensor as origin of the beams.
+/// Two scans, of the same world or of different worlds, with the sensor as origin of the beams.
 struct Scans {
   PointCloud source, target;
 
@@ -79,7 +79,7 @@ struct Scans {
   }
 };
 
-/// A court of 20 m by 24 m that looks the same from both sides, unless it has a kiosk. `nearer`: of its fronts, m.
+/// A court of 20 m by 24 m that is symmetric unless it has a kiosk. `nearer`: displacement of its fronts, m.
 World closedCourt(double nearer = 0.0, bool has_kiosk = false) {
   World court;
   for (int side = 0; side < 4; ++side) {

@@ -8,14 +8,14 @@
 
 namespace swf_vo::bench {
 
-/// What another system made of a sequence.
+/// Result of another system for a sequence.
 struct Peer {
   std::string name;
-  std::vector<urban_nav_core::Pose> poses;  ///< of the left camera, one a frame
+  std::vector<urban_nav_core::Pose> poses;  ///< left camera, one per frame
 };
 
-/// Of "NAME=SEQUENCE=FILE" each that belongs to the sequence; FILE: poses in KITTI's or (.tum) the TUM format. Throws
-/// UserError where a file cannot be read, or has not as many poses as the sequence.
+/// Reads the files that belong to the sequence from arguments "NAME=SEQUENCE=FILE"; FILE: poses in KITTI's or (.tum)
+/// the TUM format. Throws UserError if a file cannot be read or its number of poses differs from the sequence.
 std::vector<Peer> readPeers(const Sequence& sequence, const std::vector<std::string>& arguments);
 
 }  // namespace swf_vo::bench

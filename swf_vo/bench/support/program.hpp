@@ -9,10 +9,10 @@
 
 namespace swf_vo::bench {
 
-/// Folders in KITTI's layout as they were named; where none was, those of the real sequences that are there.
+/// Returns the given folders in KITTI's layout; if none is given, those of the real sequences that exist.
 std::vector<std::string> orRealSequences(std::vector<std::string> folders);
 
-/// Name under which sequences that differ in up to three last digits are counted together.
+/// Returns the name for pooling of sequences that differ in up to three last digits.
 std::string poolName(const std::string& sequence);
 
 /// The command line `[FOLDER...] [-o FILE]`, with orRealSequences.
@@ -22,9 +22,9 @@ struct FoldersAndOutput {
 };
 FoldersAndOutput foldersAndOutput(int argc, char** argv);
 
-/// What main returns: prints the table, and writes it unless `output` is empty.
+/// Prints the table, and writes it unless `output` is empty. Returns the exit status.
 int show(const urban_nav_core::testing::BenchTable& table, const std::string& output);
-/// What main returns where it was stopped: says why on stderr.
+/// Prints an exception on stderr. Returns the exit status.
 int complain(const std::exception& error);
 
 }  // namespace swf_vo::bench

@@ -146,7 +146,7 @@ SpanErrors spanErrors(const std::vector<Pose>& truth, const std::vector<Pose>& e
   for (std::size_t i = 0; i + span < std::min(truth.size(), estimate.size()); ++i) {
     double length = 0.0;
     for (std::size_t j = i; j < i + span; ++j) length += distanceBetween(truth[j], truth[j + 1]);
-    if (length < 0.005 * static_cast<double>(span)) continue;  // stands still: no percentage
+    if (length < 0.005 * static_cast<double>(span)) continue;  // at rest: no percentage
     const Pose error = (truth[i].inverse() * truth[i + span]).inverse() * (estimate[i].inverse() * estimate[i + span]);
     sum.percent += 100.0 * error.t().norm() / length;
     sum.deg_per_m += angleBetween(Pose(), error) * 180.0 / M_PI / length;

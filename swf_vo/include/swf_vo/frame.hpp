@@ -14,153 +14,155 @@ class Archive;
 
 namespace swf_vo {
 
-/// Why the filter is not OK: Status::reason of every output of this stage.
+/// Reason for a status other than OK (Status::reason of this stage).
 enum class Reason : int {
   None = 0,
-  TooFewFeatures,  ///< fewer matches than the parameters ask for
-  Dark,            ///< an image without light or contrast
-  Blurred,         ///< far less sharp than the frames before
-  Frozen,        ///< the same pixels as the frame before while the other evidence says otherwise, or in one camera only
-  Swapped,       ///< left and right exchanged: disparities are negative
-  ExposureJump,  ///< brightness changed by more than matching bears
-  ImageMissing,  ///< left, right or both did not come
-  BadStamp,      ///< equal to or earlier than the last one: the frame is counted and dropped
-  Gap,           ///< far more time since the last frame than between the frames before
-  Inconsistent,  ///< matches do not agree with one rigid motion
-  NotObserved,   ///< some direction of the motion is held by the prediction alone
-  Corrupted,     ///< rows of an image are corrupted, as after a transfer that lost bytes; the rest is used
-  NotRectified,  ///< too little could be matched because the rows of left and right disagree
-  Calibration,   ///< too little could be matched, and the disparity offset is far outside its prior
+  TooFewFeatures,  ///< fewer matches than the parameters require
+  Dark,            ///< image without light or contrast
+  Blurred,         ///< much less sharp than the previous frames
+  Frozen,          ///< same pixels as the previous frame although other evidence shows motion, or in one camera only
+  Swapped,         ///< left and right exchanged: disparities are negative
+  ExposureJump,    ///< brightness change too large for patch matching
+  ImageMissing,    ///< left, right or both images are missing
+  BadStamp,        ///< stamp not later than the previous one: the frame is counted and dropped
+  Gap,             ///< time since the previous frame much longer than the usual frame period
+  Inconsistent,    ///< matches are inconsistent with one rigid motion
+  NotObserved,     ///< a direction of the motion is constrained by the prediction only
+  Corrupted,       ///< corrupted image rows, as after an incomplete transfer; the other rows are used
+  NotRectified,    ///< too few matches because the rows of left and right image disagree
+  Calibration,     ///< too few matches, and the disparity offset is far outside its prior
 };
 const char* toString(Reason reason);
 
 using LandmarkId = std::int64_t;
 using FrameId = std::int64_t;  ///< counts accepted stereo frames from 0
 
-/// A feature as it was seen in this frame, for pictures and statistics.
+/// A feature measured in this frame, for visualisation and statistics.
 struct Feature {
   LandmarkId landmark = 0;
   Eigen::Vector3d pixel = Eigen::Vector3d::Zero();  ///< u_left, v, u_right (px)
-  int age = 0;                                      ///< frames since it was first seen; 0: new in this frame
-  bool trusted = true;                              ///< false: taken back or down-weighted below one half
+  int age = 0;                                      ///< frames since its first observation; 0: new in this frame
+  bool trusted = true;                              ///< false: withdrawn, or robust weight below one half
 };
 
-/// A landmark of the window in the frame `odom`.
+/// A landmark of the window, in the frame `odom`.
 struct Landmark {
   LandmarkId id = 0;
   Eigen::Vector3d p_odom = Eigen::Vector3d::Zero();  ///< m
   float sigma = 0.0F;                                ///< standard deviation along the line of sight, m; 0: not computed
 };
 
-/// Constants of the rig that images show beside the two offsets below: estimates and standard deviations, those of the
-/// priors before anything was seen. A sigma of 0: not estimated.
+/// Rig constants estimated from images, besides the offsets in Statistics. Until the first measurement, estimates and
+/// standard deviations are those of the priors. A sigma of 0: not estimated.
 struct RigConstants {
-  double roll_rad = 0.0, roll_sigma_rad = 0.0;  ///< of the right camera about its optical axis, against the left one
-  double delay_s = 0.0, delay_sigma_s = 0.0;    ///< by which the right shutter opens later
-  /// Of a relative error that all lengths of the path have in common: what the calibration (`rig_scale`) and the
-  /// disparity offset leave open. It is in T_odom_base's covariance, not in those of steps.
+  double roll_rad = 0.0, roll_sigma_rad = 0.0;  ///< right camera relative to the left one, about its optical axis
+  double delay_s = 0.0, delay_sigma_s = 0.0;    ///< delay of the right shutter relative to the left one
+  /// Standard deviation of the relative scale error common to all lengths of the path: uncertainty of the calibration
+  /// (`rig_scale`) and of the disparity offset. Included in the covariance of T_odom_base, not in those of steps.
   double scale_sigma = 0.0;
   urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();  ///< as Statistics::right_turn_rad
 };
 
-/// A motion sensor that contradicted the images and was left out.
+/// A motion sensor that contradicts the images and is excluded.
 struct MotionSensorFault {
-  bool is_wheels = false;                        ///< else the gyroscope of the IMU
-  bool is_named = false;                         ///< the sentence names the cause, not the difference alone
-  urban_nav_core::StampNs since = 0, until = 0;  ///< `until` 0: to the end
-  std::string sentence;                          ///< what is wrong, with a figure, and the remedy
+  bool is_wheels = false;                        ///< true: wheels; false: gyroscope of the IMU
+  bool is_named = false;                         ///< the sentence names the cause; false: it states the difference only
+  urban_nav_core::StampNs since = 0, until = 0;  ///< `until` 0: until the end of the session
+  std::string sentence;                          ///< the fault with a figure, and the remedy
 };
 
-/// Returns "wheels are left out from second 3.2 on: " and the sentence. `begin`: stamp of the first frame.
+/// Returns "wheels not used from 3.2 s on: " and the sentence. `begin`: stamp of the first frame.
 std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin);
 
-/// The newest final step by images compared with a motion sensor, after the corrections that are estimated. A sigma of
-/// 0: not compared.
+/// Newest settled step by images compared with motion sensors, after the estimated corrections. A sigma of 0: not
+/// compared.
 struct MotionComparison {
-  urban_nav_core::Vector3d turn_error = urban_nav_core::Vector3d::Zero();  ///< images less gyroscope, rad
+  urban_nav_core::Vector3d turn_error = urban_nav_core::Vector3d::Zero();  ///< images minus gyroscope, rad
   double turn_sigma = 0.0;                                                 ///< each axis, rad
-  double forward = 0.0, sideways = 0.0;                                    ///< by images, m in base_link
-  double forward_error = 0.0;                                              ///< images less wheels along x, m
+  double forward = 0.0, sideways = 0.0;                                    ///< motion by images, m in base_link
+  double forward_error = 0.0;                                              ///< images minus wheels along x, m
   double forward_sigma = 0.0;                                              ///< m
 };
 
-/// Motion sensors, and what images have shown of them. Estimates and standard deviations are those of
-/// the priors before anything was seen; they mean nothing for a sensor that is absent or left out.
+/// Motion sensors and their calibration estimated from images. Until the first measurement, estimates and standard
+/// deviations are those of the priors. Undefined for a sensor that is absent or excluded.
 struct MotionEstimates {
   bool has_gyroscope = false, uses_gyroscope = false, gyroscope_left_out = false;
   bool has_wheels = false, uses_wheels = false, wheels_left_out = false;
-  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();  ///< measured less true, rad/s, in the axes of the IMU
+  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();  ///< measured minus true, rad/s, in IMU axes
   Eigen::Vector3d gyroscope_bias_sigma = Eigen::Vector3d::Zero();
-  double imu_offset_s = 0.0, imu_offset_sigma_s = 0.0;          ///< delay of stamps on the clock of the cameras
-  double wheel_scale = 1.0, wheel_scale_sigma = 0.0;            ///< measured speed over true
-  double wheel_turn_scale = 1.0, wheel_turn_scale_sigma = 0.0;  ///< measured yaw rate over true
+  double imu_offset_s = 0.0, imu_offset_sigma_s = 0.0;          ///< delay of its stamps relative to the camera clock
+  double wheel_scale = 1.0, wheel_scale_sigma = 0.0;            ///< measured over true speed
+  double wheel_turn_scale = 1.0, wheel_turn_scale_sigma = 0.0;  ///< measured over true yaw rate
   double wheel_offset_s = 0.0, wheel_offset_sigma_s = 0.0;      ///< as imu_offset_s
   MotionComparison newest;
-  std::vector<MotionSensorFault> faults;  ///< in order of their beginnings
+  std::vector<MotionSensorFault> faults;  ///< ordered by `since`
 };
 
-/// Excess of disparities over those predicted from earlier frames; zero while the cameras keep their mounting.
+/// Measured disparities minus those predicted from earlier frames; zero while the cameras keep their mounting.
 struct DisparityStep {
   double px = 0.0, sigma_px = 0.0;  ///< sigma 0: not measured
-  int landmarks = 0;                ///< that it rests on
+  int landmarks = 0;                ///< number of landmarks used
 };
 
-/// Figures of one frame. Times are measured by the caller: a core reads no clock.
+/// Statistics of one frame. Times are measured by the caller: the core reads no clock.
 struct Statistics {
   int corners = 0;                 ///< FAST corners found in the left image, all levels
   int features = 0;                ///< features observed in this frame, new ones included
-  int tracked = 0;                 ///< of these, known from earlier frames and trusted
+  int tracked = 0;                 ///< tracked from earlier frames and trusted
   double track_length_mean = 0.0;  ///< frames, over the features of this frame
   double reprojection_px = 0.0;    ///< root mean square distance in the left image after the update
   int iterations = 0;
   int landmarks = 0;                       ///< in the window
-  int landmarks_in_prior = 0;              ///< of these, tied to frames that have left the window
-  double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now: what its calibration left
+  int landmarks_in_prior = 0;              ///< observed from frames that have left the window
+  double disparity_offset_px = 0.0;        ///< current estimate of the camera's disparity offset, a calibration error
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
-  double row_offset_px = 0.0;  ///< by how much the right image shows everything lower than the left, as known by now
+  double row_offset_px = 0.0;              ///< row in the right image minus row in the left one, current estimate
   DisparityStep disparity_step;
   /// Turn of the right camera against its calibrated orientation, found after a knock and corrected in its images
   /// (urban_nav_core::TurnedRightCamera); zero: none was found.
   urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();
   double noise_scale =
-      1.0;  ///< errors of measurements in standard deviations of their alignments, as usual by now; 1 at least
+      1.0;  ///< measurement errors in standard deviations of their alignments, typical current value; at least 1
 };
 
-/// A frame as it leaves the window: the settled pose, which is final.
+/// A frame that leaves the window, with its smoothed pose, which is final.
 struct Settled {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::PoseWithCovariance T_odom_base;  ///< covariance: of T_first_base in the axes of the first pose
-  /// To the settled pose before; from == to for the very first frame. Errors of the disparity offset and of the rig's
-  /// scale are the same in all steps, so they are not in drift_covariance: T_odom_base's covariance has them, and
-  /// `constants` the sensitivity of the step to them.
+  /// Relative to the previous settled pose; from == to for the very first frame. Errors of the disparity offset and of
+  /// the rig's scale are common to all steps and therefore not in drift_covariance: the covariance of T_odom_base
+  /// includes them, and `constants` holds the sensitivity of the step to them.
   urban_nav_core::RelativePose from_previous;
-  urban_nav_core::Status status;  ///< as it was when the frame came
+  urban_nav_core::Status status;  ///< at the time of the frame
 };
 
-/// How base_link moves, in its own axes: m/s, then rad/s.
+/// Twist of base_link in its own axes: m/s, then rad/s.
 struct Velocity {
   urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
 };
 
-/// What leaves the filter for each stereo pair. `odom` is the first base_link.
+/// Output for one stereo pair. `odom` is the first base_link.
 struct Frame {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
-  bool accepted = true;                            ///< false: dropped because of its stamp; the pose is the last one
-  urban_nav_core::PoseWithCovariance T_odom_base;  ///< now: all evidence up to this frame and none after it
-  Velocity velocity;  ///< since the frame before; zero with a covariance of unknown motion in the first
+  bool accepted = true;                            ///< false: dropped because of its stamp; the pose is that of the
+                                                   ///< previous frame
+  urban_nav_core::PoseWithCovariance T_odom_base;  ///< filtered: from the data up to this frame
+  Velocity velocity;  ///< mean since the previous frame; in the first frame zero with the covariance of unknown motion
   urban_nav_core::Status status;
   Statistics statistics;
-  RigConstants rig;              ///< as known by now
-  MotionEstimates motion;        ///< as known by now
-  std::vector<Settled> settled;  ///< those that left the window with this frame: none or one, more after flush
+  RigConstants rig;              ///< current estimates
+  MotionEstimates motion;        ///< current estimates
+  std::vector<Settled> settled;  ///< frames that left the window with this one: none or one; all at a restart of the
+                                 ///< window
   std::vector<Feature> features;
   std::vector<Landmark> landmarks;
 };
 
-/// For states (urban_nav_core/io/archive.hpp).
+/// Serialisation of the filter's state (urban_nav_core/io/archive.hpp).
 void archive(urban_nav_core::Archive& archive, Feature& feature);
 void archive(urban_nav_core::Archive& archive, Landmark& landmark);
 void archive(urban_nav_core::Archive& archive, RigConstants& rig);

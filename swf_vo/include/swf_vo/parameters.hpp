@@ -5,8 +5,8 @@
 
 namespace swf_vo {
 
-/// What a user may want to change; one member per row of table(), which says what each means, its unit, range and
-/// default. The camera and the extrinsics are not here: they come with the data.
+/// User parameters; one member per row of table(), which has description, unit, range and default. Camera and
+/// extrinsics come with the data.
 struct Parameters {
   int window;                // frames
   int features;              // in an image of 512x384
@@ -29,7 +29,7 @@ struct Parameters {
   Parameters();
 };
 
-/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+/// The parameter table: the single source of defaults, ranges, units and descriptions.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace swf_vo

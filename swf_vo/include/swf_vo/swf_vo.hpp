@@ -18,36 +18,32 @@ struct Ablation;
 
 /// Stereo visual odometry by a Sliding Window Filter (Newman et al. 2009, section 2).
 ///
-/// Feed it pairs in order of time. Every pair, whatever its state, gives a Frame with a finite pose and a proper
-/// covariance; bad pairs give a status with its reason. It never throws for data, reads no clock, prints nothing and
-/// allocates nothing once its buffers have grown. Not thread-safe: one caller at a time; different objects are
-/// independent. The same calls give the same bits.
+/// Pairs are processed in order of time. Every pair gives a Frame with a finite pose and a valid covariance; unusable
+/// pairs give a status with its reason. Bad data never causes an exception. Reads no clock, prints nothing, does not
+/// allocate once its buffers have grown. Not thread-safe; different objects are independent. Deterministic: equal calls
+/// give bit-identical results.
 class SwfVo {
  public:
-  /// T_base_camera: the left optical frame in base_link. Throws UserError where parameters or camera contradict
-  /// themselves.
+  /// T_base_camera: left optical frame in base_link. Throws UserError if parameters or camera are inconsistent.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
         const urban_nav_core::Pose& T_base_camera);
-  /// Continues where another object stood when `state` was taken from it. UserError that names what differs where
-  /// parameters or calibration are others than that one had, DataError where the bytes are damaged or of another
-  /// version.
+  /// Resumes from `state` of another object. Throws UserError, naming the difference, if parameters or calibration
+  /// differ from those of that object; DataError if the bytes are damaged or of another version.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
         const urban_nav_core::Pose& T_base_camera, std::string_view state);
   ~SwfVo();
   SwfVo(SwfVo&&) noexcept;
   SwfVo& operator=(SwfVo&&) noexcept;
 
-  /// One stereo pair and the motion inputs that came since the last (may be empty). The result lives until the next
-  /// call.
+  /// Processes one stereo pair with the motion inputs received since the previous one (may be empty). The result is
+  /// valid until the next call.
   const Frame& process(const urban_nav_core::StereoPair& pair,
                        const std::vector<urban_nav_core::MotionInput>& inputs = {});
 
-  /// Empties the window: the frames that were still in it leave as settled, oldest first. The filter cannot go on after
-  /// it.
+  /// Empties the window: returns its frames as settled, oldest first. process() must not be called afterwards.
   std::vector<Settled> flush();
 
-  /// All that the answers to further calls depend on, as bytes: an object made from it gives the same bits as this one.
-  /// Not after flush().
+  /// Returns the complete state as bytes: an object constructed from it gives bit-identical results. Not after flush().
   std::string state() const;
 
  private:

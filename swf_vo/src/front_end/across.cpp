@@ -21,9 +21,9 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 constexpr double kAcrossReach = 3.0;  // px of the level
-constexpr int kRowSteps = 4;  // px of the level to both sides, searched where the template does not take hold at once
+constexpr int kRowSteps = 4;  // px of the level to both sides, searched where the template does not converge at once
 
-/// The place along a row where the template fits best to whole pixels.
+/// Returns the position along a row with the best match of the template, to whole pixels.
 Eigen::Vector2d bestOnRow(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& around) {
   const ImageView& image = corners.image(side, track.level);
   const double scale = Pyramid::scale(track.level);
@@ -55,7 +55,7 @@ void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose&
       const auto partner =
           projectInto(side == Side::Left ? Side::Right : Side::Left, camera, T_camera_odom, match.p_odom, row_offset);
       if (!projected || !partner || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
-      // What the sighting in the other image is off by is mostly the pose's error, and so common to both.
+      // The error of the projection is mainly that of the pose, hence common to both images.
       const Eigen::Vector2d start = other.found ? Eigen::Vector2d(*projected + (other.pixel - *partner)) : *projected;
       mine = refine(side, corners, *match.track, start, kAcrossReach);
       if (!mine.found && other.found)

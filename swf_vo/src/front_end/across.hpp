@@ -10,8 +10,9 @@
 
 namespace swf_vo {
 
-/// The second half of step (iii): every match is looked for in both images at its place by a pose that is now good to
-/// about a pixel, along the row of the sighting where there is one, and refined; sightings that were found stay.
+/// Second half of step (iii): searches each match in the image in which it was not found, with a pose accurate to about
+/// a pixel, along the row of the measurement in the other image if there is one, and refines it. Existing measurements
+/// are kept.
 void matchAcross(const Corners& corners, const urban_nav_core::StereoCamera& camera,
                  const urban_nav_core::Pose& T_camera_odom, std::vector<Match>& matches, double row_offset = 0.0);
 

@@ -9,7 +9,7 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-// Corners wanted at level 0 per feature; a quarter of that at each further level.
+// Target number of corners per feature at level 0; a quarter of that at each further level.
 constexpr int kFewestPerFeature = 8, kMostPerFeature = 14;
 constexpr int kLowestThreshold = 4, kHighestThreshold = 60;
 
@@ -54,8 +54,7 @@ void Corners::archive(urban_nav_core::Archive& archive) {
   for (Eye* eye : {&left_, &right_})
     for (int& threshold : eye->thresholds) {
       archive(threshold);
-      archive.require(threshold >= kLowestThreshold && threshold <= kHighestThreshold,
-                      "a threshold of corners is none");
+      archive.require(threshold >= kLowestThreshold && threshold <= kHighestThreshold, "corner threshold out of range");
     }
 }
 

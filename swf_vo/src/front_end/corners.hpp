@@ -13,20 +13,20 @@
 
 namespace swf_vo {
 
-/// Step (i) of Newman et al. 2009, section 2.4: pyramids and FAST corners of both images, found by place.
+/// Step (i) of Newman et al. 2009, section 2.4: pyramids and FAST corners of both images, with lookup by position.
 class Corners {
  public:
-  /// Corners at `levels` levels; the pyramids go on to level `top` for the rotation between frames. `threshold`: of
-  /// FAST, in grey levels, at the start; it follows the scene from frame to frame so that each level has a few corners
+  /// Corners at `levels` levels; the pyramids extend to level `top` for the estimation of the rotation between frames.
+  /// `threshold`: initial FAST threshold, grey levels; adapted from frame to frame so that each level has a few corners
   /// for each of `features`.
   Corners(int levels, int top, int threshold, int features);
 
-  /// Neither image may be empty.
+  /// Requires non-empty images.
   void extract(const urban_nav_core::StereoPair& pair);
 
-  /// Levels that have corners (fewer than asked for where the images are small).
+  /// Number of levels with corners; fewer than requested for small images.
   int levels() const { return std::min(levels_, left_.pyramid.levels()); }
-  /// The smallest level of the pyramids.
+  /// Smallest level of the pyramids.
   int top() const { return std::min(top_, left_.pyramid.levels() - 1); }
   const urban_nav_core::ImageView& image(Side side, int level) const { return of(side).pyramid.level(level); }
   const urban_nav_core::CornerGrid& at(Side side, int level) const {

@@ -17,15 +17,16 @@ struct RowStep {
   Eigen::Vector2d turn = Eigen::Vector2d::Zero(), sigma = Eigen::Vector2d::Zero();
 };
 
-/// Measures by how much the disparities of the landmarks in both images exceed those that the map of earlier frames
-/// predicts:
+/// Estimates the common difference between the measured disparities of landmarks and those predicted from the map of
+/// earlier frames:
 ///   d - d(T_camera_odom) = (1 + x^2) step + (d(T_camera_odom) / z) t + error,
-/// with x the tangent of the direction along the rows: a turn of the right camera about its y axis by step / fx. t, an
-/// error of the camera's position along its axis, is estimated too. Where the rig has not changed since the landmarks
-/// were measured, the step is zero. `matches`: before any was rejected for its disparity; `T_camera_odom`: mostly by
-/// measurements in one image each. Robust, with the standard deviation of fitRobustly(). A sigma of 0: too few.
+/// with x the tangent of the direction along the rows. The step corresponds to a rotation of the right camera about its
+/// y axis by step / fx; t, estimated jointly, is the error of the camera position along its optical axis. The step is
+/// zero if the rig has not changed since the landmarks were measured. `matches`: before rejection by disparity;
+/// `T_camera_odom`: mainly from measurements in one image each.
+/// Robust, with the standard deviation of fitRobustly(). A sigma of 0: too few matches.
 ///
-/// Allocates nothing once it has seen as many matches as come.
+/// Does not allocate once its buffers have grown.
 class DisparityStepMeter {
  public:
   DisparityStep measure(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,

@@ -14,8 +14,8 @@
 #include "front_end/pose_estimation.hpp"
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
-#include "front_end/right_turn.hpp"
 #include "front_end/rig_rows.hpp"
+#include "front_end/right_turn.hpp"
 #include "front_end/rotation.hpp"
 #include "front_end/row_offset.hpp"
 #include "front_end/search_radius.hpp"
@@ -31,25 +31,20 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-constexpr double kReferenceArea = 512.0 * 384.0;  // of the parameter `features`
-constexpr int kTopWidth = 160;                    // the image whose rotation is found is at most this wide
+constexpr double kReferenceArea = 512.0 * 384.0;  // image size of the parameter `features`
+constexpr int kTopWidth = 160;                    // maximum width of the image whose rotation is estimated
 constexpr double kCoarseSlackPx = 1.0, kFineSlackPx = 0.1, kNoticedRowOffsetPx = 0.1;
-// A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
+// Templates of landmarks not measured recently are warped far, with an approximate slant of the surface.
 constexpr double kAstraySlackPx = 0.5;
-// By chance 8 % of the landmarks in view agreed, once in ten simulated minutes with gaps (the soak of
-// src/urban_nav/bench); where the pose was right at least 21 % did, after a second without pictures in a real street
-// seen from a car (the recordings of bench/faults).
-constexpr double kLeastShareInView = 0.15;
-// Motions that are tried where so little agrees that nothing is known of the motion, for one match in five to be
-// right.
+// Number of hypotheses for unknown motion, sufficient if one match in five is correct.
 constexpr int kWideSamples = 400;
-// Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with
-// this share of n^2 steps added to their variance show a motion along the track as badly as n steps of a random walk do
-// (6 / (5 n) q = 12 / n^3 R).
+// Within the window landmarks are static, so their template drift is part of the measurement noise: n measurements with
+// this share of n^2 steps added to their variance determine a motion along the track as inaccurately as n steps of a
+// random walk do (6 / (5 n) q = 12 / n^3 R).
 constexpr double kSlopeShare = 0.1;
-// Part of the error of a disparity stays the same as long as the landmark lives (that of its slope, and of what else
-// is in its patch): this share of the variance it was born with. Measured in rendered rooms at 1, 3 and 6 grey levels
-// of noise (bench/creep). However many measurements there are, up to this many, their mean is no better.
+// Share of the initial disparity variance that is constant over the landmark's life (errors of its slope, and of other
+// surfaces in its patch). Measured in rendered rooms at 1, 3 and 6 grey levels of noise (bench/creep). The mean of up
+// to kLongestAverage measurements is not more accurate than this share.
 constexpr double kConstantShare = 0.2;
 constexpr int kLongestAverage = 30;
 constexpr double kLeastTwoEyed = 0.3;                 // share of the inliers
@@ -58,7 +53,7 @@ constexpr int kMostMissed = 3, kMostMissedYoung = 1;  // frames
 // chi-square of one degree of freedom, three times over: landmarks share errors (docs/derivations/rig_constants.md).
 constexpr int kTurnAttempts = 3;
 constexpr double kTurnEvidence = 3.0 * 24.0;
-constexpr int kLongestAside = 50;                     // frames: what was known as long ago has left the view
+constexpr int kLongestAside = 50;  // frames after which a landmark has left the view
 constexpr int kDisagreementsRefute = 2, kDisagreementsRefuteYoung = 1, kYoung = 3;  // frames
 
 int topLevel(int width) {
@@ -145,14 +140,13 @@ class FrontEnd::Implementation {
     return result_;
   }
 
-  /// The state that the next frame finds; everything else is made anew in each.
+  /// Archives the state used by the next frame; everything else is recomputed.
   void archive(urban_nav_core::Archive& archive) {
     archive(corners_, rotation_);
     tracks_.archive(archive, parameters_.pyramid_levels);
     archive(noise_, rows_, right_turn_, rig_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
     archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
-    archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels),
-                    "levels are missing");
+    archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels), "missing levels");
   }
 
  private:
@@ -168,8 +162,8 @@ class FrontEnd::Implementation {
     result_.disparity_step = {};
   }
 
-  /// New landmarks. The first frame is looked at twice where the rows of its images turn out to differ: its landmarks
-  /// want to be right too.
+  /// Starts new landmarks. In the first frame they are started again if a row offset between the images is found, with
+  /// that offset.
   void replenish(FrameId frame) {
     const bool first = !rows_.isKnown();
     startTracks(frame);
@@ -192,7 +186,8 @@ class FrontEnd::Implementation {
     return fits(pair.left) && fits(pair.right);
   }
 
-  /// The prediction with the rotation that the images show, unless it is known better; odom into the camera.
+  /// Returns odom into the camera for the prediction with the rotation between the images, unless sensors are more
+  /// accurate.
   Pose turn(const Pose& last, const Pose& predicted, bool is_known) {
     const Pose T_now_last = predicted.inverse() * last;
     listParallax(camera_, last.inverse(), T_now_last.t(), matches_, parallax_);
@@ -200,20 +195,19 @@ class FrontEnd::Implementation {
         rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
     result_.turned = seen.found && !(is_known && astray_);
     if (!result_.turned) return predicted.inverse();
-    // The camera stays where it was predicted to be and is turned there.
+    // The camera is rotated at its predicted position.
     const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
     return Pose(correction, Eigen::Vector3d::Zero()) * predicted.inverse();
   }
 
-  /// By what the images are less sharp than when the track was born; in both by the same: a difference would go into
-  /// the disparity.
+  /// Sets the blur relative to the first observation, equal in both images: a difference would bias the disparity.
   void setBlur(Track& track) const {
     const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
     track.blur = widening(edges_, {track.born_edges, track.born_edges}) / (size * size);
     track.sharper = !widening(track.born_edges, edges_.left.cwiseMax(edges_.right)).isZero();
   }
 
-  /// Pairs the map with what is followed. What is in one only has come to its end.
+  /// Matches the map with the tracks; ends landmarks and tracks without a counterpart.
   void gather(const std::vector<MapPoint>& map) {
     matches_.clear();
     for (const MapPoint& point : map) {
@@ -236,8 +230,8 @@ class FrontEnd::Implementation {
     for (const LandmarkId id : orphans_) tracks_.end(id);
   }
 
-  /// Residuals of the measurements of the frame before, now that the window has them. A landmark's own place takes up
-  /// its share.
+  /// Updates the noise scale with the residuals of the previous frame at the updated estimates, corrected for the
+  /// degrees of freedom of the landmark's own position.
   void learnNoise() {
     for (const Match& match : matches_) {
       Track& track = *match.track;
@@ -252,7 +246,7 @@ class FrontEnd::Implementation {
     noise_.learn();
   }
 
-  /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
+  /// Returns the pose supported by most first matches, in one image each, accurate to about a pixel.
   PoseEstimate matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     matchTemporal(corners_, camera_, T_turned_odom, radius_.px(), matches_, rows_.px());
     for (Match& match : matches_) measure(match);
@@ -261,8 +255,8 @@ class FrontEnd::Implementation {
     return pose_estimator_.locate(starts_, options, matches_);
   }
 
-  /// The camera may have stopped or turned back: turned as the images show, it is sought where it was. Without more
-  /// matches that agree, all stays as it was.
+  /// Matches at the previous position with the rotation between the images, as the camera may have stopped or turned
+  /// back. Keeps the previous result unless there are more inliers.
   PoseEstimate matchAsIfStill(const PoseEstimate& moving, const Pose& T_turned_odom) {
     spare_ = matches_;
     const Pose T_still_odom(T_turned_odom.q(), -(T_turned_odom.q() * T_window_odom_.inverse().t()));
@@ -272,9 +266,9 @@ class FrontEnd::Implementation {
     return moving;
   }
 
-  /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it
-  /// fits badly. From the headings about it, and from where the camera was last, for a clock may jump and the camera
-  /// need not; then from the pose that most matches agree on, they are sought again.
+  /// Variant for predictions that may be far off after frames without measurements, mainly in heading, so that
+  /// templates are warped badly. Tries headings around the prediction and the previous position (the gap may be a clock
+  /// jump), then matches again from the pose with most inliers.
   PoseEstimate matchAstray(PoseEstimate best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     radius_.setUnknown();
     if (!best.found || 2 * best.inliers < best.candidates) {
@@ -294,8 +288,9 @@ class FrontEnd::Implementation {
     return matchCoarsely(best.T_camera_odom, best.T_camera_odom);
   }
 
-  /// Nothing fits where it was expected, as when the first step is a large one: looks far around for a motion, then
-  /// matches again from there. Taken if it explains clearly more than `explained` matches; else all stays as it was.
+  /// Searches a large region if nothing matches at the predicted positions, as with a large first step, and matches
+  /// again from the motion found. Returns it if it explains clearly more than `explained` matches; else restores the
+  /// matches.
   std::optional<PoseEstimate> searchWidely(const Pose& T_turned_odom, int explained) {
     spare_ = matches_;
     matchAnywhere(corners_, camera_, T_turned_odom, radius_.anywhere(), matches_, rows_.px());
@@ -311,7 +306,7 @@ class FrontEnd::Implementation {
     return std::nullopt;
   }
 
-  /// Learns the width of the next search from what this frame's inliers were away from where they had been expected.
+  /// Updates the search radius from the distances between inliers and their predictions.
   void learnRadius(const Pose& T_expected_odom) {
     errors_.clear();
     for (const Match& match : matches_) {
@@ -322,7 +317,7 @@ class FrontEnd::Implementation {
     radius_.learn(errors_);
   }
 
-  /// What the coarse motion explains is completed in the other image and placed to a hundredth of a pixel.
+  /// Completes matches of the coarse motion in the other image and refines them to hundredths of a pixel.
   PoseEstimate matchFinely(const PoseEstimate& coarse, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     for (Match& match : matches_) {
       match.contradicted = coarse.found && match.measured && !match.inlier;
@@ -354,7 +349,8 @@ class FrontEnd::Implementation {
         fine = matchFinely(*wide, T_turned_odom, T_predicted_odom);
 
     result_.candidates = fine.candidates;
-    result_.localised = fine.found && !isOneEyed(fine.inliers) && !(astray_ && isByChance(fine));
+    result_.localised = fine.found && !isOneEyed(fine.inliers) &&
+                        !(astray_ && isByChance(camera_, fine.T_camera_odom, fine.inliers, matches_));
     radius_.setUnknown();
     if (!result_.localised) {
       for (Match& match : matches_) match.inlier = false;
@@ -406,18 +402,9 @@ class FrontEnd::Implementation {
         *sighting = PixelMeasurement();
   }
 
-  /// Of the landmarks that such a pose would have in view, are those that say so a few only? Where one has searched far
-  /// around, some patches of any other place look like some of before, and a few of them agree; and so does what was
-  /// carried along.
-  bool isByChance(const PoseEstimate& found) const {
-    const auto in_view = std::count_if(matches_.begin(), matches_.end(),
-                                       [&](const Match& match) { return isInView(camera_, found.T_camera_odom, match); });
-    return found.inliers < kLeastShareInView * static_cast<double>(in_view);
-  }
-
-  /// Do most matches live in one image although the other has something to show? Then the two images are no pair
-  /// (swapped, or of different times), and a motion that explains one of them is wrong. A dark image is another matter:
-  /// one eye is enough.
+  /// Returns whether most matches are in one image although the other one has texture: the two images are not a pair
+  /// (swapped, or of different times), and a motion that explains one of them is wrong. With a dark image, matches in
+  /// the other one are sufficient.
   bool isOneEyed(int inliers) const {
     const int both = countInBoth(matches_);
     const int enough = static_cast<int>(matches_.size());
@@ -425,7 +412,7 @@ class FrontEnd::Implementation {
            corners_.count(Side::Right) > enough;
   }
 
-  /// Decides the future of a landmark.
+  /// Updates the track of a landmark after the frame, or ends it.
   void follow(FrameId frame, Match& match) {
     Track& track = *match.track;
     if (match.inlier) {
@@ -452,7 +439,7 @@ class FrontEnd::Implementation {
       track.z = match.z;
       return;
     }
-    // Less or more sharp than it was, it is looked for in vain, or found elsewhere; that says nothing of it.
+    // With a change of sharpness a missing or deviating match is not evidence against the landmark.
     const bool unlike = track.sharper || !track.blur.isZero();
     if (unlike && ++track.aside <= kLongestAside) return;
     if (result_.localised && (match.measured || match.contradicted)) {
@@ -461,7 +448,7 @@ class FrontEnd::Implementation {
       tracks_.end(track.id);
       return;
     }
-    // Lost for a moment, as in a flash of light: what was known well may still be found when the images are good again.
+    // Temporary loss, as with glare: well-known landmarks may be found again when the images are good.
     if (!result_.localised && track.seen >= kYoung) return;
     const int most = track.seen < kYoung ? kMostMissedYoung : kMostMissed;
     if (++track.missed < most && isInView(camera_, result_.T_odom_camera.inverse(), match)) return;
@@ -484,7 +471,7 @@ class FrontEnd::Implementation {
   RightTurn right_turn_;
   RigRows rig_;
   Replenisher replenisher_;
-  std::vector<PatchResidualTest> residual_test_;  // of landmarks that are followed, by level
+  std::vector<PatchResidualTest> residual_test_;  // for tracked landmarks, by level
   FrontEndResult result_;
   std::vector<Match> matches_, spare_;
   std::vector<LandmarkId> orphans_;
@@ -492,10 +479,10 @@ class FrontEnd::Implementation {
   std::vector<Pose> starts_;
   std::vector<double> errors_;
   Edges edges_;
-  bool astray_ = false;  // nothing says where the frame before was but the prediction
+  bool astray_ = false;  // the previous pose is known by prediction only
   FrameId frame_ = -2;
-  Pose T_odom_localised_;  // of the frame processed here last, as it was localised
-  Pose T_window_odom_;     // of the frame before, as the window has it now
+  Pose T_odom_localised_;  // estimate of the frame processed last
+  Pose T_window_odom_;     // previous frame, current estimate of the window
 };
 
 FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera, bool subpixel)

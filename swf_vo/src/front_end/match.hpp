@@ -7,26 +7,26 @@
 
 namespace swf_vo {
 
-/// A place in one image, px of level 0.
+/// A position measured in one image, px of level 0.
 struct PixelMeasurement {
   bool found = false;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  double correlation = 0.0, gain = 1.0, noise = 0.0;  ///< of the alignment (patch.hpp)
+  double correlation = 0.0, gain = 1.0, noise = 0.0;  ///< results of the alignment (patch.hpp)
 };
 
-/// What became of one landmark of the map in the frame at hand.
+/// Matching result of one landmark of the map in the current frame.
 struct Match {
   Track* track = nullptr;
-  Eigen::Vector4d p_odom = Eigen::Vector4d::Zero();  ///< homogeneous, as the map has it
+  Eigen::Vector4d p_odom = Eigen::Vector4d::Zero();  ///< homogeneous, from the map
   PixelMeasurement left, right;
   bool measured = false;                                  ///< z is valid
-  Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< u_left, v, u_right (px)
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< zero rows for what was not measured
-  double inflation = 1.0;                                 ///< NoiseScale; not in the information
-  double chi2 = 0.0;  ///< of the residual at the localised pose, the map's own error allowed for
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< zero rows for coordinates that were not measured
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< zero rows for missing coordinates
+  double inflation = 1.0;                                 ///< NoiseScale; not included in the information
+  double chi2 = 0.0;  ///< residual at the estimated pose, with the error of the map included
   bool inlier = false;
-  bool contradicted = false;  ///< was found, but where the motion of the camera does not take it
+  bool contradicted = false;  ///< found at a position that contradicts the motion of the camera
 };
 
 }  // namespace swf_vo

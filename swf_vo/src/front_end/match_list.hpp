@@ -21,12 +21,19 @@ double robustCost(const std::vector<Match>& matches);
 bool isInView(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
               const Match& match);
 
+/// Returns whether only a small share of the landmarks in view supports a pose with so many `inliers`. With a large
+/// search region some patches of any other place resemble earlier ones and a few are consistent by chance, as are
+/// patches moving with the camera.
+bool isByChance(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, int inliers,
+                const std::vector<Match>& matches);
+
 /// Sets the coordinates of `match.z` that were not measured to their predictions, for pictures; their information stays
 /// zero.
 void fillIn(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
 
 /// Lists how far the camera's motion `t_now_last` (m) moves each landmark in the left image of the frame before.
 void listParallax(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_last_odom,
-                  const Eigen::Vector3d& t_now_last, const std::vector<Match>& matches, std::vector<Parallax>& parallax);
+                  const Eigen::Vector3d& t_now_last, const std::vector<Match>& matches,
+                  std::vector<Parallax>& parallax);
 
 }  // namespace swf_vo

@@ -7,12 +7,12 @@ namespace swf_vo {
 
 namespace {
 
-constexpr double kNoiseMemory = 0.98;         // of a frame, in the next one
-constexpr double kPriorCoordinates = 4;       // that what is usual counts for
-constexpr double kChiSquareMedian = 0.789;    // of 3 degrees of freedom, by degree
-constexpr std::size_t kFewestResiduals = 12;  // landmarks, to know what is usual
-constexpr double kSlowest = 0.1;              // share of a frame in what is usual, once more than ten are known
-// One residual counts for no more than this many usual ones: what is so far off is something else.
+constexpr double kNoiseMemory = 0.98;         // weight of a frame in the next one
+constexpr double kPriorCoordinates = 4;       // weight of the typical scale
+constexpr double kChiSquareMedian = 0.789;    // for 3 degrees of freedom, per degree
+constexpr std::size_t kFewestResiduals = 12;  // landmarks required for the typical scale
+constexpr double kSlowest = 0.1;              // weight of a frame in the typical scale, after the first ten
+// Limit of a residual in units of the typical one: larger ones are outliers.
 constexpr double kLargest = 65.0;
 
 }  // namespace

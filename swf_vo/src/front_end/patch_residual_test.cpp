@@ -9,7 +9,7 @@ namespace swf_vo {
 
 namespace {
 
-constexpr std::size_t kRenewal = 8;  // patches between two looks at the median
+constexpr std::size_t kRenewal = 8;  // patches between two updates of the median
 
 }  // namespace
 

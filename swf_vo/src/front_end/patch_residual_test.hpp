@@ -14,7 +14,7 @@ namespace swf_vo {
 class PatchResidualTest {
  public:
   /// Returns whether a residual (standard deviation, grey levels) is below the threshold, and adds it to the recent
-  /// ones. Returns true while too few are known.
+  /// residuals. Returns true while there are too few of them.
   bool isTypical(double noise);
   void archive(urban_nav_core::Archive& archive);
 

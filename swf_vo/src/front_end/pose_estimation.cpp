@@ -25,14 +25,16 @@ namespace {
 constexpr double kCauchy2 = 5.7;  // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
 constexpr double kGate = 16.3;    // chi-square, 3 degrees of freedom, 99.9 %
 constexpr int kMostPoseSteps = 12;
-constexpr double kPredictionBonus = 0.9;  // a start that was found by consensus must be better by more than this
-constexpr double kClearMajority = 0.35;   // share of the highest cost, below which no other motion is looked for
+constexpr double kPredictionBonus = 0.9;  // a pose found by consensus must have a lower cost than this share of the
+                                          // best start's
+constexpr double kClearMajority = 0.35;   // share of the highest cost; below, no other motion is searched
 constexpr double kFullTrustAge = 6.0;     // frames
 
-// Keeps the pose where three points in a row or too few matches say nothing.
+// Constrains the pose where collinear points or too few matches leave it undetermined.
 constexpr double kAnchorM = 1.0, kAnchorRad = 0.2;
 
-/// A landmark seen in one frame has the error of its first disparity, which shows as the camera moves; it averages out.
+/// Returns the covariance of a landmark's predicted measurement due to the error of its first disparity, which is
+/// projected as the camera moves and averages out with further measurements.
 Eigen::Matrix3d mapCovariance(const StereoCamera& camera, const Track& track, const Pose& T_camera_odom,
                               double inverse_depth) {
   const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
@@ -67,7 +69,7 @@ void PoseEstimator::prepare(const Pose& T_camera_odom, const PoseEstimatorOption
     item.trust = std::min(1.0, 0.1 + match.track->seen / kFullTrustAge);
     Eigen::Matrix3d extra = mapCovariance(camera_, *match.track, T_camera_odom, inverseDepthWhereBorn(match));
     extra.diagonal().array() += options.slack_px * options.slack_px;
-    // (R + extra)^-1 without inverting R, which may say nothing of a coordinate
+    // (R + extra)^-1 without inverting the information, which may be singular
     const Eigen::Matrix3d own = match.information / match.inflation;
     const Eigen::Matrix3d sum = Eigen::Matrix3d::Identity() + own * extra;
     item.information = sum.inverse() * own;
@@ -178,7 +180,7 @@ PoseEstimate PoseEstimator::locate(const std::vector<Pose>& starts, const PoseEs
   for (std::size_t i = 1; i < starts.size(); ++i) consider(starts[i]);
   double trust = 0.0;
   for (const Item& item : items_) trust += item.trust;
-  // Another motion could win only with more than the rest.
+  // Another motion can have a lower cost only if its support exceeds the remainder.
   if (best_cost > kClearMajority * kGate * trust) {
     double consensus_cost = kPredictionBonus * best_cost;
     consider(bestByConsensus(starts.front(), options.samples, consensus_cost));

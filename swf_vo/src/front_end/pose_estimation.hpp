@@ -12,27 +12,26 @@ namespace swf_vo {
 
 struct PoseEstimate {
   urban_nav_core::Pose T_camera_odom;
-  bool found = false;  ///< enough matches agree; else the pose is the first start's
+  bool found = false;  ///< enough inliers; else the pose is the first start
   int candidates = 0, inliers = 0;
-  double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
+  double reprojection_px = 0.0;  ///< root mean square of the inliers in the left image
 };
 
 struct PoseEstimatorOptions {
-  double slack_px = 0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong
-                          ///< by beyond what they say
+  double slack_px = 0.1;  ///< added to the standard deviation of each coordinate: errors of map and match beyond their
+                          ///< covariances
   int least_inliers = 8;
-  int samples = 24;  ///< motions through few matches that are tried too, for when the starts given are all wrong
+  int samples = 24;  ///< poses from minimal sets that are tried in addition to the given starts
 };
 
-/// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a
-/// landmark's first disparity allowed for, from several starts: those given, in order of trust, and motions through
-/// minimal sets of matches chosen by a fixed sequence. Starts are compared by a robust cost in which a landmark counts
-/// by how often it was right before: a van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of
-/// each match.
+/// Step (iv) of section 2.4: pose of the camera by an m-estimator over the matches, including the error of a landmark's
+/// first disparity, from several starts: those given, in order of preference, and poses from minimal sets chosen by a
+/// fixed sequence. Starts are compared by a robust cost in which a landmark is weighted by its number of earlier inlier
+/// measurements: a moving vehicle that fills the view has few. Sets `inlier` and `chi2` of each match.
 class PoseEstimator {
  public:
-  /// The camera must outlive it, and may learn its disparity offset. `capacity`: of matches, for which memory is taken
-  /// at once.
+  /// The camera must outlive this object; its disparity offset may change. `capacity`: number of matches, for which
+  /// memory is allocated at construction.
   explicit PoseEstimator(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) {
     items_.reserve(static_cast<std::size_t>(capacity));
   }
@@ -41,7 +40,7 @@ class PoseEstimator {
                       const PoseEstimatorOptions& options, std::vector<Match>& matches);
 
  private:
-  static constexpr int kSampleSize = 3;  // three points in stereo fix a motion with some to spare
+  static constexpr int kSampleSize = 3;  // three stereo points determine a motion, with redundancy
   struct Item {
     Eigen::Vector4d p_odom;
     Eigen::Vector3d z;

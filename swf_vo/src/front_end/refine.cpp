@@ -17,21 +17,21 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 constexpr double kLargestScale = 1.5, kSmallestScale = 0.6;
-constexpr double kSameWarp = 0.02;   // of an entry: 0.1 px at the border of the window
-constexpr double kSameBend = 0.002;  // 1/px, half as much there
+constexpr double kSameWarp = 0.02;   // difference of an element: 0.1 px at the border of the window
+constexpr double kSameBend = 0.002;  // 1/px, half of that at the border
 constexpr double kRowGate = 9.0;     // chi-square of the difference of the rows, one degree of freedom
-constexpr double kRowSlackPx = 0.3;  // what rectification may be wrong by
-constexpr double kFurther = 1.4;     // a slant is learnt anew each time the camera has moved so much further
+constexpr double kRowSlackPx = 0.3;  // rectification error
+constexpr double kFurther = 1.4;     // the slant is updated each time the camera has moved further by this factor
 constexpr double kSteepest = 20.0;   // change of a surface's slant in one step, tangent
 constexpr double kSameBlur = 0.05;   // px^2 of the level
-// Of the blur that edges show, what it may be off by, and what a blur that is no Gaussian adds: of the displacement
-// that the blur makes.
+// Uncertainty of the displacement caused by blur, as a share of it: errors of the blur measured at edges, and
+// deviations from a Gaussian.
 constexpr double kBlurShare = 0.3;
 constexpr double kLeastGain = 0.2, kLargestGain = 5.0;
-// As the view changes, a template weighs its pixels anew, and what it stands for creeps over the surface, in both
-// images at once, so that disparities do not change. For a change of one its variance grows by this multiple of the
-// alignment's covariance and of kCreepPx^2: a patch of several depths fits worse and worse and creeps the most.
-// Measured in simulated streets (bench/template_drift); patches of one plane creep by half of that at most
+// As the view changes, the pixels of a template are weighted differently, and the point that it represents drifts over
+// the surface, equally in both images, so that disparities do not change. For a view change of one its variance grows
+// by this multiple of the alignment's covariance and of kCreepPx^2: a patch of several depths has increasing residuals
+// and drifts most. Measured in simulated streets (bench/template_drift); planar patches drift by half of that at most
 // (bench/creep).
 constexpr double kCreepPerChange = 4.0, kCreepPx = 0.03;
 
@@ -55,7 +55,7 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   warp->bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp->bend.norm(), 1e-9));
   const double area = warp->A.determinant();
   if (!(area > kSmallestScale * kSmallestScale && area < kLargestScale * kLargestScale)) return false;
-  PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
+  PatchTemplate &result = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
   bool &ready = is_left ? track.left_ready : track.right_ready,
        &others_ready = is_left ? track.right_ready : track.left_ready;
   Eigen::Vector2d &made_blur = is_left ? track.made_blur_left : track.made_blur_right,
@@ -65,13 +65,13 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
            (patch.warp.bend - warp->bend).cwiseAbs().maxCoeff() < kSameBend &&
            (its_blur - blur).cwiseAbs().maxCoeff() < kSameBlur;
   };
-  if (ready && serves(made, made_blur)) return true;
-  // What is seen from the front looks the same to both eyes.
+  if (ready && serves(result, made_blur)) return true;
+  // The template of the other image serves for surfaces that face both cameras.
   ready = others_ready && serves(others, others_blur);
   made_blur = ready ? others_blur : blur;
-  if (ready) made = others;
-  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *warp, made);
-  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *warp, made);
+  if (ready) result = others;
+  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *warp, result);
+  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *warp, result);
   return ready;
 }
 
@@ -79,8 +79,8 @@ PixelMeasurement refine(Side side, const Corners& corners, const Track& track, c
                         double reach) {
   PixelMeasurement sighting;
   const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
-  const PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
-  const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), made, start / size, reach);
+  const PatchTemplate& result = side == Side::Left ? track.in_left : track.in_right;
+  const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), result, start / size, reach);
   if (!a.converged || a.correlation < kLeastCorrelation || a.gain < kLeastGain || a.gain > kLargestGain)
     return sighting;
   sighting.found = true;
@@ -134,11 +134,11 @@ Eigen::Matrix2d whereBorn(const Track& track, const Eigen::Matrix2d& covariance)
 
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {
   const Eigen::Vector2d& blur = in_left ? track.made_blur_left : track.made_blur_right;
-  const PatchTemplate& made = in_left ? track.in_left : track.in_right;
+  const PatchTemplate& result = in_left ? track.in_left : track.in_right;
   PatchTemplate sharp;
-  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, made.warp, sharp)) return Eigen::Matrix2d::Zero();
+  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, result.warp, sharp)) return Eigen::Matrix2d::Zero();
   const Eigen::Vector2d d =
-      kBlurShare * urban_nav_core::displacement(made, sharp) / urban_nav_core::Pyramid::scale(track.level);
+      kBlurShare * urban_nav_core::displacement(result, sharp) / urban_nav_core::Pyramid::scale(track.level);
   return d * d.transpose();
 }
 

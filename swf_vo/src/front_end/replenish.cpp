@@ -22,21 +22,21 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double kSlack = 2.0;              // of the quadtree
-constexpr double kLargestDisparity = 0.16;  // of the image's width: nearer things pass too fast to be of use
-constexpr int kLowestDisparity = -2;        // px of the level: far points, with the error of rectification
+constexpr double kSlack = 2.0;              // tolerance of the quadtree
+constexpr double kLargestDisparity = 0.16;  // share of the image's width: nearer points pass too fast to be useful
+constexpr int kLowestDisparity = -2;        // px of the level: far points, including the error of rectification
 constexpr double kLeastDisparityPx = -1.0;  // after refinement, level 0
-constexpr float kLevelPreference = 0.3F;    // a feature is located to pixels of its own level
+constexpr float kLevelPreference = 0.3F;    // features are localised in pixels of their own level
 constexpr double kSameRow = 1.0;            // px of the level between the rows of both images
 constexpr double kLeastCorrelationAcross = 0.85;
-// From here on a pixel says no more than "at least so bright"; cameras' tables and JPEG end a level or two early.
+// Grey level of saturation; lookup tables of cameras and JPEG saturate a level or two early.
 constexpr std::uint8_t kClippedFrom = 254;
 constexpr int kClippingReach = 2;                              // px of the level
 constexpr int kAttemptsPerFeature = 3, kAttemptsAtLeast = 20;  // bounds the time where nothing can be matched
 
-/// Is it a corner of what is clipped, such as leaves before a white sky? Where the light is cut off moves with the
-/// exposure and with what falls into each pixel, alike for all such corners: they turn the camera, and no residual
-/// shows it.
+/// Returns whether a corner is caused by saturation, such as leaves before a white sky. The saturated border moves with
+/// the exposure and with the light in each pixel, equally for all such corners: they bias the rotation without visible
+/// residuals.
 bool isOfClipped(const ImageView& image, int u, int v, int reach) {
   const int first = std::max(u - reach, 0), end = std::min(u + reach + 1, image.width);
   for (int j = std::max(v - reach, 0); j <= std::min(v + reach, image.height - 1); ++j)
@@ -86,7 +86,7 @@ void Replenisher::gather(const Corners& corners) {
 
 namespace {
 
-/// Sets the surface, the uncertainty and the templates of a track that begins with a match of both images.
+/// Sets surface, uncertainty and templates of a new track from its match in both images.
 void describeTrack(const StereoCamera& camera, double floor_px, const Match& match, const SlopedAlignment& found,
                    const urban_nav_core::PatchSource& source, Track& track) {
   track.plane = urban_nav_core::surfaceThrough(
@@ -119,7 +119,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   Track* track = tracks.start();
   if (track == nullptr) return false;
   track->level = candidate.level;
-  // a surface at 45 deg to the line of sight is as deep as it is wide
+  // typical slope: a surface at 45 deg to the line of sight
   const double usual_slope =
       std::max(1.0, (*disparity - offset + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx;
   const SlopedAlignment found = urban_nav_core::alignAcross(
@@ -137,7 +137,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
                          residual_test_[static_cast<std::size_t>(candidate.level)].isTypical(found.alignment.noise) &&
                          urban_nav_core::warpTemplate(*source, {}, track->in_left);
   if (plausible) {
-    // the template's own noise is the left image's
+    // the noise of the template is that of the left image
     const double noise = std::max(found.alignment.noise, 0.3);
     match.left.covariance = track->in_left.unit_covariance * (noise * noise * size * size);
     match.right.covariance = found.alignment.covariance * (size * size);
@@ -170,7 +170,7 @@ void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T
   for (const Candidate& candidate : candidates_) {
     if (quadtree_.count() >= features_ || attempts <= 0) return;
     if (candidate.of_clipped && 2 * quadtree_.count() >= features_)
-      return;  // where there is little else, better than nothing
+      return;  // used only where there are few other features
     const double u = candidate.u << candidate.level, v = candidate.v << candidate.level;
     if (!quadtree_.mayAdd(u, v)) continue;
     --attempts;

@@ -15,15 +15,15 @@
 
 namespace swf_vo {
 
-/// Step (v) of section 2.4: new features, the best first by Harris score, where the quadtree has room; matched left to
-/// right, refined, and started as tracks with their first observation.
+/// Step (v) of section 2.4: selects new features, the best by Harris score first, where the quadtree has room; matches
+/// them from left to right, refines them, and starts tracks with their first observation.
 class Replenisher {
  public:
-  /// The camera must outlive it, and may learn its disparity offset. `features`: wanted in the image.
+  /// The camera must outlive this object; its disparity offset may change. `features`: wanted in the image.
   Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px, bool subpixel = true);
 
-  /// `matches`: those that are inliers keep their place. Appends to `fresh`. `rows`: by what the images differ, and
-  /// what is seen of it.
+  /// `matches`: inliers occupy their positions. Appends to `fresh`. `rows`: row offset used, and updated with the new
+  /// matches.
   void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera,
                  const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh, RowOffset& rows);
   void archive(urban_nav_core::Archive& archive);
@@ -45,7 +45,7 @@ class Replenisher {
   bool subpixel_;
   urban_nav_core::FeatureQuadtree quadtree_;
   std::vector<Candidate> candidates_;
-  std::vector<PatchResidualTest> residual_test_;  // by level: noise is less further up
+  std::vector<PatchResidualTest> residual_test_;  // one per level: noise decreases with the level
 };
 
 }  // namespace swf_vo

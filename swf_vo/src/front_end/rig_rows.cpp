@@ -13,21 +13,21 @@ using urban_nav_core::SmallCholesky;
 
 namespace {
 
-// Landmarks: mounts give way and clocks drift, slowly.
+// Landmarks: mounts and clocks drift slowly.
 constexpr double kMemory = 20000.0;
-// Standard deviation of a row by a match before any was seen, px, and what the prior of it counts for, matches.
+// Prior of the standard deviation of a row difference, px, and its weight in matches.
 constexpr double kFirstSigmaPx = 0.3;
 constexpr double kFirstCount = 20.0;
-constexpr double kLeastShareOfDepth = 0.1;  // in the frame before, of that in this one
+constexpr double kLeastShareOfDepth = 0.1;  // minimum depth in the previous frame relative to that in the current one
 constexpr double kHuber = 2.0;              // standard deviations
-constexpr double kOffsetPriorPx = 10.0;     // any: it is followed elsewhere (row_offset.hpp)
-constexpr double kWidest = 0.8;             // of the cells, by direction
-// Effective number of cells (Kish 1965) from which on they say something of a variance.
+constexpr double kOffsetPriorPx = 10.0;     // uninformative: the offset is estimated by RowOffset
+constexpr double kWidest = 0.8;             // limit of the cells, by direction
+// Effective number of cells (Kish 1965) required for the sandwich estimator.
 constexpr double kLeastCells = 6.0;
-// Of Student's t: most rigs are as well calibrated as their priors say, and some are far off.
+// Degrees of freedom of Student's t: most rigs are as well calibrated as their priors, and some are far off.
 constexpr double kFreedom = 4.0;
 constexpr int kIterations = 10;
-constexpr double kFree = 1e-6;  // information, in units of the priors, that says nothing
+constexpr double kFree = 1e-6;  // uninformative information, in units of the priors
 
 }  // namespace
 
@@ -78,11 +78,11 @@ void RigRows::learn() {
   for (Cell& cell : cells_) cell.fade(kept);
   all_.fade(kept);
   const double variance = variance_ / count_;
-  // In units of the priors, so that no pivot is lost.
+  // Scaled by the priors, for conditioning.
   const Vector3d scale(kOffsetPriorPx, priors_.roll, priors_.delay_s);
   const Matrix3d measured = scale.asDiagonal() * all_.information * scale.asDiagonal() / variance;
   const Vector3d right = scale.cwiseProduct(all_.right) / variance;
-  // By the measurements alone, but for what they say nothing of.
+  // Estimate from measurements only, apart from directions that they leave undetermined.
   const SmallCholesky<3> plain(Matrix3d(measured + kFree * Matrix3d::Identity()));
   if (!plain.succeeded()) return;
   const Vector3d alone = plain.solve(right);
@@ -99,7 +99,7 @@ void RigRows::learn() {
   if (cells > kLeastCells)
     for (int i = 1; i < 3; ++i)
       if (measured(i, i) > kFree) caution = std::max(caution, cells / (cells - 3.0) * sandwich(i, i) / model(i, i));
-  // From the prior outwards: noise alone does not loosen it.
+  // Iterates from the prior, so that noise does not reduce its weight.
   Vector3d found = Vector3d::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Vector3d prior(1.0, 1.0 / (1.0 + found[1] * found[1] / kFreedom),
@@ -132,7 +132,7 @@ void RigRows::Cell::archive(urban_nav_core::Archive& archive) { archive(informat
 void RigRows::archive(urban_nav_core::Archive& archive) {
   for (Cell& cell : cells_) archive(cell);
   archive(all_, count_, variance_, estimate_, covariance_);
-  archive.require(count_ > 0.0 && variance_ > 0.0, "the scatter of rows");
+  archive.require(count_ > 0.0 && variance_ > 0.0, "invalid row variance");
 }
 
 }  // namespace swf_vo

@@ -13,40 +13,40 @@
 
 namespace swf_vo {
 
-/// What the rows of the right image say of how the pair is mounted and triggered.
+/// Estimates roll and shutter delay of the right camera from row disparities.
 ///
-/// A point whose row in the left image moves by v' px/s stands in the right image lower by
+/// For a point whose row in the left image changes by v' px/s, the row in the right image minus that in the left one is
 ///   offset - roll (u - cx) + delay v':
-/// a right camera that is pitched shows everything lower, one that is rolled about its optical axis shows the right
-/// half higher than the left one, and one that opens later shows where points have moved to. Least squares over new
-/// landmarks, each once, with Huber's weights; rows far in the past fade. Errors of one place of the image have one
-/// cause (lens, rectification) and do not average out: places are the clusters of a sandwich estimator (Liang and Zeger
-/// 1986), and if it states more variance than the scatter of matches does, all is believed by so much less. Priors are
-/// what a well-calibrated rig has, with the tails of Student's t: one that is far off is found.
+/// the offset is caused by a pitch of the right camera, the second term by its roll about the optical axis, the third
+/// by a later exposure. Least squares over new landmarks, each used once, with Huber weights and exponential
+/// forgetting. Errors in one region of the image have a common cause (lens, rectification) and do not average out:
+/// regions are the clusters of a sandwich estimator (Liang and Zeger 1986), and if its variance exceeds that of the
+/// scatter of matches, the information is reduced by the ratio. The priors are those of a well-calibrated rig with the
+/// tails of Student's t distribution, so that large errors can be estimated.
 class RigRows {
  public:
   struct Priors {
     double roll = 0.0;     ///< standard deviation, rad
     double delay_s = 0.0;  ///< standard deviation, s
   };
-  /// Of one landmark.
+  /// Measurement of one landmark.
   struct Difference {
     double px = 0.0;                                      ///< row in the right image minus row in the left one
-    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< of the landmark: (x, y) / z
-    double flow_px_s = 0.0;                               ///< by which its row in the left image grows
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< direction of the landmark: (x, y) / z
+    double flow_px_s = 0.0;                               ///< velocity of its row in the left image
   };
 
-  /// The camera must outlive it, and may learn its disparity offset.
+  /// The camera must outlive this object; its disparity offset may change.
   RigRows(const Priors& priors, const urban_nav_core::StereoCamera& camera);
 
   void see(const Difference& difference);
-  /// At the end of a frame.
+  /// Updates the estimate at the end of a frame.
   void learn();
-  /// A frame's new landmarks. How their rows move follows from their places and from the motion since the frame before,
-  /// which is so many seconds ago.
+  /// Takes the new landmarks of a frame. The velocities of their rows are computed from their positions and from the
+  /// motion since the previous frame, `seconds` ago.
   void learn(const urban_nav_core::Pose& T_last_now, double seconds, const std::vector<Observation>& fresh,
              Tracks& tracks);
-  /// Roll and delay by all frames.
+  /// Roll and delay estimated from all frames.
   RigConstants evaluate() const;
   void archive(urban_nav_core::Archive& archive);
 
@@ -66,9 +66,9 @@ class RigRows {
   const urban_nav_core::StereoCamera& camera_;
   std::array<Cell, kColumns * kRows> cells_;
   Cell all_;
-  double count_ = 0.0, variance_ = 0.0;     // of residuals, px^2
+  double count_ = 0.0, variance_ = 0.0;     // weight and variance of residuals, px^2
   Vector3d estimate_ = Vector3d::Zero();    // offset (px), roll (rad), delay (s)
-  Matrix3d covariance_ = Matrix3d::Zero();  // zero: nothing seen
+  Matrix3d covariance_ = Matrix3d::Zero();  // zero: no measurement yet
 };
 
 }  // namespace swf_vo

@@ -15,9 +15,10 @@ namespace {
 
 // The step of one frame that is tested by itself, standard deviations; the images decide (FrontEnd).
 constexpr double kLargeStep = 6.0;
-// As in the test of trust (docs/derivations/trust.md): the sum of n steps of neighbouring frames, which share landmarks,
-// has this many times the variance of independent ones; all landmarks of a frame share errors of this size; an alarm is
-// false once in so many hours of frames; until the landmarks are renewed steps are not independent of a change.
+// As in the test of trust (docs/derivations/trust.md): the sum of n steps of neighbouring frames, which share
+// landmarks, has this many times the variance of independent ones; all landmarks of a frame share errors of this size;
+// an alarm is false once in so many hours of frames; until the landmarks are renewed steps are not independent of a
+// change.
 constexpr double kSharedLandmarks = 3.0, kStepFloorPx = 0.02;
 constexpr double kFalseAlarm = 1e-5;
 constexpr std::int64_t kFramesPerHour = 20 * 3600;
@@ -82,7 +83,8 @@ DisparityStep RightTurn::add(const DisparityStep& step, StampNs stamp) {
   if (!(step.sigma_px > 0.0)) return step;
   if (stamp >= renewed_) {
     // Without an answer to an alarm the change is in the usual step from now on.
-    if (detector_.add(toMeasurement(step, stamp))) detector_ = ChangeDetector(kFalseAlarm, kFramesPerHour, kRecentSteps);
+    if (detector_.add(toMeasurement(step, stamp)))
+      detector_ = ChangeDetector(kFalseAlarm, kFramesPerHour, kRecentSteps);
     if (detector_.measurements() > 0) {
       usual_px_ = detector_.mean();
       usual_sigma_ = detector_.meanSigma();

@@ -20,8 +20,8 @@ constexpr int kMostRotationSteps = 10;
 constexpr double kFarTurn = 0.07;      // rad: 4 deg
 constexpr double kSettled = 1e-4;      // rad
 constexpr double kLongestStep = 0.05;  // rad
-constexpr int kWantedPixels = 1500;    // of which the sums are made
-constexpr int kLeastKnown = 20;        // landmarks, to do without the rest of the image
+constexpr int kWantedPixels = 1500;    // target number of pixels in the sums
+constexpr int kLeastKnown = 20;        // landmarks required to use only their surroundings
 constexpr double kImprovement = 0.98;
 
 using Vector5 = Eigen::Matrix<float, 5, 1>;
@@ -35,7 +35,7 @@ struct RotationTracker::Normal {
   float squares = 0.0F;
   int count = 0;
 
-  /// Residual left when gain and offset are at their best, root mean square.
+  /// Root mean square residual with optimal gain and offset.
   double rms() const {
     if (count < 100) return -1.0;
     const Eigen::Vector2f light = H.bottomRightCorner<2, 2>().ldlt().solve(b.tail<2>());
@@ -111,11 +111,11 @@ RotationTracker::Normal RotationTracker::sum(int level, const Matrix3d& R) const
     const auto at = [&](const std::vector<float>& m) {
       return (1.0F - b) * ((1.0F - a) * m[i] + a * m[i + 1]) + b * ((1.0F - a) * m[i + w] + a * m[i + w + 1]);
     };
-    // ESM: the mean of both gradients, which makes the step second order
+    // ESM: mean of both gradients, for second-order convergence
     const float gu = 0.5F * (at(now_.du) + last_.du[sample.at]) * fx * iz,
                 gv = 0.5F * (at(now_.dv) + last_.dv[sample.at]) * fy * iz;
     const float gz = gu * x + gv * y;
-    // e = now(R ray + shift) - last(ray) = J d + gain last + offset, where d is the rotation gone too far
+    // e = now(R ray + shift) - last(ray) = J d + gain last + offset, with d the error of the rotation
     Vector5 J;
     J << -(gv * turned.z() + gz * turned.y()), gu * turned.z() + gz * turned.x(), gv * turned.x() - gu * turned.y(),
         last_.grey[sample.at] - 128.0F, 1.0F;
@@ -164,7 +164,7 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
   Descent descent = descend(level, start);
   estimate.before = descent.before;
   if (descent.before < 0.0) return estimate;
-  // A camera that is shaken turns back where the prediction turns on.
+  // The rotation of a shaken camera may reverse, contrary to the prediction.
   if (start.angularDistance(Quaterniond::Identity()) > kFarTurn) {
     const Descent back = descend(level, Quaterniond::Identity());
     if (back.before >= 0.0 && back.after < descent.after) descent = back;
@@ -178,14 +178,14 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
 }
 
 void RotationTracker::archive(urban_nav_core::Archive& archive) {
-  // Grey levels are whole, and slopes follow from them.
+  // Grey levels are integers, and gradients are recomputed from them.
   std::vector<std::uint8_t> grey(now_.grey.begin(), now_.grey.end());
   archive(now_.width, now_.height, grey);
   if (!archive.isReading()) return;
   constexpr int kLargest = 1 << 14;  // px
   archive.require(now_.width >= 0 && now_.height >= 0 && now_.width < kLargest && now_.height < kLargest &&
                       grey.size() == static_cast<std::size_t>(now_.width) * static_cast<std::size_t>(now_.height),
-                  "an image is of another size");
+                  "invalid image size");
   fill({grey.data(), now_.width, now_.height, now_.width}, now_);
 }
 

@@ -7,8 +7,8 @@ namespace swf_vo {
 
 namespace {
 
-constexpr std::size_t kEnoughMatches = 20;  // differences, for their median to mean something
-constexpr int kOffsetMemory = 100;          // frames; cameras move in their mounts, slowly
+constexpr std::size_t kEnoughMatches = 20;  // differences required for a median
+constexpr int kOffsetMemory = 100;          // frames; mounts of cameras drift slowly
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void RowOffset::learn() {
 
 void RowOffset::archive(urban_nav_core::Archive& archive) {
   archive(px_, frames_);
-  archive.require(frames_ >= 0 && frames_ <= kOffsetMemory, "more frames than are remembered");
+  archive.require(frames_ >= 0 && frames_ <= kOffsetMemory, "invalid number of frames");
 }
 
 }  // namespace swf_vo

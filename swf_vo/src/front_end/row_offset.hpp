@@ -7,20 +7,20 @@
 
 namespace swf_vo {
 
-/// By how many pixels (of level 0) the right image shows everything lower than the left one. Rectification means none;
-/// real ones leave some tenths, and a knock to a camera more. Each match says it anew, so it is known to a hundredth
-/// after the first frame, and need not be a state of the filter: rows are measured in the left image's, and what the
-/// right one says is brought there first.
+/// Vertical offset of the right image relative to the left one, px of level 0: rectification errors of some tenths,
+/// more after a shock to a camera. Every match measures it, so that it is accurate to a hundredth after the first frame
+/// and does not need a state in the filter: rows refer to the left image, and those of the right one are corrected
+/// first.
 class RowOffset {
  public:
-  /// `capacity`: of differences in a frame, for which memory is taken at once.
+  /// `capacity`: differences of a frame, for which memory is allocated at construction.
   explicit RowOffset(int capacity) { differences_.reserve(static_cast<std::size_t>(capacity)); }
 
-  /// A row in the right image minus that in the left one, of one landmark.
+  /// Adds the row in the right image minus that in the left one, of one landmark.
   void see(double difference_px) {
     if (differences_.size() < differences_.capacity()) differences_.push_back(difference_px);
   }
-  /// At the end of a frame.
+  /// Updates the estimate at the end of a frame.
   void learn();
 
   double px() const { return px_; }

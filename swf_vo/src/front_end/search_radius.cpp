@@ -8,14 +8,15 @@ namespace swf_vo {
 
 namespace {
 
-constexpr double kFirst = 3.0;  // of the usual radius, while the motion is not known yet
-// What the prediction was off by in the frame before: px, and times the 90 % quantile.
+constexpr double kFirst = 3.0;  // times the parameter, while the motion is unknown
+// Radius from the errors of the prediction in the previous frame: minimum and offset (px), and factor on the 90 %
+// quantile.
 constexpr double kLeast = 8.0, kPerError = 3.0, kOffset = 4.0;
 constexpr double kSigmas = 2.0;
-// Share of the width: about as far as the nearest landmarks stand apart in the two images.
+// Share of the image width, about the disparity of the nearest landmarks.
 constexpr double kWidestSearch = 0.16;
 
-/// Returns a quantile; reorders the values, of which there is at least one.
+/// Returns a quantile; reorders the values. Requires at least one.
 double takeQuantile(std::vector<double>& values, std::size_t percent) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * percent / 100);
   std::nth_element(values.begin(), at, values.end());
@@ -59,7 +60,7 @@ double SearchRadius::widest() const { return kWidestSearch * camera_.width; }
 
 void SearchRadius::archive(urban_nav_core::Archive& archive) {
   archive(radius_);
-  archive.require(radius_ >= 0.0 && radius_ <= anywhere(), "a search radius out of range");
+  archive.require(radius_ >= 0.0 && radius_ <= anywhere(), "search radius out of range");
 }
 
 }  // namespace swf_vo

@@ -11,8 +11,8 @@
 
 namespace swf_vo {
 
-/// How far around its prediction a landmark is looked for, px of level 0. It follows what the prediction was off by in
-/// the frame before; where that finds too little it widens to what the uncertainty of the prediction allows.
+/// Search radius around the prediction of a landmark, px of level 0. Follows the prediction errors of the previous
+/// frame; widened up to the uncertainty of the prediction if too few matches are found.
 class SearchRadius {
  public:
   /// `usual`: the parameter `search_radius`, px.
@@ -22,19 +22,19 @@ class SearchRadius {
   }
 
   double px() const { return radius_; }
-  /// The radius where nothing is known of the motion.
+  /// Sets the radius for unknown motion.
   void setUnknown();
-  /// The radius of the parameter.
+  /// Sets the radius of the parameter.
   void setUsual() { radius_ = usual_; }
-  /// Sets the limit of this frame: two standard deviations of the predicted translation (m) as the nearer landmarks,
-  /// seen from `T_camera_odom`, show them; at least the usual radius.
+  /// Sets the limit for this frame: two standard deviations of the predicted translation (m), projected at the depth of
+  /// the nearer landmarks seen from `T_camera_odom`; at least the radius of the parameter.
   void setLimit(double sigma_m, const urban_nav_core::Pose& T_camera_odom, const std::vector<Match>& matches);
-  /// Widens to the limit. Returns false where it was there already.
+  /// Widens to the limit. Returns false if the radius was at the limit already.
   bool widen();
-  /// Learns how wide to search next time from the distances of inliers from where they were expected (px, in any order,
-  /// which is changed).
+  /// Updates the radius for the next frame from the distances between inliers and their predictions (px; reorders
+  /// them).
   void learn(std::vector<double>& errors);
-  /// The radius for a motion of which nothing is known but that it is a large one.
+  /// Returns the radius for an unknown, large motion.
   double anywhere() const;
 
   void archive(urban_nav_core::Archive& archive);

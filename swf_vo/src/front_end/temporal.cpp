@@ -18,19 +18,19 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-// Share of the patch's own contrast that the difference may have. A corner can stand a pixel beside the landmark.
+// Maximum difference relative to the patch's own contrast. A corner may be a pixel off the landmark.
 constexpr double kAcceptedShare = 0.75;
-// From a corner to the landmark, px of the level: FAST answers move by a pixel or two.
+// From a corner to the landmark, px of the level: FAST responses move by a pixel or two.
 constexpr double kCornerReach = 2.5;
 constexpr double kDirectReach = 3.0;
-// Best over second best of corners that stand apart, where the search is wide.
+// Ratio of the best to the second best of separate corners, for a large search region.
 constexpr double kUniqueness = 0.85;
 constexpr int kApart = 3;  // px of the level
 
 struct BestCorner {
   bool any = false;
   Corner corner;
-  int sad = 0, second = 0;  // `second`: of those that stand apart from the best
+  int sad = 0, second = 0;  // `second`: of the corners separate from the best
 };
 
 BestCorner bestCorner(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
@@ -81,7 +81,7 @@ PixelMeasurement searchAnywhere(Side side, const Corners& corners, const Track& 
   return at(side, corners, track, best.corner);
 }
 
-/// One image for each match, in turn.
+/// Matches one image per landmark, left and right alternately.
 template <typename Search>
 void matchInTurn(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
                  std::vector<Match>& matches, double row_offset, const Search& search_one) {

@@ -48,7 +48,7 @@ Track* Tracks::start() {
   if (free_.empty()) return nullptr;
   const std::size_t place = free_.back();
   free_.pop_back();
-  order_.push_back({next_, place});  // ids grow, so it is the last
+  order_.push_back({next_, place});  // ids increase, so it is the last
   places_[place] = Track();
   places_[place].id = next_++;
   return &places_[place];
@@ -81,11 +81,11 @@ void Tracks::archive(urban_nav_core::Archive& archive, int levels) {
   std::size_t size = order_.size();
   archive(next_, free_);
   archive.count(size);
-  archive.require(size + free_.size() == places_.size(), "places of tracks are missing");
+  archive.require(size + free_.size() == places_.size(), "inconsistent track storage");
   if (archive.isReading()) order_.assign(size, Entry());
   std::vector<bool> taken(places_.size(), false);
   const auto take = [&](std::size_t place) {
-    archive.require(place < places_.size() && !taken[place], "two tracks have one place");
+    archive.require(place < places_.size() && !taken[place], "invalid or duplicate track index");
     taken[place] = true;
   };
   for (const std::size_t place : free_) take(place);
@@ -96,8 +96,8 @@ void Tracks::archive(urban_nav_core::Archive& archive, int levels) {
     Track& track = places_[entry.place];
     if (archive.isReading()) track = Track();
     archive(track);
-    archive.require(entry.id > last && entry.id < next_ && track.id == entry.id, "tracks are out of order");
-    archive.require(track.level >= 0 && track.level < levels, "a track has no level");
+    archive.require(entry.id > last && entry.id < next_ && track.id == entry.id, "track ids are not increasing");
+    archive.require(track.level >= 0 && track.level < levels, "pyramid level of a track out of range");
     last = entry.id;
   }
 }

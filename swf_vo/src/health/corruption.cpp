@@ -11,17 +11,17 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-// A place: so many neighbours along a row; few enough for a row that rectification has bent to stay in it.
+// Length of a segment, px along a row; short enough for rows bent by rectification.
 constexpr int kLength = 32;
 constexpr int kCorruptionColumnStep = 64, kCorruptionRowStep = 4;
-// From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it
-// may be the noise of the camera.
+// Neighbouring random bytes differ by 85 grey levels on average, and over a segment by more than 60 almost always;
+// below 16 the roughness may be camera noise.
 constexpr unsigned kLeastRough = 16 * kLength, kRandomBytes = 60 * kLength;
-// Halfway, in proportion, between what pictures have and what corrupted has (the header).
+// Threshold between the shares in good and in corrupted images (see the header).
 constexpr double kCorruptedShare = 0.025;
 constexpr int kFewestLines =
-    4;  // places: a small image has a few tens, and one of them may be an edge that lies along the rows
-// Rows: where 60 % are corrupted, one in twenty has nothing else about it, and that is over kRandomBytes by itself.
+    4;  // segments: a small image has a few tens, and one of them may be an edge along the rows
+// Rows: with 60 % corrupted, one in twenty has only corrupted neighbours, and is detected by kRandomBytes itself.
 constexpr int kCorruptionReach = 3;
 constexpr int kSaturatedGrey = 250;
 
@@ -60,14 +60,14 @@ CorruptRowRepair::CorruptRowRepair(int width, int height)
 
 CorruptRowRepair::Repaired CorruptRowRepair::repair(const StereoPair& pair) {
   Repaired result{pair, false};
-  const auto mendOne = [&](ImageView& image, std::vector<std::uint8_t>& pixels) {
+  const auto repairOne = [&](ImageView& image, std::vector<std::uint8_t>& pixels) {
     if (image.width != width_ || image.height != height_ || !looksCorrupted(image)) return;
     repair(image, pixels);
     image = {pixels.data(), width_, height_, width_};
     result.corrupted = true;
   };
-  mendOne(result.pair.left, left_);
-  mendOne(result.pair.right, right_);
+  repairOne(result.pair.left, left_);
+  repairOne(result.pair.right, right_);
   return result;
 }
 
@@ -88,7 +88,7 @@ void CorruptRowRepair::findCorrupted(const ImageView& image, int column) {
     unsigned least = here;
     for (int w = std::max(0, v - kCorruptionReach); w < std::min(height_, v + kCorruptionReach + 1); ++w) {
       const unsigned there = roughness_[static_cast<std::size_t>(w)];
-      // A row without any texture may be one that is missing, unless it is of a white sky.
+      // A row without texture may be a missing one, unless it shows a white sky.
       if (there > 0 || image.at(column, w) >= kSaturatedGrey) least = std::min(least, there);
     }
     corrupted_[static_cast<std::size_t>(v)] = here > kRandomBytes || isRougher(here, least);

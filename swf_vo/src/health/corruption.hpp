@@ -8,27 +8,27 @@
 
 namespace swf_vo {
 
-/// Detects image rows corrupted by incomplete transfers. A lens spreads each point over more than a row, so that
-/// neighbouring rows are about equally rough, place by place, and never as rough as random bytes: at most 1 % of the
-/// places say otherwise, of all real and rendered pictures tried, bare trees at half resolution included. Where 10 % of
-/// the rows are random it is 16 % of the places, and 10 % where rectification has bent them. Each image for itself:
-/// none before it is needed. Below some 2 % of the rows it says no, and so it mostly does of rows that are missing or
-/// grey. Looks at two of four rows, and at half of their pixels; allocates nothing.
+/// Detects image rows corrupted by incomplete transfers. A lens spreads each point over more than a row, so that the
+/// roughness of neighbouring rows is similar at each position, and below that of random bytes: this is violated at most
+/// at 1 % of the positions in all real and rendered images tested, including bare trees at half resolution. With 10 %
+/// random rows it is violated at 16 % of the positions, and at 10 % if rectification has bent the rows. Images are
+/// independent; no previous image is needed. Not detected below about 2 % of the rows, and mostly not for missing or
+/// grey rows. Samples two of four rows, and half of their pixels; does not allocate.
 bool looksCorrupted(const urban_nav_core::ImageView& image);
 
 /// Repairs corrupted rows by interpolation, so that the rest of the image can be matched.
 class CorruptRowRepair {
  public:
-  /// Of images of this size; others are left as they are.
+  /// `width`, `height`: size of the images; images of another size are returned unchanged.
   CorruptRowRepair(int width, int height);
 
   struct Repaired {
-    urban_nav_core::StereoPair pair;  ///< views of what came where it is good, of this object's pixels where it is not
-    bool corrupted = false;           ///< one image or both
+    urban_nav_core::StereoPair pair;  ///< views of the input where it is good, of this object's pixels where it is not
+    bool corrupted = false;           ///< in one image or both
   };
-  /// Places of rows that are much rougher than the least rough of the next three rows above and below become the
-  /// straight line between the good rows on both sides, from 32 columns to 32. The views live until the next call.
-  /// Allocates nothing.
+  /// Replaces segments of 32 columns whose roughness is much larger than the smallest one of the next three rows above
+  /// and below by linear interpolation between the nearest good rows. The views are valid until the next call. Does not
+  /// allocate.
   Repaired repair(const urban_nav_core::StereoPair& pair);
 
  private:
@@ -38,8 +38,8 @@ class CorruptRowRepair {
 
   int width_, height_;
   std::vector<std::uint8_t> left_, right_;
-  std::vector<unsigned> roughness_;  // of the rows, at one place
-  std::vector<bool> corrupted_;      // likewise
+  std::vector<unsigned> roughness_;  // per row, in one segment
+  std::vector<bool> corrupted_;      // per row, in one segment
 };
 
 }  // namespace swf_vo

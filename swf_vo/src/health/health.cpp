@@ -33,23 +33,22 @@ const char* toString(Reason reason) {
 const char* sentence(Reason reason) {
   switch (reason) {
     case Reason::None: return "";
-    case Reason::TooFewFeatures: return "too few features could be followed";
-    case Reason::Dark: return "an image has no contrast: dark, covered or washed out";
-    case Reason::Blurred: return "the images are far less sharp than before";
-    case Reason::Frozen: return "an image repeats the pixels of the one before";
-    case Reason::Swapped: return "left and right are exchanged: check the topics; they were used the other way round";
-    case Reason::ExposureJump: return "the brightness jumped";
-    case Reason::ImageMissing: return "an image is missing or of another size";
-    case Reason::BadStamp: return "the stamp is not later than the last one: frame dropped";
-    case Reason::Gap: return "frames are missing before this one";
-    case Reason::Inconsistent: return "the matches do not agree with one rigid motion";
-    case Reason::NotObserved: return "some direction of the motion is held by the prediction alone";
-    case Reason::Corrupted:
-      return "rows of an image are corrupted: check cables, bandwidth and drivers; the rest of it is used";
+    case Reason::TooFewFeatures: return "too few features tracked";
+    case Reason::Dark: return "image without contrast: dark, covered or overexposed";
+    case Reason::Blurred: return "images much less sharp than before";
+    case Reason::Frozen: return "image identical to the previous one";
+    case Reason::Swapped: return "left and right are exchanged: check the topics; the images were swapped before use";
+    case Reason::ExposureJump: return "sudden change of brightness";
+    case Reason::ImageMissing: return "image missing or of another size";
+    case Reason::BadStamp: return "stamp not later than the previous one: frame dropped";
+    case Reason::Gap: return "frames missing before this one";
+    case Reason::Inconsistent: return "matches are inconsistent with one rigid motion";
+    case Reason::NotObserved: return "a direction of the motion is constrained by the prediction only";
+    case Reason::Corrupted: return "corrupted image rows: check cables, bandwidth and drivers; the other rows are used";
     case Reason::NotRectified:
-      return "the images are not rectified, or by another calibration: the rows of left and right disagree";
+      return "images are not rectified, or with another calibration: rows of left and right disagree";
     case Reason::Calibration:
-      return "the calibration is wrong: disparities are off by more than disparity_offset allows";
+      return "wrong calibration: the disparity offset is far outside its prior (disparity_offset)";
   }
   return "";
 }
@@ -60,12 +59,12 @@ namespace {
 constexpr double kRowsAgreePx = 1.5;
 constexpr double kFarOutside = 3.0;  // standard deviations of the prior
 
-/// Returns the sentence of a reason with what was measured.
+/// Returns the description of a reason with the measured values.
 std::string describe(Reason reason, const Evidence& evidence) {
   const std::string text = sentence(reason);
   char amount[64] = "";
   if (reason == Reason::NotRectified && evidence.rows_disagree_px)
-    std::snprintf(amount, sizeof amount, " by %.1f px, the median of the matches", *evidence.rows_disagree_px);
+    std::snprintf(amount, sizeof amount, " by %.1f px (median of the matches)", *evidence.rows_disagree_px);
   if (reason == Reason::Calibration)
     std::snprintf(amount, sizeof amount, ", by %.2f +- %.2f px", evidence.disparity_offset_px,
                   evidence.disparity_offset_sigma_px);

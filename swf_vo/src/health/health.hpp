@@ -12,31 +12,32 @@
 
 namespace swf_vo {
 
-/// The evidence of one frame that decides on its status.
+/// Measurements of one frame that determine its status.
 struct Evidence {
   ImageVerdict image;
-  bool corrupted = false;  ///< rows of an image were corrupted, and are bridged
-  bool first = false;      ///< of the session: nothing can be tracked yet
-  bool gap = false;        ///< far more time has passed than between frames before
-  bool localised = false;  ///< the pose comes from matches
+  bool corrupted = false;  ///< image rows were corrupted and are interpolated
+  bool first = false;      ///< first frame of the session: nothing can be tracked yet
+  bool gap = false;        ///< time since the previous frame much longer than the usual frame period
+  bool localised = false;  ///< the pose is estimated from matches
   int tracked = 0;         ///< trusted matches of known landmarks
-  int features = 0;        ///< these and the new ones
-  int candidates = 0;      ///< matches before outliers were removed
+  int features = 0;        ///< tracked and new ones
+  int candidates = 0;      ///< matches before outlier rejection
   double inlier_share = 0.0;
-  double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now
+  double disparity_offset_px = 0.0;        ///< current estimate for the camera
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
-  std::optional<double> rows_disagree_px;  ///< RowCheck, where it was asked for
+  std::optional<double> rows_disagree_px;  ///< RowCheck, where it was measured
 };
 
-/// Statistics of a frame -> status and reason; when it is LOST, when RECOVERED. Deterministic, no allocation but for
-/// long sentences.
+/// Determines status and reason of a frame, including LOST and RECOVERED. Deterministic; allocates only for long
+/// messages.
 class HealthMonitor {
  public:
   explicit HealthMonitor(const Parameters& parameters);
 
-  /// True if the measurements of this frame are worth using.
+  /// Returns whether the measurements of this frame can be used.
   bool isTrusted(const Evidence& evidence) const;
-  /// True if too little was matched and the pixels do not say why: worth a look at the rows.
+  /// Returns whether too few features were matched and the pixels do not explain it, so that the rows should be
+  /// checked.
   bool isUnexplained(const Evidence& evidence) const;
   urban_nav_core::Status judge(const Evidence& evidence);
   void archive(urban_nav_core::Archive& archive);
@@ -53,7 +54,7 @@ class HealthMonitor {
   bool was_lost_ = false;
 };
 
-/// What a reason means, in a sentence for a person.
+/// Returns a description of the reason for the user.
 const char* sentence(Reason reason);
 
 }  // namespace swf_vo

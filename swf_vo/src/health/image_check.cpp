@@ -18,20 +18,20 @@ namespace {
 
 constexpr int kCheckColumnStep = 8;
 constexpr int kRowStep = 4;
-// Below these an 8-bit image holds no corner above its own noise (FAST at its lowest threshold needs 3 grey levels of
+// Below this contrast an 8-bit image has no corner above its noise (FAST at its lowest threshold needs 3 grey levels of
 // contrast).
 constexpr double kDarkContrast = 2.0;
-// Matching removes mean and gain; beyond a factor of 1.6 between frames clipping begins to move the corners.
+// Matching removes mean and gain; beyond a factor of 1.6 between frames, saturation begins to move corners.
 constexpr double kExposureRatio = 1.6;
-// A lens that is out of focus for so many frames is so for good: then it is the new usual.
+// A loss of focus over this number of frames is treated as permanent and becomes the reference.
 constexpr int kLongestBlur = 50;
-// An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not
-// at all, and landmarks are worth keeping for when the light is back. For so many frames it is not: then it is the new
-// usual.
+// An image of which half is suddenly saturated is as unusable as a black one: matches in the remainder are wrong or
+// missing, and tracks should be kept until the light changes back. A lasting change becomes the reference at
+// kWhiteRate.
 constexpr int kWhiteGrey = 250;
 constexpr double kWhiteShare = 0.5, kWhiteRate = 0.01;
 
-// Sum of absolute differences of two samples; 0 for samples of different size.
+// Returns the sum of absolute differences of two samples; 0 for samples of different size.
 std::int64_t distance(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
   std::int64_t sum = 0;
   if (a.size() != b.size()) return 0;
@@ -67,7 +67,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   return figures;
 }
 
-ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
+ImageVerdict ImageCheck::check(const StereoPair& pair, bool was_degraded) {
   ImageVerdict verdict;
   const bool same_size = pair.left.width == pair.right.width && pair.left.height == pair.right.height;
   if (pair.left.empty() || pair.right.empty() || !same_size) {
@@ -80,7 +80,7 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   verdict.contrast = std::min(left.contrast, right.contrast);
   verdict.edges = {left.edges, right.edges};
 
-  // The noise of a camera that runs changes some pixel of thousands, even if nothing moves.
+  // Camera noise changes at least one of thousands of pixels, even in a static scene.
   const bool frozen = !left_.empty() && (left_ == last_left_ || right_ == last_right_);
   const bool crossed = distance(left_, last_right_) + distance(right_, last_left_) <
                        distance(left_, last_left_) + distance(right_, last_right_);
@@ -111,12 +111,12 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   blurred_ = wider ? blurred_ + 1 : 0;
   const bool is_blurred = blurred_ > 0 && blurred_ <= kLongestBlur;
   if (is_blurred) verdict.reason = Reason::Blurred;
-  if ((doubtful || crossed || first) && looksExchanged(pair.left, pair.right)) {
+  if ((was_degraded || crossed || first) && looksExchanged(pair.left, pair.right)) {
     verdict.exchange = true;
     verdict.edges = {right.edges, left.edges};
     verdict.reason = Reason::Swapped;
   }
-  // What lasts is the new usual: auto-exposure arrives.
+  // Lasting changes become the reference: auto-exposure converges.
   const double rate = first || blurred_ > 0 ? 1.0 : 0.1;
   if (!is_blurred) {
     usual_edges_.left += rate * (left.edges - usual_edges_.left);

@@ -12,23 +12,24 @@
 
 namespace swf_vo {
 
-/// What the pixels of a pair say of themselves, before anything is matched.
+/// Result of pixel-level checks of a pair, before matching.
 struct ImageVerdict {
-  bool usable = true;            ///< false: no measurement is to be taken from this pair
-  bool exchange = false;         ///< left and right are exchanged: use them the other way round
-  Reason reason = Reason::None;  ///< the gravest finding
+  bool usable = true;            ///< false: no measurement may be taken from this pair
+  bool exchange = false;         ///< left and right are exchanged and must be swapped before use
+  Reason reason = Reason::None;  ///< most severe finding
   double brightness = 0.0;       ///< mean grey level of both images
-  Edges edges;                   ///< how sharp they are
-  double contrast = 0.0;         ///< standard deviation, grey levels, the lesser of the two images
+  Edges edges;                   ///< edge widths
+  double contrast = 0.0;         ///< standard deviation, grey levels, the smaller one of both images
 };
 
-/// Looks at thinned-out pixels: missing, dark, frozen, exposure jumps, blur, exchanged images. Remembers the last
-/// usable pair's figures. Allocates only when the size of the images changes. Costs some 0.1 ms at 512x384.
+/// Checks subsampled pixels for missing, dark, frozen, blurred or exchanged images and for exposure jumps. Keeps the
+/// statistics of the last usable pair. Allocates only when the size of the images changes. Takes about 0.1 ms at
+/// 512x384.
 class ImageCheck {
  public:
-  /// `doubtful`: the frame before was not OK. The test for exchanged images, the dear one, runs then, at the start, and
-  /// where the images resemble each other's predecessors more than their own.
-  ImageVerdict look(const urban_nav_core::StereoPair& pair, bool doubtful);
+  /// `was_degraded`: the previous frame was not OK. The costly test for exchanged images runs in this case, at the
+  /// start, and if the images are more similar to each other's predecessors than to their own.
+  ImageVerdict check(const urban_nav_core::StereoPair& pair, bool was_degraded);
   void archive(urban_nav_core::Archive& archive);
 
  private:
@@ -43,7 +44,7 @@ class ImageCheck {
   std::vector<std::uint8_t> left_, right_, last_left_, last_right_;  // every eighth pixel of every fourth row
   double usual_brightness_ = -1.0;
   Edges usual_edges_;
-  int blurred_ = 0;  // frames in a row whose edges are wider than usual
+  int blurred_ = 0;  // consecutive frames whose edges are wider than usual
 };
 
 }  // namespace swf_vo

@@ -19,11 +19,11 @@ namespace {
 constexpr int kCellColumns = 10, kCellRows = 8;
 constexpr int kContrastThreshold = 12;       // grey levels, of FAST
 constexpr int kRowsToSearch = 24;            // px to both sides
-constexpr double kFarthestDisparity = 0.16;  // of the image's width, as Replenisher has it
-constexpr int kNearestDisparity = -8;        // px: a camera that squints
+constexpr double kFarthestDisparity = 0.16;  // share of the image's width, as in Replenisher
+constexpr int kNearestDisparity = -8;        // px: converging cameras
 constexpr double kUniqueShare = 0.85;        // best over second best, more than two pixels away
 constexpr double kContrastShare = 0.75;      // best over the patch's own contrast
-constexpr std::size_t kEnoughToJudge = 15;   // matches
+constexpr std::size_t kEnoughToJudge = 15;   // matches required
 constexpr int kPairsApart = 20;
 
 int contrastOf(const SadPatch& patch) {
@@ -34,8 +34,8 @@ int contrastOf(const SadPatch& patch) {
 
 }  // namespace
 
-/// Returns the best place of a patch in columns `first` to `last` of the rows about v, and what the best is worth that
-/// lies more than two pixels from it.
+/// Returns the best position of a patch in columns `first` to `last` of the rows around v, and the score of the best
+/// one more than two pixels away.
 RowCheck::Place RowCheck::search(const SadPatch& patch, const ImageView& image, int first, int last, int v) {
   const int from = std::max(4, first), to = std::min(image.width - 4, last), columns = to - from + 1;
   const int top = std::max(4, v - kRowsToSearch), bottom = std::min(image.height - 5, v + kRowsToSearch);

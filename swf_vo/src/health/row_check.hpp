@@ -12,17 +12,17 @@
 
 namespace swf_vo {
 
-/// How far the rows of a pair that should be rectified disagree: corners spread over the left image are sought in the
-/// right one along rows and across them, and have to be found again from there. For pairs that cannot be matched along
-/// their rows. Not thread-safe.
+/// Measures the row disagreement of a pair that should be rectified: corners spread over the left image are searched in
+/// the right image along and across rows, and must be matched back. For pairs that cannot be matched along rows. Not
+/// thread-safe.
 class RowCheck {
  public:
-  /// Returns the median distance between the rows of matching points (px, up to 24), after `row_offset_px`, by which
-  /// the right image is known to show everything lower. Empty with fewer than 15 matches. Both images of one size.
+  /// Returns the median row difference of matching points (px, up to 24) after subtraction of the known offset
+  /// `row_offset_px` of the right image. Empty with fewer than 15 matches. Requires images of equal size.
   std::optional<double> measure(const urban_nav_core::StereoPair& pair, double row_offset_px = 0.0);
 
   /// Measures the first of these pairs and every 20th after it, and returns the last result: the mounting of cameras
-  /// does not change from frame to frame, and measuring takes about as long as the odometry of a frame.
+  /// does not change from frame to frame, and a measurement takes about as long as the odometry of a frame.
   std::optional<double> measureSometimes(const urban_nav_core::StereoPair& pair, double row_offset_px = 0.0);
   void archive(urban_nav_core::Archive& archive);
 
@@ -37,7 +37,7 @@ class RowCheck {
   int pairs_until_next_ = 0;
   std::optional<double> last_;
   urban_nav_core::Fast fast_;
-  std::vector<urban_nav_core::Corner> strongest_;  // of each cell
+  std::vector<urban_nav_core::Corner> strongest_;  // strongest corners of the cells
   std::vector<int> costs_;
   std::vector<double> differences_;
 };

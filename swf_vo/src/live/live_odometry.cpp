@@ -44,7 +44,7 @@ urban_nav_live::StageReport LiveOdometry::report() const {
   report.status = status_;
   report.reason_name = toString(static_cast<Reason>(status_.reason));
   if (!filter_) {
-    report.status.health = urban_nav_core::Health::Ok;  // of no frame; the warning counts
+    report.status.health = urban_nav_core::Health::Ok;  // no frame; the warning below determines the level
     report.summary = fault_.empty() ? waiting_ : fault_;
     report.is_warning = true;
   }
@@ -64,8 +64,8 @@ urban_nav_live::StageReport LiveOdometry::report() const {
   report.add("time of the last frame (ms)", process_ms_);
   report.add("frames", frames_);
   report.add("frames lost", lost_frames_);
-  report.fault_counts.push_back({"frames have a pose by prediction alone", lost_frames_, frames_,
-                                 "too little is seen: check lens, light and exposure, or drive more slowly"});
+  report.fault_counts.push_back({"frames have a pose by prediction only", lost_frames_, frames_,
+                                 "too few features: check lens, light and exposure, or drive more slowly"});
   report.add("sessions", sessions_);
   report.add("session", urban_nav_core::sessionId(session_));
   return report;

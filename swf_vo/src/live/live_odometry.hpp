@@ -13,19 +13,19 @@
 
 namespace swf_vo {
 
-/// Visual odometry of a live robot: one filter for each session, and figures for the operator. It names the sessions of
-/// the robot. Used by one thread.
+/// Visual odometry of a live robot: one filter per session, and a report for the operator. Names the sessions of the
+/// robot. Used by one thread.
 class LiveOdometry {
  public:
   struct Listener {
     std::function<void(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms)> frame;
-    /// Smoothed poses that leave the window when a session ends.
+    /// Receives smoothed poses that leave the window when a session ends.
     std::function<void(const Settled& settled)> settled;
-    /// A motion sensor is left out, for this reason; once for each time.
+    /// Receives the message when a motion sensor is excluded; once for each exclusion.
     std::function<void(const std::string& text)> warning;
   };
 
-  /// `robot`, `recording`: parts of the ids of sessions; may be empty.
+  /// `robot`, `recording`: parts of the session ids; may be empty.
   LiveOdometry(const Parameters& parameters, Listener listener, const std::string& robot = "",
                std::string recording = "")
       : parameters_(parameters), listener_(std::move(listener)), recording_(std::move(recording)), namer_(robot) {}
@@ -35,9 +35,9 @@ class LiveOdometry {
   void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
   /// Processes a pair. Requires a running session.
   void process(const urban_nav_core::StereoPairWithMotion& pair);
-  /// Ends the session: smoothed poses are flushed to the listener. `why`: for the report.
+  /// Ends the session: flushes smoothed poses to the listener. `why`: for the report.
   void end(const std::string& why);
-  /// Sets the reason for which no session can begin; empty: none.
+  /// Sets the reason why no session can begin; empty: no fault.
   void setFault(const std::string& fault) { fault_ = fault; }
 
   bool isRunning() const { return filter_ != nullptr; }
@@ -46,7 +46,7 @@ class LiveOdometry {
   const urban_nav_core::OdometrySessionPtr& session() const { return session_; }
   /// Status of the newest frame.
   const urban_nav_core::Status& status() const { return status_; }
-  /// Returns the state for the operator: a warning while there is no session.
+  /// Returns the report for the operator: a warning while there is no session.
   urban_nav_live::StageReport report() const;
 
  private:
@@ -59,7 +59,7 @@ class LiveOdometry {
   urban_nav_core::Status status_;
   Statistics statistics_;
   MotionEstimates motion_;
-  urban_nav_core::StampNs begin_ = 0;  // of the session
+  urban_nav_core::StampNs begin_ = 0;  // start of the session
   double process_ms_ = 0.0;
   std::int64_t frames_ = 0, lost_frames_ = 0, sessions_ = 0;
   std::string waiting_ = "no images yet", fault_;

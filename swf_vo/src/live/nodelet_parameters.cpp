@@ -9,7 +9,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on a line of its own.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -18,13 +18,13 @@ const Table<NodeletParameters>& nodeletTable() {
       urban_nav_core::withMotionInput(urban_nav_live::withStereoInput<P>(
           {
               {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
-               "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
+               "Frame of the odometry; its origin is the first base_link.", "REP-105"},
               {"publish_tf", &P::publish_tf, "", true, false, true, {},
                "Whether to publish odom_frame to base_frame on /tf.", "REP-105"},
               {"robot", &P::robot, "", "", false, false, {},
-               "Name of the robot, a part of the ids of its sessions.", "docs/architecture.md"},
+               "Name of the robot, part of the session ids.", "docs/architecture.md"},
               {"recording", &P::recording, "", "", false, false, {},
-               "Name of the recording, a part of the ids of its sessions; a second round of it is \"NAME (2)\".",
+               "Name of the recording, part of the session ids; a second run of it is \"NAME (2)\".",
                "docs/architecture.md"},
           },
           200)));

@@ -9,8 +9,8 @@
 
 namespace swf_vo {
 
-/// Parameters of the nodelet apart from those of the filter (swf_vo/parameters.hpp): frames and transport. One member
-/// per row of nodeletTable().
+/// Parameters of the nodelet besides those of the filter (swf_vo/parameters.hpp): frames and transport. One member per
+/// row of nodeletTable().
 struct NodeletParameters : urban_nav_live::StereoInputParameters, urban_nav_core::MotionInputParameters {
   std::string odom_frame;
   std::string robot, recording;

@@ -11,8 +11,8 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr std::size_t kWayLength = 12;  // frames; longer ways hide the image
-constexpr int kSubpixelBits = 4;        // OpenCV draws at 1/16 px with them
+constexpr std::size_t kPathLength = 12;  // frames; longer paths hide the image
+constexpr int kSubpixelBits = 4;         // fractional bits of OpenCV's drawing functions: 1/16 px
 
 cv::Point fixedPoint(const cv::Point2f& pixel) {
   return {cvRound(pixel.x * (1 << kSubpixelBits)), cvRound(pixel.y * (1 << kSubpixelBits))};
@@ -38,14 +38,14 @@ TracksPicture::TracksPicture(double near_disparity_px) : near_disparity_px_(near
 
 void TracksPicture::follow(const Frame& frame) {
   for (const Feature& feature : frame.features) {
-    Way& way = ways_[feature.landmark];
-    if (frame.frame - way.last > 1) way.pixels.clear();
-    way.last = frame.frame;
-    if (way.pixels.size() == kWayLength) way.pixels.erase(way.pixels.begin());
-    way.pixels.emplace_back(static_cast<float>(feature.pixel.x()), static_cast<float>(feature.pixel.y()));
+    Path& path = paths_[feature.landmark];
+    if (frame.frame - path.last > 1) path.pixels.clear();
+    path.last = frame.frame;
+    if (path.pixels.size() == kPathLength) path.pixels.erase(path.pixels.begin());
+    path.pixels.emplace_back(static_cast<float>(feature.pixel.x()), static_cast<float>(feature.pixel.y()));
   }
-  for (auto it = ways_.begin(); it != ways_.end();)
-    it = it->second.last == frame.frame ? std::next(it) : ways_.erase(it);
+  for (auto it = paths_.begin(); it != paths_.end();)
+    it = it->second.last == frame.frame ? std::next(it) : paths_.erase(it);
 }
 
 const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const Frame& frame) {
@@ -61,11 +61,11 @@ const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const 
         std::sqrt(std::clamp((feature.pixel.x() - feature.pixel.z()) / near_disparity_px_, 0.0, 1.0));
     const cv::Vec3b warm = colours_.at<cv::Vec3b>(0, cvRound(40.0 + 200.0 * nearness));
     const cv::Scalar colour = feature.trusted ? cv::Scalar(warm[0], warm[1], warm[2]) : cv::Scalar(150, 150, 150);
-    const std::vector<cv::Point2f>& way = ways_.at(feature.landmark).pixels;
-    for (std::size_t i = 1; i < way.size(); ++i)
-      cv::line(picture_, fixedPoint(way[i - 1]), fixedPoint(way[i]), colour, 1, cv::LINE_AA, kSubpixelBits);
+    const std::vector<cv::Point2f>& path = paths_.at(feature.landmark).pixels;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      cv::line(picture_, fixedPoint(path[i - 1]), fixedPoint(path[i]), colour, 1, cv::LINE_AA, kSubpixelBits);
     const bool fresh = feature.age == 0;
-    cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << kSubpixelBits, colour, fresh ? 1 : cv::FILLED,
+    cv::circle(picture_, fixedPoint(path.back()), (fresh ? 3 : 2) << kSubpixelBits, colour, fresh ? 1 : cv::FILLED,
                cv::LINE_AA, kSubpixelBits);
   }
   cv::rectangle(picture_, {0, 0, picture_.cols, 4}, toColour(frame.status.health), cv::FILLED);

@@ -10,27 +10,27 @@
 
 namespace swf_vo {
 
-/// The left image with what the filter follows in it: each feature with the way it came over the last frames, coloured
-/// by distance, new ones as rings, distrusted ones in grey. For people; nothing is computed from it.
+/// Draws the tracked features into the left image: each with its path over the last frames, coloured by distance, new
+/// ones as rings, untrusted ones in grey. For visualisation only.
 class TracksPicture {
  public:
   /// `near_disparity_px`: shown in the warmest colour.
   explicit TracksPicture(double near_disparity_px);
 
-  /// Frames must be handed in one after another for the ways to be complete. The result (CV_8UC3, BGR) lives until the
-  /// next call; it is empty where there is no left image.
+  /// Requires consecutive frames for complete paths. The result (CV_8UC3, BGR) is valid until the next call; it is
+  /// empty if there is no left image.
   const cv::Mat& draw(const urban_nav_core::ImageView& left, const Frame& frame);
-  void clear() { ways_.clear(); }
+  void clear() { paths_.clear(); }
 
  private:
-  struct Way {
+  struct Path {
     FrameId last = 0;
     std::vector<cv::Point2f> pixels;  // oldest first
   };
   void follow(const Frame& frame);
 
   double near_disparity_px_;
-  std::unordered_map<LandmarkId, Way> ways_;
+  std::unordered_map<LandmarkId, Path> paths_;
   cv::Mat grey_, picture_, colours_;
 };
 

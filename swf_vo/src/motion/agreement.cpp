@@ -9,15 +9,15 @@ namespace swf_vo {
 namespace {
 
 constexpr double kBlock = 0.25;  // s
-// Beyond so many standard deviations something is there; of a motion, a difference of this share contradicts.
+// Standard deviations of a significant difference, and share of the motion above which it contradicts.
 constexpr double kFar = 4.0, kLargeShare = 0.5;
-// Blocks older by n count for the n-th power; so many contradictions are no chance.
+// Weight of a block relative to the next one, and sums required for a contradiction and for a confirmation.
 constexpr double kKept = 0.8, kContradictions = 2.2, kConfirmations = 1.0;
-// A sound sensor's scale is off by less; the share of sums over blocks that is left after one more of them.
+// Maximum scale error of a working sensor, and weight of sums relative to the next block.
 constexpr double kScaleError = 0.1, kSumsKept = 0.98;
-// Before a sensor is trusted: s at the start, and after its first contradiction.
+// Time until a sensor is used, s: at the start, after its first contradiction, and maximum.
 constexpr double kFirstWait = 1.0, kLaterWait = 5.0, kLongestWait = 60.0;
-// Until bias and delay are known, errors along the motion may be theirs, s.
+// Time until bias and delay are estimated; before, they may explain errors along the motion, s.
 constexpr double kScaleWait = 3.0;
 constexpr std::size_t kMostSteps = 240;
 
@@ -73,7 +73,7 @@ Agreement::Verdict Agreement::verdict() const {
   if (contradicted_ > kContradictions && contradicted_ > confirmed_) return Verdict::Contradicts;
   if (isOffScale() && compared_ > kScaleWait) return Verdict::Contradicts;
   if (compared_ < std::max(kFirstWait, wanted_)) return Verdict::Unknown;
-  if (confirmed_ < kConfirmations) return Verdict::Unknown;  // rest proves nothing
+  if (confirmed_ < kConfirmations) return Verdict::Unknown;  // rest is not evidence
   return Verdict::Agrees;
 }
 

@@ -9,7 +9,7 @@
 
 namespace swf_vo {
 
-/// One step as images and as a sensor have it: rotation vectors (rad), or translations in metres.
+/// Motion over one step by images and by a sensor: rotation vectors (rad), or translations (m).
 struct ComparedStep {
   urban_nav_core::StampNs to = 0;
   double seconds = 0.0;
@@ -18,24 +18,23 @@ struct ComparedStep {
   void archive(urban_nav_core::Archive& archive) { archive(to, seconds, by_images, by_sensor); }
 };
 
-/// Whether a motion sensor agrees with images that agree among themselves. Steps form blocks of 0.25 s. A block
-/// contradicts where the corrected difference is far beyond its standard deviation and more than half of the motion; it
-/// confirms where a motion far beyond its standard deviation is met. Blocks of rest do neither. Over the last seconds
-/// the scale of the motion must be met as well.
+/// Tests whether a motion sensor is consistent with images. Steps are summed over blocks of 0.25 s. A block contradicts
+/// if the corrected difference is far beyond its standard deviation and more than half of the motion; it confirms if a
+/// motion far beyond its standard deviation is matched. Blocks without motion are neutral. The scale of the motion over
+/// the last seconds must match as well.
 class Agreement {
  public:
   enum class Verdict { Unknown, Agrees, Contradicts };
 
-  /// `floor`: difference over a block that is never held against a sensor, rad or m (standard deviation).
+  /// `floor`: difference over a block that is always tolerated, rad or m (standard deviation).
   explicit Agreement(double floor) : floor_(floor) {}
 
-  /// `error`: what is left of the difference after the corrections that are known; `variance`: of it, the sum over the
-  /// axes.
+  /// `error`: difference after the estimated corrections; `variance`: its variance, summed over the axes.
   void add(const ComparedStep& step, const urban_nav_core::Vector3d& error, double variance);
-  /// The next step does not follow the one before.
+  /// Marks a gap: the next step does not follow the previous one.
   void interrupt();
-  /// Starts anew after a contradiction. `was_trusted`: the sensor was in use; the next time it takes twice as long
-  /// until it is.
+  /// Restarts after a contradiction. `was_trusted`: the sensor was in use; the required time until it is used again
+  /// doubles.
   void restart(bool was_trusted);
 
   Verdict verdict() const;
@@ -54,11 +53,11 @@ class Agreement {
 
   double floor_;
   Block block_;
-  double contradicted_ = 0.0, confirmed_ = 0.0;  // blocks, older ones for less
-  // Sums over blocks, older ones for less: the square of the motion, its product with the error, and the variance of
-  // that.
+  double contradicted_ = 0.0, confirmed_ = 0.0;  // numbers of blocks, exponentially weighted
+  // Exponentially weighted sums over blocks: squared motion, its product with the error, and the variance of that
+  // product.
   double motion_ = 0.0, along_ = 0.0, along_variance_ = 0.0;
-  double compared_ = 0.0, wanted_ = 0.0;         // s since the last restart, and how many are enough
+  double compared_ = 0.0, wanted_ = 0.0;         // s since the last restart, and the required time
   int restarts_ = 0;
   std::vector<ComparedStep> steps_;
 };

@@ -17,21 +17,21 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-// Sliding and climbing of wheels, m per root of a metre: 2 % of a metre.
+// Lateral slip and vertical motion of wheels, m per square root of a metre: 2 % of a metre.
 constexpr double kSlip = 0.02;
-// Roll and pitch of a vehicle whose rates nothing measures, rad per root of a second.
+// Roll and pitch of a vehicle without measured rates, rad per square root of a second.
 constexpr double kTilt = 0.05;
-// Place of base_link against the wheels that roll: tyres and a body that pitches, m.
+// Position of base_link relative to the wheels, by tyres and pitching of the body, m.
 constexpr double kPlay = 2e-3;
-// The ground: slope changes by so much per root of a metre; bumps are so high per metre.
+// Change of the ground's slope per square root of a metre; height of bumps per metre.
 constexpr double kSlopeWalk = 0.01, kBumps = 0.02;
-// Rate noise of the best sensors of this kind, rad/s/sqrt(Hz): none is taken to be better.
+// Rate noise of the best sensors of this kind, rad/s/sqrt(Hz): lower limit of stated values.
 constexpr double kLeastRateNoise = 2e-5;
 
-/// Integrates the state (position, rotation) with its covariance and its Jacobians by what all steps share.
+/// Integrates position and rotation with covariance and with Jacobians by the states common to all steps.
 class Integration {
  public:
-  static constexpr int kShared = MotionStates::kSize + 2;  // and the slope of the ground
+  static constexpr int kShared = MotionStates::kSize + 2;  // and slope of the ground
   using Jacobian = Eigen::Matrix<double, 6, kShared>;
 
   Integration(const MotionEvidence& evidence, const Quaterniond& q_odom_base)
@@ -39,7 +39,7 @@ class Integration {
         R_base_odom_(q_odom_base.conjugate().toRotationMatrix()),
         normal_(R_base_odom_ * evidence.ground->normal()) {}
 
-  /// Turns by the gyroscope, between two times on the clock of the cameras.
+  /// Rotates by the gyroscope, between two times on the camera clock.
   Coverage turn(StampNs from, StampNs to) {
     const MotionStates& states = *evidence_.states;
     const TwistStream& stream = *evidence_.gyroscope;
@@ -55,7 +55,7 @@ class Integration {
     });
   }
 
-  /// Turns by a piece of the wheels' motion, before its half and after it, about the axis of the base.
+  /// Rotates by the yaw of a wheel span, half of it before and half after the translation, about the base's z axis.
   void turnByWheels(const TwistSpan& span, double seconds) {
     const double scale = 1.0 + evidence_.states->mean[MotionStates::kTurnScale], turn = span.twist[5] / scale * seconds;
     shared_.block<3, 1>(3, MotionStates::kTurnScale) -= turn / scale * q_.toRotationMatrix().col(2);
@@ -65,14 +65,14 @@ class Integration {
     rotate({0.0, 0.0, turn}, R * variance.asDiagonal() * R.transpose());
   }
 
-  /// Moves along the ground at the speed of the wheels.
+  /// Translates along the ground at the speed of the wheels.
   void move(const TwistSpan& span, double seconds) {
     const double scale = 1.0 + evidence_.states->mean[MotionStates::kSpeedScale],
                  distance = span.twist[0] / scale * seconds;
     const Vector3d forward = q_.toRotationMatrix().col(0), level = forward - normal_ * normal_.dot(forward);
     const Vector3d along = level.norm() > 0.1 ? level.normalized() : forward;
     const Vector3d step = distance * along;
-    // A turn about the normal of the ground turns the step; other turns leave it on the ground.
+    // A rotation about the normal of the ground rotates the step; other rotations leave it on the ground.
     Matrix6d A = Matrix6d::Identity();
     A.topRightCorner<3, 3>() = normal_.cross(step) * normal_.transpose();
     covariance_ = (A * covariance_ * A.transpose()).eval();
@@ -91,7 +91,7 @@ class Integration {
     t_ += step;
   }
 
-  /// Ends a step for which a sensor's last statement had to do for so long, s.
+  /// Adds the uncertainty of extrapolation over these times, s.
   void extrapolate(double gyroscope, double wheels) {
     const auto change = [](double walk, double seconds) { return walk * seconds * seconds * seconds / 3.0; };
     if (evidence_.gyroscope != nullptr)
@@ -108,8 +108,8 @@ class Integration {
     Eigen::Matrix<double, kShared, kShared> P = Eigen::Matrix<double, kShared, kShared>::Zero();
     P.topLeftCorner<MotionStates::kSize, MotionStates::kSize>() = evidence_.states->covariance;
     P.bottomRightCorner<2, 2>() = evidence_.ground->covariance;
-    // An error that steps share grows with the time, its variance with the square: this is the increment of that.
-    // Delays concern the ends of the chain alone.
+    // An error common to all steps grows linearly with time, its variance with the square: this is its increment.
+    // Delays affect the ends of the chain only.
     const double share = (2.0 * evidence_.since_measured + seconds) / seconds;
     for (int i = 0; i < kShared; ++i)
       if (i != MotionStates::kImuOffset && i != MotionStates::kWheelOffset) shared_.col(i) *= std::sqrt(share);
@@ -129,7 +129,7 @@ class Integration {
 
   const MotionEvidence& evidence_;
   Matrix3d R_base_odom_;
-  Vector3d normal_;  // of the ground, in base_link at `from`
+  Vector3d normal_;  // normal of the ground, in base_link at `from`
   Quaterniond q_ = Quaterniond::Identity();
   Vector3d t_ = Vector3d::Zero();
   Matrix6d covariance_ = Matrix6d::Zero();

@@ -17,18 +17,18 @@ using Kind = MotionFault::Kind;
 namespace {
 
 constexpr double kFrozen = 0.5;           // s
-constexpr double kGoodCorrelation = 0.8;  // of an explanation
-constexpr double kLinear = 0.95;          // of a scale
-constexpr double kAxesGain = 0.3;         // of correlation, by other axes
+constexpr double kGoodCorrelation = 0.8;  // correlation required for a diagnosis
+constexpr double kLinear = 0.95;          // correlation required for a scale
+constexpr double kAxesGain = 0.3;         // increase of correlation required for other axes
 constexpr double kLeastScaleError = 0.08;  // relative
 constexpr double kLongestDelay = 2.0;     // s
 constexpr std::size_t kFewestSteps = 8;
-constexpr double kLeastHistory = 4.0;  // s, for axes and delays
+constexpr double kLeastHistory = 4.0;  // s, required for axes and delays
 constexpr double kDegrees = 180.0 / M_PI;
 
-/// Sums over pairs of vectors, means removed.
+/// Correlation of pairs of vectors, means removed.
 struct Correlation {
-  double cosine = 0.0, ratio = 0.0;  ///< of the second to the first
+  double cosine = 0.0, ratio = 0.0;  ///< ratio of the second to the first
 };
 
 template <typename Second>
@@ -68,7 +68,7 @@ struct Lag {
   double cosine = 0.0;
 };
 
-/// Returns the lag at which both agree best.
+/// Returns the lag with the highest correlation.
 Lag findLag(const std::vector<ComparedStep>& steps, double period) {
   const int most = static_cast<int>(std::min(kLongestDelay / period, 0.5 * static_cast<double>(steps.size())));
   Lag best{0, correlate(steps, 0, same).cosine};
@@ -93,7 +93,7 @@ double rootMeanSquare(const std::vector<ComparedStep>& steps) {
 }
 
 std::string frozenSentence(double seconds) {
-  return "the same numbers have come for " + formatNumber(seconds, 2) +
+  return "its numbers have not changed for " + formatNumber(seconds, 2) +
          " s: the device or its driver is frozen, restart it";
 }
 
@@ -105,10 +105,10 @@ std::string delaySentence(double late) {
 std::string biasSentence(const DiagnosisInput& input) {
   const Vector3d bias = input.q_base_sensor.conjugate() * input.bias;
   return "its bias is (" + formatNumber(bias.x(), 2) + ", " + formatNumber(bias.y(), 2) + ", " +
-         formatNumber(bias.z(), 2) + ") rad/s, more than a sound sensor has: calibrate it at rest";
+         formatNumber(bias.z(), 2) + ") rad/s, too large for a working sensor: calibrate it at rest";
 }
 
-/// Returns the steps in the axes of the device, where its messages are.
+/// Transforms the steps to the axes of the device, which are those of its messages.
 std::vector<ComparedStep> inDevice(std::vector<ComparedStep> steps, const urban_nav_core::Quaterniond& q_base_sensor) {
   for (ComparedStep& step : steps) {
     step.by_images = q_base_sensor.conjugate() * step.by_images;
@@ -122,7 +122,7 @@ struct Axes {
   double cosine = 0.0;
 };
 
-/// Returns the map of axes that explains the rotations best.
+/// Returns the permutation of axes with the highest correlation of rotations.
 Axes findAxes(const std::vector<ComparedStep>& steps) {
   Axes best;
   for (const Matrix3d& map : urban_nav_core::allAxisMaps()) {

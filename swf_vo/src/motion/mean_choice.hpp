@@ -6,10 +6,10 @@
 
 namespace swf_vo {
 
-/// Chooses the mean of the process term (eq. 1) of a step that images measure, translation and rotation apart: the
-/// motion at constant velocity or the motion by sensors. The one that was nearer to what images measured over some ten
-/// frames is taken; without evidence, constant velocity. On a steady drive the last step predicts the next one better
-/// than wheels that slip; in a turn a gyroscope predicts it better.
+/// Chooses the mean of the process term (eq. 1) of a step that images measure, separately for translation and rotation:
+/// constant velocity or motion sensors, whichever was closer to the motion by images over about ten frames; without
+/// data, constant velocity. On a steady drive the previous step predicts the next one better than slipping wheels; in a
+/// turn a gyroscope predicts it better.
 class MeanChoice {
  public:
   /// Returns T_from_to.
@@ -17,7 +17,7 @@ class MeanChoice {
     return urban_nav_core::Pose(rotation_.prefersSensors() ? by_sensors.q() : steady.q(),
                                 translation_.prefersSensors() ? by_sensors.t() : steady.t());
   }
-  /// Compares both with the motion that images measured.
+  /// Compares both with the motion by images.
   void see(const urban_nav_core::Pose& steady, const urban_nav_core::Pose& by_sensors,
            const urban_nav_core::Pose& measured) {
     translation_.see((steady.t() - measured.t()).squaredNorm(), (by_sensors.t() - measured.t()).squaredNorm());
@@ -27,7 +27,7 @@ class MeanChoice {
 
  private:
   struct Errors {
-    double steady = 0.0, sensors = 0.0;  // squares, fading
+    double steady = 0.0, sensors = 0.0;  // squares, exponentially weighted
     void see(double of_steady, double of_sensors) {
       constexpr double kKept = 0.9;
       steady = kKept * steady + of_steady;

@@ -12,15 +12,16 @@ namespace {
 
 constexpr int kStates = MotionStates::kSize;
 
-// Random walks per root of a second: of the bias, 2.5 times that of EuRoC's sensor (ADIS16448); of clocks, 300 ppm.
+// Random walks per square root of a second: of the bias, 2.5 times that of EuRoC's sensor (ADIS16448); of clocks, 300
+// ppm.
 constexpr double kBiasWalk = 5e-5, kOffsetWalk = 3e-4, kScaleWalk = 2e-4;
-// Resolution of encoders and of their stamps at each frame, apart from that of images: m, rad.
+// Resolution of encoders and of their stamps at each frame, independent of that of images: m, rad.
 constexpr double kForwardEnd = 2e-3, kTurnEnd = 2e-3;
-// Share by which one innovation moves what is known of the noise, and the farthest that one counts.
+// Gain of the noise estimate per innovation, and limit of the normalised innovation squared.
 constexpr double kNoiseGain = 0.01, kMostNis = 9.0;
-// Factors of the stated variance: no sensor is taken to be better than stated.
+// Limits of the noise relative to the stated variance; not below the stated one.
 constexpr double kLeastNoise = 1.0, kMostNoise = 100.0;
-// An innovation farther out than this is no evidence on slow states: variances.
+// Innovations beyond this normalised square are outliers and do not update slow states.
 constexpr double kOutlier = 25.0;
 
 double prior(int state) {
@@ -116,7 +117,7 @@ void MotionCalibration::beginStep(const ImageStep& images, bool follows) {
   set(kStates + kEnds);
 }
 
-// One number at a time: the noise of different axes is independent.
+// Scalar update: the noise of different axes is independent.
 void MotionCalibration::measure(const Row& row, double error, double variance, int sensor) {
   const Row gain = P_ * row;
   const double innovation = error - row.dot(change_), of_innovation = row.dot(gain) + variance,
@@ -128,7 +129,7 @@ void MotionCalibration::measure(const Row& row, double error, double variance, i
   P_ -= gain * (gain / of_innovation).transpose();
 }
 
-// The frame becomes the one before.
+// Shifts the states of this frame to those of the previous frame.
 void MotionCalibration::endStep() {
   states_.mean += change_.head<kStates>();
   change_.segment<kEnds>(kStates) = change_.tail<kEnds>().eval();

@@ -25,17 +25,17 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// Differences over a quarter of a second that are never held against a sensor: rad, m.
+// Differences over a quarter of a second that are always tolerated: rad, m.
 constexpr double kTurnFloor = 2e-3, kForwardFloor = 0.01;
-// The newest step is not final: so many floors, and this share of the motion, are held against a sensor.
+// The newest step is not settled: it contradicts beyond this multiple of the floors and this share of the motion.
 constexpr double kFarInOneStep = 4.0, kLargeShareOfStep = 0.5;
-// A bias or scale beyond so many standard deviations of its prior belongs to no sound sensor, once it is known that
-// well (rad/s, ratio). A scale, for which other faults are not mistaken, also where so many standard deviations of the
-// estimate lie between.
+// A bias or scale beyond kBeyond standard deviations of its prior is a fault if its estimate is as accurate as
+// kWellKnown (rad/s, ratio). A scale, which other faults do not resemble, also if the excess is kSignificant standard
+// deviations of the estimate.
 constexpr double kBeyond = 2.0, kWellKnown = 0.02, kSignificant = 3.0;
-// Half of the time over which rates at the ends of a step are averaged, s.
+// Half of the averaging time of rates at the ends of a step, s.
 constexpr double kRateWindow = 0.1;
-// Offsets of clocks reach so far before the oldest step that is still to come.
+// Sensor history kept before the newest settled frame, for clock offsets, ns.
 constexpr StampNs kHistory = 1'000'000'000;
 constexpr std::size_t kMostFaults = 20;
 
@@ -55,7 +55,7 @@ ImageStep toImageStep(const urban_nav_core::RelativePose& step) {
   return images;
 }
 
-/// Returns whether wheels of this scale (measured over true, less one) are no sound ones.
+/// Returns whether a scale of the wheels (measured over true, minus 1) is too large for working ones.
 bool isBeyondScales(double mean, double sigma) {
   const double excess = std::abs(mean) - kBeyond * kSpeedScalePrior;
   return excess > 0.0 && (sigma < kWellKnown || excess > kSignificant * sigma);
@@ -72,9 +72,9 @@ Vector6d smoothTwist(const TwistStream& stream, StampNs stamp) {
   return sum / seconds;
 }
 
-/// Returns what is known of the camera's motion, of that of base_link: (rho, phi) of boxPlus, in `from`.
+/// Transforms the motion of base_link to that of the camera: (rho, phi) of boxPlus, in `from`.
 ProcessInput inCamera(const Reckoned& base, const Pose& T_base_camera) {
-  // With X = T_base_camera, T_camera = X^-1 T X: phi turns into the axes of the camera, and t moves by phi x (R t_X).
+  // With X = T_base_camera, T_camera = X^-1 T X: phi is rotated to the camera axes, and t changes by phi x (R t_X).
   ProcessInput u;
   u.T_from_to = T_base_camera.inverse() * base.T_from_to * T_base_camera;
   const Matrix3d Rt = T_base_camera.R().transpose();
@@ -344,7 +344,7 @@ void MotionSensors::leaveOut(Sensor& sensor, bool is_wheels, StampNs stamp) {
   const MotionFault fault =
       is_wheels ? diagnoseWheels(sensor.agreement.steps(), input) : diagnoseGyroscope(sensor.agreement.steps(), input);
   const bool is_named = fault.kind != MotionFault::Kind::Unknown;
-  if (goes_on && is_named) {  // known better now than when too little had been seen
+  if (goes_on && is_named) {  // more data than at the first diagnosis
     open->sentence = fault.sentence;
     open->is_named = true;
   } else if (!goes_on && faults.size() < kMostFaults) {

@@ -15,26 +15,26 @@
 
 namespace swf_vo {
 
-/// A gyroscope and wheels: learns their bias, scales and time offsets from steps that images alone
-/// have measured, leaves out a sensor that contradicts them, and predicts the motion with the covariance of that
-/// prediction. Nothing here changes a step that images measure. Method: docs/derivations/motion_sensors.md. Without
-/// statements of sensors it does nothing. Not thread-safe.
+/// Estimates bias, scales and time offsets of a gyroscope and wheels from steps measured by images only, excludes a
+/// sensor that contradicts them, and predicts the motion with its covariance. Does not change steps measured by images.
+/// Method: docs/derivations/motion_sensors.md. Without sensor inputs it has no effect. Not thread-safe.
 class MotionSensors {
  public:
   explicit MotionSensors(const urban_nav_core::Pose& T_base_camera);
 
-  /// Takes what sensors stated; inputs of no sensor are left aside.
+  /// Adds sensor inputs; inputs that are not from sensors are ignored.
   void add(const std::vector<urban_nav_core::MotionInput>& inputs);
-  /// Returns the motion of the left camera between two stamps by sensors that are to be used, with zero information on
-  /// the rest; nullopt without any. `T_odom_camera`: at `from`.
+  /// Returns the motion of the left camera between two stamps from the sensors in use, with zero information in the
+  /// remaining directions; nullopt without any. `T_odom_camera`: at `from`.
   std::optional<ProcessInput> predict(urban_nav_core::StampNs from, urban_nav_core::StampNs to,
                                       const urban_nav_core::Pose& T_odom_camera) const;
-  /// A frame went into the window. `by_images`: images measure where it is; `reckoned`: the prediction had part in it.
+  /// Registers a frame of the window. `by_images`: its pose is measured by images; `reckoned`: the prediction by
+  /// sensors contributed to it.
   void addFrame(FrameId frame, double seconds, bool by_images, bool reckoned);
-  /// Takes the newest step of the left camera, measured by images alone, before it is final: a sensor that contradicts
-  /// it predicts nothing until one agrees.
+  /// Checks sensors against the newest step of the left camera, measured by images only, before it settles: a sensor
+  /// that contradicts it is not used for prediction until a later step confirms it.
   void check(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const urban_nav_core::Pose& T_from_to);
-  /// A frame is final. Frames come in order.
+  /// Takes a settled frame. Requires frames in order.
   void learn(const Settled& settled);
 
   const MotionEstimates& estimates() const { return estimates_; }

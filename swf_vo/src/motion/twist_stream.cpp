@@ -13,17 +13,17 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// A sensor may be so late against the images, and miss so much of a span.
+// Maximum delay of a sensor relative to the images, and tolerated shares of a span without measurement.
 constexpr double kLongestExtrapolation = 0.12;  // s
 constexpr double kExtrapolatedShare = 0.1, kBridgedShare = 0.2;
-// Numbers that differ by less, relatively, are the same to all digits of a message: stamps do not divide evenly.
+// Relative difference below which numbers are equal to all digits of a message: stamps do not divide evenly.
 constexpr double kSameDigits = 1e-9;
-// A device that moves does not repeat itself for so long, s.
+// A moving device does not repeat its numbers for this time, s.
 constexpr double kStuck = 0.25;
-// Statements over which scatter and changes are averaged.
+// Number of spans over which scatter and changes are averaged.
 constexpr double kAveraged = 200.0;
-// Variance of second differences of white noise, and share of the mean at which one difference is cut off: a jolt is no
-// noise.
+// Variance of second differences of white noise, and multiple of the mean to which one difference is limited, since
+// shocks are not noise.
 constexpr double kSecondDifference = 6.0, kCutOff = 9.0;
 
 double averaged(double before, double value) {
@@ -82,7 +82,7 @@ void TwistStream::archive(urban_nav_core::Archive& archive) {
   archive(spans_, repeated_, scatter_, walk_);
   for (std::size_t i = 0; i < spans_.size(); ++i)
     archive.require(spans_[i].from < spans_[i].to && (i == 0 || spans_[i - 1].to <= spans_[i].from),
-                    "statements of a motion sensor are out of order");
+                    "spans of a motion sensor are not in order of time");
 }
 
 }  // namespace swf_vo

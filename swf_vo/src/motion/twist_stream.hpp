@@ -10,10 +10,11 @@
 
 namespace swf_vo {
 
-/// Motion at a constant twist between two stamps, as a sensor states it.
+/// Motion at a constant twist between two stamps, as stated by a sensor.
 struct TwistSpan {
   urban_nav_core::StampNs from = 0, to = 0;
-  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();  ///< of base_link in its axes: m/s, then rad/s
+  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();  ///< twist of base_link in its axes: m/s, then
+                                                                      ///< rad/s
   /// Variances of the increments of forward, sideways, height, roll, pitch and yaw per second, m^2/s and rad^2/s; 0:
   /// not stated.
   urban_nav_core::Vector6d density = urban_nav_core::Vector6d::Zero();
@@ -21,41 +22,40 @@ struct TwistSpan {
   void archive(urban_nav_core::Archive& archive) { archive(from, to, twist, density); }
 };
 
-/// Share of a span of time that a sensor stated.
+/// Coverage of a time interval by sensor spans.
 struct Coverage {
   double measured = 0.0;      ///< s
-  double extrapolated = 0.0;  ///< s, after the last that was stated: at the last twist
-  double bridged = 0.0;       ///< s without a statement elsewhere: at the twist of the neighbour
-  /// Returns whether the motion over the span is known well enough for a prediction.
+  double extrapolated = 0.0;  ///< s, after the last span: at its twist
+  double bridged = 0.0;       ///< s, in gaps before or between spans: at the twist of a neighbour
+  /// Returns whether the coverage is sufficient for a prediction.
   bool suffices() const;
-  /// Returns whether it was measured throughout.
+  /// Returns whether the interval was measured throughout.
   bool isComplete() const { return measured > 0.0 && extrapolated + bridged < 0.05 * measured; }
 };
 
-/// The newest statements of one motion sensor, in order of time. Not thread-safe.
+/// The newest spans of one motion sensor, in order of time. Not thread-safe.
 class TwistStream {
  public:
-  /// Takes a statement. One that does not begin at or after the end of the one before, or holds numbers that are not
-  /// finite, is left out.
+  /// Appends an input. Inputs that begin before the end of the previous one or are not finite are dropped.
   void add(const urban_nav_core::MotionInput& input);
-  /// Forgets what ends before a stamp, but for the last statement.
+  /// Removes the spans that end before a stamp, except for the last one.
   void forget(urban_nav_core::StampNs before);
 
   bool isEmpty() const { return spans_.empty(); }
   const TwistSpan& newest() const { return spans_.back(); }
-  /// Returns the twist at a stamp: that of the span around it, or of the nearest. Requires a statement.
+  /// Returns the twist at a stamp: that of the span around it, or of the nearest. Requires a non-empty stream.
   const TwistSpan& at(urban_nav_core::StampNs stamp) const;
-  /// Returns for how long every number of the statements has been the same, s.
+  /// Returns the time for which all numbers have been unchanged, s.
   double repeatedSeconds() const { return repeated_; }
-  /// Returns whether it states the same motion, to all digits, for longer than a device does. Rest is no such motion.
+  /// Returns whether the same non-zero motion has been repeated, to all digits, for longer than a working device does.
   bool isStuck() const;
-  /// Returns the variance per second of an integrated rate of rotation, rad^2/s, by the second differences of
-  /// successive rates; 0 before there are some.
+  /// Returns the variance per second of an integrated rotation rate, rad^2/s, from second differences of successive
+  /// rates; 0 until enough are available.
   double scatterDensity() const { return scatter_; }
-  /// Returns the variance by which a twist changes in a second, by component.
+  /// Returns the variance of the change of the twist per second, by component.
   const urban_nav_core::Vector6d& walk() const { return walk_; }
 
-  /// Calls visit(span, seconds) for pieces that together cover [from, to], in order. Requires a statement.
+  /// Calls visit(span, seconds) for pieces that together cover [from, to], in order. Requires a non-empty stream.
   template <typename Visit>
   Coverage cover(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Visit& visit) const;
 
@@ -75,7 +75,7 @@ Coverage TwistStream::cover(urban_nav_core::StampNs from, urban_nav_core::StampN
   auto next =
       std::partition_point(spans_.begin(), spans_.end(), [&](const TwistSpan& span) { return span.to <= from; });
   for (; next != spans_.end() && at < to; ++next) {
-    if (next->from > at) {  // nothing was stated in between
+    if (next->from > at) {  // gap without a span
       const urban_nav_core::StampNs end = std::min(next->from, to);
       const double bridged = secondsBetween(at, end);
       visit(next == spans_.begin() ? *next : *std::prev(next), bridged);

@@ -15,11 +15,11 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// What lies behind the camera cannot have been measured, so it costs as much as one that is off by so many standard
-// deviations: else a step that turns the camera away from everything would be the best of all.
+// Residual, in standard deviations, of a landmark behind the camera: otherwise a step that turns the camera away from
+// all landmarks would have the lowest cost.
 constexpr double kUnseen = 100.0;
 
-// The columns of [w]x^T A, that is -[w]x A, for A of three rows.
+// Columns of [w]x^T A = -[w]x A, for A of three rows.
 Matrix3d minusCross(const Vector3d& w, const Matrix3d& A) {
   Matrix3d result;
   result.row(0) = w.z() * A.row(1) - w.y() * A.row(2);
@@ -28,7 +28,7 @@ Matrix3d minusCross(const Vector3d& w, const Matrix3d& A) {
   return result;
 }
 
-// With G = H^T W H: the pose block of J^T W J for J = [-rho H, H [w]x], built from 3x3 pieces.
+// Adds the pose block of J^T W J for J = [-rho H, H [w]x], with G = H^T W H, in 3x3 blocks.
 void addPoseBlock(const SensorModel::Linearised& at, const Matrix3d& G, Matrix6d& block) {
   const Matrix3d T = minusCross(at.w, G);  // [w]x^T G
   block.topLeftCorner<3, 3>() += (at.rho * at.rho) * G;
@@ -37,7 +37,7 @@ void addPoseBlock(const SensorModel::Linearised& at, const Matrix3d& G, Matrix6d
   block.bottomRightCorner<3, 3>() += minusCross(at.w, T.transpose());
 }
 
-// J^T a for the same J and a = H^T W r.
+// J^T a for the same J, with a = H^T W r.
 Vector6d poseGradient(const SensorModel::Linearised& at, const Vector3d& a) {
   Vector6d g;
   g.head<3>() = -at.rho * a;
@@ -52,7 +52,7 @@ Matrix63d crossBlock(const SensorModel::Linearised& at, const Matrix3d& K) {
   return E;
 }
 
-// The right image shows everything further left by the disparity offset: dz/doffset = (0, 0, -1).
+// The disparity offset shifts points to the left in the right image: dz/doffset = (0, 0, -1).
 Vector3d residual(const State& state, const Measurement& measurement, const Vector3d& z) {
   return {measurement.z.x() - z.x(), measurement.z.y() - z.y(), measurement.z.z() - z.z() + state.disparity_offset};
 }
@@ -118,7 +118,7 @@ void Cost::accumulateProcess(State& state, NormalEquations& equations) const {
 
 namespace {
 
-/// Sets equations of so many poses and landmarks to zero; blocks of landmarks are assigned by the caller.
+/// Sets the equations to zero; blocks of landmarks are assigned by the caller.
 template <bool with_matrices>
 void clear(NormalEquations& equations, std::size_t poses, std::size_t slots) {
   equations.pose_gradient.assign(poses, Vector6d::Zero());
@@ -220,7 +220,8 @@ SensorTerm Cost::sensorTerm(const State& state, const LandmarkBlock& landmark, c
                             const PoseBlock& pose) const {
   SensorTerm term{Matrix6d::Zero(), Matrix63d::Zero(), Matrix3d::Zero(), Vector6d::Zero(),
                   Vector6d::Zero(), Vector3d::Zero(),  Vector3d::Zero()};
-  // The textbook keeps what its update used: the residual at the linearisation point, and the step taken from there.
+  // The textbook variant uses the values of its update: the residual at the linearisation point, and the step from
+  // there.
   const bool as_solved = !linearise_first_ && measurement.solved;
   const bool at_first = linearise_first_ || as_solved;
   const PoseMatrices now(pose.estimate);

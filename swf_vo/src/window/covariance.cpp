@@ -24,7 +24,7 @@ Matrix symmetric(const Matrix& M) {
 
 namespace {
 
-// How estimates go with the disparity offset.
+// Derivative of the estimates by the disparity offset.
 template <int N>
 Eigen::Matrix<double, N, 1> perOffset(const Solver& solver, std::size_t row) {
   Eigen::Matrix<double, N, 1> s;

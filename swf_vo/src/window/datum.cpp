@@ -64,7 +64,7 @@ void Datum::marginalised(const Matrix6d& loss) {
   const Matrix6d left = symmetric(information_ - loss);
   Matrix6d before, after;
   if (!invert(information_, before) || !invert(left, after)) {
-    giveUp();
+    disable();
     return;
   }
   information_ = left;
@@ -79,8 +79,8 @@ void Datum::scaleGrowth(const DriftSandwich::Ratio& ratio) {
   growth_ = scaled;
 }
 
-// G and u = Pi G.
-void Datum::look(const State& state, const Prior& prior) {
+// Computes G and u = Pi G.
+void Datum::computeGaugeProducts(const State& state, const Prior& prior) {
   const int n = prior.size();
   gauge::ofPrior(state, prior, origin_, directions_);
   held_.assign(static_cast<std::size_t>(6 * n), 0.0);
@@ -98,7 +98,7 @@ Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
   Vector6d per_px = Vector6d::Zero();
   release_.reset();
   if (!prior.has_offset || !active_) return per_px;
-  look(state, prior);
+  computeGaugeProducts(state, prior);
   const int n = prior.size();
   const Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
   Matrix6d covariance;
@@ -106,7 +106,7 @@ Vector6d Datum::releaseOffset(const State& state, Prior& prior) {
   Eigen::Map<Eigen::VectorXd> border(prior.border.data(), n);
   const Vector6d along = G.transpose() * border;
   per_px = -(covariance * along);
-  // Gradients stay as they are at the estimates.
+  // The gradients at the estimates are preserved.
   double offset_gradient = 0.0;
   prior.deviation(state, deviation_);
   prior.gradient(deviation_, state.disparity_offset, gradient_, offset_gradient);
@@ -131,7 +131,7 @@ double Datum::scaleSigma() const {
   return std::sqrt(rig_scale_ * rig_scale_ + per_px * per_px * offset_.error());
 }
 
-bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
+bool Datum::fixGauge(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
   Matrix6d covariance;
   strength_m_ = std::max(strength_m_, local.diagonal().head<3>().maxCoeff());
   strength_rad_ = std::max(strength_rad_, local.diagonal().tail<3>().maxCoeff());
@@ -140,7 +140,7 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
                                     covariance.diagonal().tail<3>().maxCoeff() * strength_rad_);
   if (looseness < ratio) return false;
 
-  look(state, prior);
+  computeGaugeProducts(state, prior);
   const int n = prior.size();
   const Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
   const Matrix6d M = symmetric(G.transpose() * u);
@@ -149,7 +149,7 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
   for (int i = 0; i < 6; ++i) W(i, i) += i < 3 ? strength_m_ : strength_rad_;
   if (!invert(W, held)) return false;
 
-  // Pi + v (W - M) v^T, and gamma is drawn to where it was drawn before: with d the deviation, gradient = eta - Pi d.
+  // Pi + v (W - M) v^T with unchanged gradient along gamma: with d the deviation, gradient = eta - Pi d.
   prior.deviation(state, deviation_);
   double unchanged = 0.0;
   prior.gradient(deviation_, state.disparity_offset, gradient_, unchanged);

@@ -13,15 +13,15 @@ using kernels::kStrip;
 
 namespace {
 
-// Rounding leaves about 1e-15 of the diagonal; what lies a thousand times above it is taken for information.
+// Rounding errors are about 1e-15 of the diagonal; a value a thousand times larger counts as information.
 constexpr double kLeastPivot = 1e-12;
-// Columns of a panel: a packed strip of it (3 KB) and the strip it is multiplied with stay in the first-level cache.
+// Columns of a panel: a packed strip (3 KB) and the strip it is multiplied with fit the first-level cache.
 constexpr int kCholeskyPanel = 48;
-constexpr int kLargestSize = 1 << 14;  // rows of a matrix that is read
+constexpr int kLargestSize = 1 << 14;  // rows of an archived matrix
 
 std::size_t rounded(int n) { return static_cast<std::size_t>((n + kStrip - 1) / kStrip * kStrip); }
 
-// Rows [first, last) of column-major columns as strips; rows past the last are zero.
+// Packs rows [first, last) of column-major columns into strips; rows past the last are zero.
 void pack(const double* columns, std::size_t stride, int first, int last, int depth, std::vector<double>& packed) {
   const std::size_t strips = rounded(last - first) / kStrip;
   const std::size_t size = static_cast<std::size_t>(kStrip) * static_cast<std::size_t>(depth);
@@ -48,7 +48,7 @@ void pack(const double* columns, std::size_t stride, int first, int last, int de
 void DenseMatrix::resize(int size) {
   size_ = size;
   stride_ = static_cast<int>(rounded(size));
-  // A power of two would put every column into the same lines of the cache.
+  // With a power of two, all columns would map to the same cache lines.
   if (stride_ % 64 == 0) stride_ += kStrip;
   const std::size_t needed = static_cast<std::size_t>(stride_) * rounded(size);
   reserveWithHeadroom(data_, needed);
@@ -66,7 +66,7 @@ void StripProduct::subtract(DenseMatrix& C, int first, int rows, const double* B
                       columns);
 }
 
-// The diagonal block, row-major in `block_`, by the plain algorithm.
+// Factors the diagonal block, row-major in `block_`, without blocking.
 void DenseCholesky::factorDiagonal(DenseMatrix& A, int start, int width, const std::vector<double>& floor) {
   double* L = block_.data();
   for (int r = 0; r < width; ++r)
@@ -82,7 +82,7 @@ void DenseCholesky::factorDiagonal(DenseMatrix& A, int start, int width, const s
     row[j] = std::sqrt(held ? floor[at] : pivot);
     const double inverse = held ? 0.0 : 1.0 / row[j];
     inverse_[static_cast<std::size_t>(j)] = inverse;
-    // Four rows at a time, for a difference must wait for the one before.
+    // Four rows at a time, since each difference depends on the previous one.
     int i = j + 1;
     for (; i + 4 <= width; i += 4) {
       double *a = L + i * width, *b = a + width, *c = b + width, *d = c + width;
@@ -172,21 +172,21 @@ void DenseMatrix::archive(urban_nav_core::Archive& archive) {
   int size = size_;
   archive(size);
   if (archive.isReading()) {
-    archive.require(size >= 0 && size <= kLargestSize, "a matrix is too large");
+    archive.require(size >= 0 && size <= kLargestSize, "matrix too large");
     resize(size);
   }
   std::vector<double> lower;
   for (int j = 0; j < size_; ++j) {
     lower.assign(column(j) + j, column(j) + size_);
     archive(lower);
-    archive.require(lower.size() == static_cast<std::size_t>(size_ - j), "a column is of another size");
+    archive.require(lower.size() == static_cast<std::size_t>(size_ - j), "invalid column size");
     std::copy(lower.begin(), lower.end(), column(j) + j);
   }
 }
 
 void DenseCholesky::archive(urban_nav_core::Archive& archive, DenseMatrix& A) {
   archive(A, held_);
-  archive.require(held_.size() == static_cast<std::size_t>(A.size()), "a factor is of another size");
+  archive.require(held_.size() == static_cast<std::size_t>(A.size()), "invalid size of a factor");
   if (!archive.isReading()) return;
   L_ = &A;
   held_count_ = static_cast<int>(std::count_if(held_.begin(), held_.end(), [](char held) { return held != 0; }));

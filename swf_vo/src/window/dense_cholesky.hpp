@@ -11,15 +11,15 @@ namespace swf_vo {
 
 namespace kernels = urban_nav_core::kernels;
 
-/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper
-/// one). Takes three times the room it needs, and never shrinks.
+/// A symmetric matrix of dynamic size, column-major; only the lower triangle is used (the upper one is undefined).
+/// Reserves three times the required memory, and never shrinks.
 class DenseMatrix {
  public:
-  /// All zero.
+  /// Resizes and sets to zero.
   void reset(int size);
-  /// Holds anything.
+  /// Resizes; the elements are undefined.
   void resize(int size);
-  /// As much room as another has, so that copies of it allocate nothing.
+  /// Reserves the capacity of another matrix, so that copies of it do not allocate.
   void reserveLike(const DenseMatrix& other) { data_.reserve(other.data_.capacity()); }
   int size() const { return size_; }
   int stride() const { return stride_; }
@@ -37,8 +37,8 @@ class DenseMatrix {
   std::vector<double> data_;
 };
 
-/// C[first, first + rows) -= B B^T, lower triangle, B column-major with its own stride. `first` is a multiple of 8, and
-/// so is first + rows unless it is the end of C. Keeps its buffer.
+/// C[first, first + rows) -= B B^T, lower triangle, B column-major with its own stride. Requires `first` to be a
+/// multiple of 8, and first + rows too unless it is the end of C. Keeps its buffer.
 class StripProduct {
  public:
   explicit StripProduct(const kernels::InstructionSet& set = kernels::instructionSets().front()) : set_(set) {}
@@ -50,9 +50,9 @@ class StripProduct {
   std::vector<double> packed_;
 };
 
-/// L L^T = A for a positive semidefinite A. Where a pivot falls below 1e-12 of its diagonal element, that direction is
-/// not determined by what stands before it: it is held, that is, solutions leave component j where it is, and its pivot
-/// becomes floor[j] (an information) so that covariances stay proper. Nothing of that goes into A's owner.
+/// L L^T = A for a positive semidefinite A. If a pivot falls below 1e-12 of its diagonal element, its direction is not
+/// determined by the preceding ones. It is held: solutions leave component j unchanged, and its pivot becomes floor[j]
+/// (an information) so that covariances remain valid. This does not add information to the system.
 class DenseCholesky {
  public:
   explicit DenseCholesky(const kernels::InstructionSet& set = kernels::instructionSets().front()) : set_(set) {}
@@ -60,18 +60,18 @@ class DenseCholesky {
   /// Overwrites A with L; A must outlive the solves.
   void factor(DenseMatrix& A, const std::vector<double>& floor);
 
-  /// L x = b and L^T x = b in place, from component `first` on (those before are left alone).
+  /// Solves L x = b and L^T x = b in place, from component `first` on (earlier ones are unchanged).
   void solveLower(double* x, int first = 0) const;
   void solveUpper(double* x, int first = 0) const;
-  /// L^T x = b for six columns, `stride` numbers from one to the next.
+  /// Solves L^T x = b for six columns, `stride` elements apart.
   void solveUpperSix(double* x, int stride) const;
 
-  /// Sets held components to zero: between solveLower and solveUpper it makes the solution leave them where they are.
+  /// Sets held components to zero: called between solveLower and solveUpper, the solution leaves them unchanged.
   void release(double* x) const;
 
   int heldCount() const { return held_count_; }
 
-  /// With the factor, which stays where it is: A as handed to factor().
+  /// Archives the factorisation together with the factor, which is in A as passed to factor().
   void archive(urban_nav_core::Archive& archive, DenseMatrix& A);
 
  private:

@@ -16,15 +16,16 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// Effective clusters that the model counts for: the usual degrees of freedom of a variance that is hardly known.
+// Weight of the model, in effective clusters: usual degrees of freedom of an uncertain variance.
 constexpr double kModelClusters = 4.0;
-// What of a score the estimate leaves at least: with less, leverage is not known well enough to correct for it.
+// Minimum share of a score that remains after the estimate has followed it: below, the leverage is too uncertain to be
+// corrected for.
 constexpr double kLeastLeft = 0.2;
 
-// Share of a coordinate's own information below which what the others leave of it is rounding.
+// Pivots below this share of a coordinate's information are rounding errors.
 constexpr double kLeastRatePivot = 1e-8;
 
-/// Returns the inverse, or nothing where some direction is hardly known.
+/// Returns the inverse; nullopt if a direction is almost undetermined.
 std::optional<Matrix6d> invertWellKnown(const Matrix6d& information) {
   const SmallCholesky<6> cholesky(information);
   if (!cholesky.succeeded()) return std::nullopt;
@@ -69,8 +70,8 @@ void DriftSandwich::add(const DriftScore& landmark) {
   const Matrix6d& I = landmark.information;
   const Vector6d& g = landmark.score;
   Region& region = find(landmark.direction);
-  // The others' information on a drift that is steady for as long as this landmark lived, and its own; and on one that
-  // it shares with those before it in its region.
+  // Information of the others on a drift constant over this landmark's life, plus its own; and on a drift that it
+  // shares with earlier landmarks of its region.
   const SmallCholesky<6> own(landmark.life / view_change_ * information_ + I);
   const SmallCholesky<6> shared(life_ / view_change_ * information_ + I + region.information);
   const Matrix6d together = g * region.score.transpose();
@@ -116,7 +117,7 @@ void DriftSandwich::Region::archive(urban_nav_core::Archive& archive) { archive(
 
 void DriftSandwich::archive(urban_nav_core::Archive& archive) {
   archive(view_change_, life_, information_, expected_, squares_, squared_shares_, regions_);
-  for (const double share : squared_shares_) archive.require(share > 0.0, "shares of landmarks");
+  for (const double share : squared_shares_) archive.require(share > 0.0, "invalid cluster shares");
 }
 
 }  // namespace swf_vo

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int kFewestCoordinates = 12;      // four frames: with fewer a landmark can take up whatever it is off by
-constexpr std::size_t kFewestForTest = 16;  // to know what is usual
+constexpr int kFewestCoordinates = 12;      // four frames: with fewer, a landmark's position absorbs its errors
+constexpr std::size_t kFewestForTest = 16;  // landmarks required for the typical residual
 
 }  // namespace
 

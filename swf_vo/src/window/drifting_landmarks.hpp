@@ -8,14 +8,14 @@
 
 namespace swf_vo {
 
-/// Finds landmarks that violate the static-world assumption. Where the edge of something near crosses what lies beyond
-/// it, the images show a corner that is no point of the scene: it slides as the camera moves, by a few hundredths of a
-/// pixel per frame, too little for any single measurement to stand out. What it leaves over all the frames of the
-/// window does: its root mean square residual, in standard deviations of its alignments, is far from that of the others
-/// (median and median deviation).
+/// Finds landmarks that violate the static-world assumption. Where the edge of a near object crosses the background,
+/// the images show a corner that is not a point of the scene: it drifts as the camera moves, by a few hundredths of a
+/// pixel per frame, too little to be detected in a single measurement. Over all frames of the window it is detectable:
+/// the root mean square residual, in standard deviations of the alignments, is far from that of the other landmarks
+/// (median and median absolute deviation).
 class DriftingLandmarks {
  public:
-  /// Landmarks to be given up, after an update; lives until the next call.
+  /// Returns the landmarks to be dropped, after an update; valid until the next call.
   const std::vector<LandmarkId>& find(const State& state, const SensorModel& sensor);
 
  private:

@@ -23,15 +23,15 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// Of the pose that a window begins with, m and rad.
+// Standard deviation of the first pose of the window, m and rad.
 constexpr double kDatumSigma = 1e-6;
 // Names of the constants of the rig (ConsideredConstant).
 constexpr const char* kDisparityConstant = "disparity";
 constexpr const char* kScaleConstant = "scale";
-// Radians: a fifth of what a good match is off by in an image of 500 px.
-constexpr double kLeastWander = 5e-5;
-// Share of a step's covariance that is always taken as drift, so that it stays proper where nothing drifts: one
-// step's in a thousand steps.
+// Radians: a fifth of the error of a good match in an image of 500 px.
+constexpr double kLeastTemplateDrift = 5e-5;
+// Minimum share of drift in a step's covariance, so that it is positive definite without drift: that of one step in a
+// thousand.
 constexpr double kLeastDrift = 1e-3;
 
 Matrix6d inverse(Matrix6d A) {
@@ -67,11 +67,11 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   Matrix6d root = information;
   gauge_free_ = !has_known_ && !urban_nav_core::choleskyInPlace(root);
   datum_.start(prior_);
-  if (has_known_ || !options_.linearise_first || options_.forget_by_deletion) datum_.giveUp();
+  if (has_known_ || !options_.linearise_first || options_.forget_by_deletion) datum_.disable();
   newest_covariance_ = inverse(information + process_model::floor());
 }
 
-// Adding new pose parameters (section 2.2.1).
+// Adds a pose (section 2.2.1).
 void Filter::addPose(FrameId frame, const ProcessInput& u) {
   const PoseBlock& last = state_.poses.back();
   newest_covariance_ = covariance::propagate(last.estimate, newest_covariance_, u);
@@ -85,7 +85,7 @@ void Filter::addPose(FrameId frame, const ProcessInput& u) {
 void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPose>& settled) {
   const Pose& last = state_.poses.back().estimate;
   const PoseWithCovariance next{process_model::predict(last, u), covariance::propagate(last, newest_covariance_, u)};
-  // What is known of the disparity offset, with all else marginalised.
+  // Information on the disparity offset with all other states marginalised.
   const double information = prior_.has_offset ? gauss_newton_.solver().offsetInformation() : 0.0,
                offset = state_.disparity_offset;
   flush(settled);
@@ -111,7 +111,7 @@ void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPo
   prior_.offset_eta = information * offset - gauss_newton_.solver().offsetPull(prior_, offset);
 }
 
-// Removing parameters.
+// Marginalises poses and landmarks (section 2.2.1).
 void Filter::removePoses(std::vector<SettledPose>& settled, History* history) {
   while (state_.poses.size() > limit()) removeOldest(settled, history);
   for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
@@ -146,17 +146,17 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   const Vector6d per_px = datum_.releaseOffset(state_, prior_);
   departed.offset_gain += (departed.gauge_gain - left) * per_px;
   const std::optional<Matrix6d> own = std::exchange(oldest_information_, std::nullopt);
-  if (!own || !datum_.hold(*own, options_.datum_ratio, state_, prior_)) return;
-  // The pose that left goes with the window as its gain says, not quite as a rigid piece of it: the rest stays in the
-  // step.
+  if (!own || !datum_.fixGauge(*own, options_.datum_ratio, state_, prior_)) return;
+  // The marginalised pose moves with the window by its gain, not exactly as a rigid part of it: the remainder is added
+  // to the step.
   const Matrix6d gain = departed.gauge_gain, slack = gain - left;
   settled_in_window_ -= gain * datum_.shift() * gain.transpose();
   settled_apart_ = slack * datum_.shift() * slack.transpose();
 }
 
-// Small steps are gathered: a landmark costs a pass over the prior.
+// Small steps are accumulated: each landmark costs a pass over the prior.
 void Filter::applyProcessNoise(const Vector3d& origin) {
-  wandered_.clear();
+  drifted_.clear();
   for (LandmarkBlock& landmark : state_.landmarks) {
     if (!landmark.used || landmark.prior < 0) continue;
     if (!landmark.seen.empty()) {
@@ -165,13 +165,13 @@ void Filter::applyProcessNoise(const Vector3d& origin) {
                   landmark.seen.front().template_drift_covariance);
       landmark.seen.front().template_drift_covariance.setZero();
     }
-    if (landmark.template_drift_covariance.trace() < kLeastWander * kLeastWander) continue;
-    wandered_.push_back({landmark.prior, landmark.template_drift_covariance});
+    if (landmark.template_drift_covariance.trace() < kLeastTemplateDrift * kLeastTemplateDrift) continue;
+    drifted_.push_back({landmark.prior, landmark.template_drift_covariance});
     landmark.template_drift_covariance.setZero();
   }
-  if (wandered_.empty()) return;
+  if (drifted_.empty()) return;
   gauge::ofPrior(state_, prior_, origin, directions_);
-  process_noise_.apply(wandered_, directions_, prior_, marginaliser_.departed());
+  process_noise_.apply(drifted_, directions_, prior_, marginaliser_.departed());
 }
 
 SettledPose Filter::settle() {
@@ -215,7 +215,7 @@ Matrix6d Filter::driftCovariance(const PoseBlock& oldest, const Matrix6d& relati
   return J * datum_.growth() * J.transpose() + kLeastDrift * relative;
 }
 
-// The offset displaces the window as a whole by releaseOffset(); the rig's scale stretches each step.
+// The offset displaces the window as a whole by releaseOffset(); the rig's scale is proportional to each step.
 ConsideredConstants Filter::constants(const PoseBlock& oldest, const Pose& T_previous_camera) const {
   ConsideredConstants constants;
   if (gain_valid_ && datum_.isActive() && datum_.release()) {
@@ -231,7 +231,7 @@ ConsideredConstants Filter::constants(const PoseBlock& oldest, const Pose& T_pre
   return constants;
 }
 
-// Classic visual odometry: what the oldest frame said is lost, and the next pose becomes the datum.
+// Classic visual odometry: the information of the oldest frame is dropped, and the next pose becomes the datum.
 void Filter::deleteOldest() {
   const Matrix6d covariance = computeCovariance(state_.first_step + 1);
   const std::int64_t leaving = state_.first_step;
@@ -251,7 +251,7 @@ bool Filter::fixLandmark(const MapPoint& point) {
   if (!measurements::fixLandmark(state_, point)) return false;
   has_known_ = true;
   gauge_free_ = false;
-  datum_.giveUp();
+  datum_.disable();
   return true;
 }
 
@@ -296,11 +296,11 @@ void Filter::endLandmark(LandmarkId id) {
   if (slot >= 0) state_.landmarks[static_cast<std::size_t>(slot)].followed = false;
 }
 
-// Updating parameters.
+// Updates the parameters (section 2.2.1).
 UpdateReport Filter::update() {
   if (options_.iterations > 1 && state_.poses.size() > 1) optimiseNewestPose(state_, cost_.sensor(), options_.huber);
   const GaussNewton::Progress progress = gauss_newton_.run(state_, prior_, cost_, gauge_free_);
-  offset_ = judgeOffset();
+  offset_ = estimateOffset();
   datum_.setOffset(offset_);
   newest_covariance_ = computeCovariance(state_.newestStep());
   oldest_information_ = gauss_newton_.ownInformation(0);
@@ -310,22 +310,23 @@ UpdateReport Filter::update() {
   return result;
 }
 
-// The estimate trusts measurements by a caution of its own; what is stated of it is what their residuals say. With I
-// their information, c that of the calibration and rho the ratio, the true offset has the precision c + I / rho, and
-// lies where its gradient vanishes: at the estimate that of the measurements is caution c (o - calibrated).
-OffsetBelief Filter::judgeOffset() const {
+// The estimate uses the measurements' information divided by Solver::offsetCaution(), whereas its covariance uses the
+// ratio by their residuals. With I the information, c that of the calibration and rho the ratio, the true offset has
+// precision c + I / rho, and its mean is where the gradient vanishes: at the estimate, that of the measurements is
+// caution c (o - calibrated).
+DisparityOffsetEstimate Filter::estimateOffset() const {
   const Solver& solver = gauss_newton_.solver();
-  OffsetBelief belief;
-  belief.used = belief.mean = state_.disparity_offset;
-  belief.variance = solver.offsetVariance();
-  if (!options_.robust_drift || !prior_.has_offset || !datum_.isActive() || !(belief.variance > 0.0)) return belief;
+  DisparityOffsetEstimate estimate;
+  estimate.used = estimate.mean = state_.disparity_offset;
+  estimate.variance = solver.offsetVariance();
+  if (!options_.robust_drift || !prior_.has_offset || !datum_.isActive() || !(estimate.variance > 0.0)) return estimate;
   const double ratio = scores_.ofOffset().ratio(solver.offsetCaution()),
-               calibration = prior_.calibrationInformation(belief.used),
+               calibration = prior_.calibrationInformation(estimate.used),
                precision = calibration + solver.offsetInformation() / ratio,
-               pull = (solver.offsetCaution() / ratio - 1.0) * calibration * (belief.used - prior_.calibrated_offset);
-  belief.variance = 1.0 / precision;
-  belief.mean += pull / precision;
-  return belief;
+               pull = (solver.offsetCaution() / ratio - 1.0) * calibration * (estimate.used - prior_.calibrated_offset);
+  estimate.variance = 1.0 / precision;
+  estimate.mean += pull / precision;
+  return estimate;
 }
 
 Matrix6d Filter::computeWindowCovariance(std::int64_t step) const {
@@ -360,23 +361,23 @@ void Filter::archive(urban_nav_core::Archive& archive) {
   if (archive.isReading()) check(archive);
 }
 
-// The parts rely on each other.
+// Checks the consistency of the parts.
 void Filter::check(const urban_nav_core::Archive& archive) const {
-  archive.require(!prior_.has_pose || !state_.poses.empty(), "the prior has no pose");
+  archive.require(!prior_.has_pose || !state_.poses.empty(), "prior without a pose");
   archive.require(!gain_valid_ || marginaliser_.departed().gain.size() / 6 <= gauss_newton_.solver().rows(),
-                  "a gain is of another size");
+                  "invalid gain size");
   std::size_t tied = 0;
   for (const LandmarkBlock& landmark : state_.landmarks) {
     const auto place = static_cast<std::size_t>(landmark.prior);
     archive.require(landmark.prior < 0 || (landmark.used && !landmark.known && place < prior_.slots.size()),
-                    "the prior has no such landmark");
+                    "landmark is not in the prior");
     tied += landmark.prior < 0 ? 0 : 1;
   }
-  archive.require(tied == prior_.slots.size(), "the prior has a landmark twice");
+  archive.require(tied == prior_.slots.size(), "duplicate landmark in the prior");
   for (std::size_t i = 0; i < prior_.slots.size(); ++i) {
     const auto slot = static_cast<std::size_t>(prior_.slots[i]);
     archive.require(slot < state_.landmarks.size() && state_.landmarks[slot].prior == static_cast<int>(i),
-                    "the prior has no such landmark");
+                    "landmark is not in the prior");
   }
 }
 

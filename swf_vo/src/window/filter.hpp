@@ -21,8 +21,8 @@
 
 namespace swf_vo {
 
-/// The four steps of section 2.2.1 over one set of values, without the memory that undoing needs (window.hpp): add
-/// the pose, remove the oldest, add landmarks, update. A value: a copy goes on from where the original stood.
+/// The four steps of section 2.2.1 on one state, without the record for undo (window.hpp): add the pose, remove the
+/// oldest, add landmarks, update. Value type: a copy continues from the state of the original.
 class Filter {
  public:
   Filter(const WindowOptions& options, const urban_nav_core::StereoCamera& camera);
@@ -36,7 +36,7 @@ class Filter {
   bool withdraw(LandmarkId landmark, FrameId frame);
   void endLandmark(LandmarkId landmark);
   UpdateReport update();
-  /// The measurements of a frame become these (undo.hpp).
+  /// Replaces the measurements of a frame (undo.hpp).
   void setMeasurements(FrameId frame, const std::vector<Observation>& observations);
   void flush(std::vector<SettledPose>& settled);
 
@@ -48,20 +48,20 @@ class Filter {
   const Cost& cost() const { return cost_; }
   const Datum& datum() const { return datum_; }
 
-  /// All that the following steps depend on.
+  /// Complete state for the following steps.
   struct Checkpoint {
     State state;
     Prior prior;
     urban_nav_core::Matrix6d newest_covariance;
     Datum datum;
     LandmarkScores scores;
-    OffsetBelief offset;
+    DisparityOffsetEstimate offset;
     std::optional<urban_nav_core::Matrix6d> oldest_information;
   };
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
 
-  /// What was handed out as settled, and stays whatever is undone.
+  /// The settled pose that was handed out last; not affected by undo.
   struct Published {
     urban_nav_core::PoseWithCovariance settled;
     std::int64_t step = -1;
@@ -69,7 +69,7 @@ class Filter {
   Published published() const { return {settled_, settled_step_}; }
   void publish(const Published& published);
 
-  /// The next addPose will take information out of the window.
+  /// Returns whether the next addPose will marginalise.
   bool isFull() const { return state_.poses.size() >= limit(); }
   void archive(urban_nav_core::Archive& archive);
 
@@ -83,7 +83,7 @@ class Filter {
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
   urban_nav_core::ConsideredConstants constants(const PoseBlock& oldest,
                                                 const urban_nav_core::Pose& T_previous_camera) const;
-  OffsetBelief judgeOffset() const;
+  DisparityOffsetEstimate estimateOffset() const;
   void applyProcessNoise(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d computeWindowCovariance(std::int64_t step) const;
   urban_nav_core::Matrix6d computeCovariance(std::int64_t step) const;
@@ -95,23 +95,23 @@ class Filter {
   GaussNewton gauss_newton_;
   Marginaliser marginaliser_;
   LandmarkProcessNoise process_noise_;
-  std::vector<LandmarkProcessNoise::Step> wandered_;
-  std::vector<double> directions_;  // of the gauge, of the prior
-  OffsetBelief offset_;
+  std::vector<LandmarkProcessNoise::Step> drifted_;
+  std::vector<double> directions_;  // gauge directions of the prior
+  DisparityOffsetEstimate offset_;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();
-  urban_nav_core::PoseWithCovariance settled_;  // the last that left
+  urban_nav_core::PoseWithCovariance settled_;  // last settled pose
   std::int64_t settled_step_ = -1;
   urban_nav_core::Matrix6d settled_in_window_ =
-      urban_nav_core::Matrix6d::Zero();  // its covariance without what is carried
-  bool gain_valid_ = false;              // of the marginaliser, between settled_ and the oldest pose
+      urban_nav_core::Matrix6d::Zero();  // its covariance in the window, without Datum::carried
+  bool gain_valid_ = false;              // the marginaliser's gain between settled_ and the oldest pose is valid
   urban_nav_core::Matrix6d settled_apart_ =
-      urban_nav_core::Matrix6d::Zero();  // added to it in the step to its neighbour
+      urban_nav_core::Matrix6d::Zero();  // part added to its covariance in the step to its neighbour
   Datum datum_;
   LandmarkScores scores_;
   std::optional<urban_nav_core::Matrix6d>
-      oldest_information_;   // of the oldest pose on itself at the last update, until it leaves
-  bool has_known_ = false;   // landmarks whose places are given
-  bool gauge_free_ = false;  // nothing says where odom is
+      oldest_information_;   // information of the oldest pose on itself at the last update, until it leaves
+  bool has_known_ = false;   // landmarks of known position
+  bool gauge_free_ = false;  // no information on the pose in odom
 };
 
 }  // namespace swf_vo

@@ -20,8 +20,8 @@ Matrix6d ofPose(const urban_nav_core::Pose& T_odom_camera, const Vector3d& origi
 }
 
 Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Vector3d& theta, const Vector3d& origin) {
-  // The homogeneous point (W, rho) seen from `origin` moves by (rho shift + turn x W, 0); theta is it divided by the
-  // depth in the anchor.
+  // The homogeneous point (W, rho) relative to `origin` moves by (rho shift + turn x W, 0); theta is this point divided
+  // by its depth in the anchor.
   const Vector3d W =
       anchor.R_odom_anchor * Vector3d(theta.x(), theta.y(), 1.0) + theta.z() * (anchor.t_odom_anchor - origin);
   Eigen::Matrix<double, 3, 6> moved;

@@ -14,19 +14,18 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// A step that raises the cost by more than this share is halved.
+// A step that increases the cost by more than this share is halved.
 constexpr double kCostSlack = 0.01;
 constexpr int kHalvings = 4;
-// Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g)
+// The factor is reused while each step is smaller than the previous one by this factor (in d^T g)
 constexpr double kContraction = 0.1;
-// ... and the first step was no larger than this (chi-square).
+// ... and the first step was not larger than this (chi-square).
 constexpr double kFarStart = 2000.0;
-// A step that an old factor promises, and that is not so much smaller than the one before, is not taken: a new factor
-// is asked.
+// A step with an old factor that exceeds this share of the previous one is recomputed with a new factor.
 constexpr double kStalled = 0.5;
-// Contradictory measurements may want a pose or the offset anywhere: beyond these a step is as one that raises the
-// cost.
-constexpr double kLongestMove = 1e4;      // m, from where a pose was linearised
+// With contradictory measurements poses or the offset may diverge: steps beyond these limits are rejected like steps
+// that increase the cost.
+constexpr double kLongestMove = 1e4;      // m, from the linearisation point of a pose
 constexpr double kLargestOffset = 100.0;  // px
 
 bool isSane(const State& state) {
@@ -56,7 +55,7 @@ void GaussNewton::take(double scale, State& state, const Prior& prior) const {
   for (std::size_t j = 0; j < state.poses.size(); ++j) {
     PoseBlock& pose = state.poses[j];
     const Vector6d d = scale * solver_.poseStep(j);
-    // The prior is quadratic in the chart around its centre: its pose moves in that chart.
+    // The prior is quadratic in the chart around its centre: its pose is updated in that chart.
     pose.estimate = j == 0 && prior.has_pose
                         ? boxPlus(prior.pose_centre, boxMinus(pose.estimate, prior.pose_centre) + d)
                         : boxPlus(pose.estimate, d);
@@ -68,7 +67,7 @@ void GaussNewton::take(double scale, State& state, const Prior& prior) const {
   }
 }
 
-// Shortens the step until the cost does not rise; false, and nothing has moved, where it does all the same.
+// Shortens the step until the cost does not increase. Returns false, with the state unchanged, if it always does.
 bool GaussNewton::descend(double before, State& state, const Prior& prior, const Cost& cost) {
   double scale = 1.0;
   for (int h = 0; h <= kHalvings; ++h) {
@@ -85,15 +84,15 @@ bool GaussNewton::descend(double before, State& state, const Prior& prior, const
 GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& cost, bool datum) {
   Progress progress;
   double last = 0.0;
-  bool refactor = true, current = false;  // current: the prior's gradient is that at the estimates
+  bool refactor = true, current = false;  // current: the prior's gradient is at the estimates
   for (int i = 0; i < options_.iterations; ++i) {
     cost.relinearise(state, prior);
     if (!current) priorGradient(state, prior);
     if (refactor) factor(state, prior, cost, datum);
     else cost.buildGradient(state, equations_);
     solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
-    // Where something is held loosely a shared factor may not contract: the direction in which nothing is measured
-    // has turned with the estimates, and what the old factor sees along it is divided by next to nothing.
+    // With weak constraints a shared factor may not contract: the unobserved direction has rotated with the estimates,
+    // and the component of the gradient along it is divided by almost zero.
     if (!refactor && solver_.decrement() > kStalled * last) {
       factor(state, prior, cost, datum);
       solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
@@ -101,7 +100,7 @@ GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& c
     ++progress.iterations;
     take(1.0, state, prior);
     current = false;
-    // One step of one pose is the extended Kalman filter's, taken whatever comes of it.
+    // One step of one pose is that of the extended Kalman filter, and always accepted.
     if (options_.iterations > 1 || state.poses.size() > 1) {
       if (!descend(prior_cost_ + equations_.cost, state, prior, cost)) break;
       current = !measurements::undoAbsurd(state);
@@ -109,7 +108,8 @@ GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& c
     const double decrement = solver_.decrement();
     progress.converged = decrement < options_.tolerance;
     if (progress.converged) break;
-    // The textbook's factor belongs to its last step; else a far start or slow progress ask for a new one.
+    // The textbook's factor belongs to its last step; otherwise a new one is needed after a far start or slow
+    // convergence.
     refactor = !options_.linearise_first || decrement > (i == 0 ? kFarStart : kContraction * last);
     last = decrement;
   }

@@ -12,12 +12,12 @@
 
 namespace swf_vo {
 
-/// Updating parameters (Newman et al. 2009, section 2.2.1): sparse robust Gauss-Newton over all that is in the
-/// window. Keeps the last factor, of which the covariances are taken.
+/// Parameter update (Newman et al. 2009, section 2.2.1): sparse robust Gauss-Newton over the window. Keeps the last
+/// factor, from which the covariances are computed.
 ///
-/// Iterations share a factor as long as it contracts, and no step is taken that raises the cost: poses that saw
-/// nothing are tied by their process terms alone, and along such a loose direction both a factor of yesterday and a
-/// full step may lead anywhere.
+/// Iterations share a factor as long as it contracts, and steps that raise the cost are not taken: poses without
+/// measurements are constrained by their process terms only, and along such a weak direction an outdated factor or a
+/// full step may diverge.
 class GaussNewton {
  public:
   explicit GaussNewton(const WindowOptions& options) : options_(options) {}
@@ -26,15 +26,15 @@ class GaussNewton {
     int iterations = 0;
     bool converged = false;
   };
-  /// With `datum` nothing says where the window is, and its oldest pose is held.
+  /// With `datum` there is no absolute information, and the oldest pose is held.
   Progress run(State& state, Prior& prior, const Cost& cost, bool datum);
 
-  /// The last factor knows the pose of this step, and in which place.
+  /// Returns whether the last factor contains the pose of this step; `place` is its index.
   bool inFactor(std::int64_t step, std::size_t& place) const;
   const Solver& solver() const { return solver_; }
-  /// What the terms of one frame alone say of its pose.
+  /// Information of the terms of one frame on its own pose.
   const urban_nav_core::Matrix6d& ownInformation(std::size_t place) const { return equations_.pose[place]; }
-  /// The state was changed by others.
+  /// Invalidates the factor after a change of the state.
   void forget() { has_factor_ = false; }
   void archive(urban_nav_core::Archive& archive);
 
@@ -53,7 +53,7 @@ class GaussNewton {
   bool has_factor_ = false;
 };
 
-/// Figures of the state after an update.
+/// Computes the statistics of the state after an update.
 UpdateReport report(const State& state, const SensorModel& sensor);
 
 }  // namespace swf_vo

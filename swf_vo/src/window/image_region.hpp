@@ -8,12 +8,12 @@
 
 namespace swf_vo {
 
-/// How long scores of landmarks count, in view change: a landmark lives for half a radian or so.
+/// Memory of landmark scores, in view change: the life of a landmark is about 0.5 rad.
 inline constexpr double kScoreMemoryRad = 10.0;  ///< generations of landmarks
-/// A few generations: what a surface or a place in the image makes of all that pass there.
+/// Correlation length, a few generations: errors of a surface or a position in the image affect all landmarks there.
 inline constexpr double kScoreCorrelationRad = 3.0;
 
-/// A region of the image, by the direction (x, y) / z of what is seen there: a quarter of the depth wide and high.
+/// A region of the image in terms of the direction (x, y) / z; width and height are a quarter of the depth.
 using ImageRegion = std::array<int, 2>;
 
 inline ImageRegion imageRegion(const Eigen::Vector2d& direction) {

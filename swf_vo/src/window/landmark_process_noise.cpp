@@ -46,7 +46,7 @@ void LandmarkProcessNoise::factor(const Step* steps, int count) {
   for (int j = 0; j < m; ++j) {
     for (int k = 0; k < j; ++k)
       for (int i = j; i < m; ++i) L_[i][j] -= L_[i][k] * L_[j][k];
-    // Where rounding has left less than nothing, there is nothing to take away.
+    // A pivot that is negative by rounding carries no information.
     const double root = L_[j][j] > 0.0 ? std::sqrt(L_[j][j]) : std::numeric_limits<double>::infinity();
     for (int i = j + 1; i < m; ++i) L_[i][j] /= root;
     L_[j][j] = root;
@@ -63,7 +63,7 @@ void LandmarkProcessNoise::apply(const Step* steps, int count, const std::vector
     for (int k = 0; k < j; ++k) kernels::subtract(column(j), column(k), L_[j][k], n);
     for (int i = 0; i < n; ++i) column(j)[i] /= L_[j][j];
   }
-  // y = L^-1 E^T v, v -= Pi E L^-T y: how every row vector over the blocks changes.
+  // y = L^-1 E^T v, v -= Pi E L^-T y: update of a row vector over the blocks.
   double y[kMost], tied[kMost];
   const auto change = [&](double* v, double* part) {
     for (int j = 0; j < m; ++j) {

@@ -12,7 +12,7 @@ using urban_nav_core::Pose;
 
 namespace {
 
-// Share of a coordinate's own information below which what is left of it is rounding.
+// Pivots below this share of a coordinate's information are rounding errors.
 constexpr double kLeastThetaPivot = 1e-12;
 
 }  // namespace
@@ -45,7 +45,7 @@ void LandmarkScore::add(const LandmarkBlock& landmark, const PoseBlock& pose, do
   score_[9] += term.border_gradient + term.landmark_border.dot(moved);
 }
 
-// Pi - Pi E (I + Q E^T Pi E)^-1 Q E^T Pi, which also holds where Q has no inverse.
+// Pi - Pi E (I + Q E^T Pi E)^-1 Q E^T Pi, also valid for singular Q.
 void LandmarkScore::age(const Eigen::Matrix2d& covariance) {
   if (!used_) return;
   const Eigen::Matrix2d known = information_.topLeftCorner<2, 2>();

@@ -6,35 +6,35 @@
 
 namespace swf_vo {
 
-/// Score and information of a steady drift of the camera: shift (m) and turn (rad) per radian of view change, about the
-/// camera, in its axes.
+/// Score and information of a constant-rate drift of the camera: shift (m) and turn (rad) per radian of view change,
+/// about the camera, in its axes.
 struct DriftScore {
   urban_nav_core::Vector6d score = urban_nav_core::Vector6d::Zero();
   urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();
-  /// Of the disparity offset (px), beside the drift; `offset_cross`: information between both.
+  /// For the disparity offset (px), jointly with the drift; `offset_cross`: information between both.
   double offset_score = 0.0, offset_information = 0.0;
   urban_nav_core::Vector6d offset_cross = urban_nav_core::Vector6d::Zero();
   double life = 0.0;                                    ///< view change (rad) from the first to the last measurement
-  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< of the landmark in that camera: (x, y) / z
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< direction of the landmark in that camera: (x, y) / z
 };
 
-/// What the measurements of one landmark, over its whole life, say of a drift of the camera that is steady for as long.
+/// Score of a constant-rate camera drift over the landmark's lifetime.
 ///
-/// An information filter over theta, the rate xi at which the camera moves away from where the estimate has it, and the
-/// disparity offset; that apart, the poses are taken as given. With theta eliminated it is the landmark's share in the
-/// score and in the information of the trajectory at low frequencies: changes slower than its life. Ages as the prior
-/// does (landmark_process_noise.hpp). Derivation: docs/derivations/cluster_robust_drift.md.
+/// An information filter over theta, the drift rate xi of the camera relative to its estimate, and the disparity
+/// offset; poses are otherwise taken as known. With theta eliminated, the result is the contribution of the landmark to
+/// score and information of the trajectory at low frequencies: changes slower than its lifetime. Process noise is the
+/// same as in the prior (landmark_process_noise.hpp). Derivation: docs/derivations/cluster_robust_drift.md.
 class LandmarkScore {
  public:
   bool isUsed() const { return used_; }
   void clear() { used_ = false; }
 
-  /// A measurement leaves the window with its pose, at this view change (rad) since the start; `term`: as it goes into
-  /// the prior.
+  /// Adds a measurement that leaves the window with its pose, at this view change (rad) since the start; `term`: as
+  /// marginalised into the prior.
   void add(const LandmarkBlock& landmark, const PoseBlock& pose, double view_change, const SensorTerm& term);
-  /// Adds template drift since the last measurement (covariance of the bearing).
+  /// Adds template drift since the previous measurement (covariance of the bearing).
   void age(const Eigen::Matrix2d& covariance);
-  /// With the camera of its last frame.
+  /// Returns the score in the axes of the camera of its last frame.
   DriftScore evaluate(const urban_nav_core::Pose& T_odom_camera) const;
   void archive(urban_nav_core::Archive& archive);
 
@@ -46,7 +46,7 @@ class LandmarkScore {
   double born_ = 0.0, last_ = 0.0;                       // view change, rad
   Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();  // theta at which score_ is taken
   Anchor anchor_;                                        // xi is about its origin
-  Matrix10d information_ = Matrix10d::Zero();            // of theta, xi, offset
+  Matrix10d information_ = Matrix10d::Zero();            // states: theta, xi, offset
   Vector10d score_ = Vector10d::Zero();
 };
 

@@ -8,22 +8,22 @@
 
 namespace swf_vo {
 
-/// The scores of the landmarks of a window by slot, and what those of dead landmarks say together.
+/// Scores of the landmarks of a window by slot, and their sums over ended landmarks.
 class LandmarkScores {
  public:
-  /// Begins anew, as with a session; keeps the memory.
+  /// Resets at the begin of a session; keeps the memory.
   void clear();
-  /// Room for so many landmarks.
+  /// Reserves memory for this number of landmarks.
   void reserve(std::size_t slots) { scores_.reserve(slots); }
 
-  /// A measurement that leaves the window with its pose.
+  /// Adds a measurement that leaves the window with its pose.
   void add(std::size_t slot, const LandmarkBlock& landmark, const PoseBlock& pose, const SensorTerm& term);
   /// Adds template drift to the bearing (covariance), before the next measurement of this landmark leaves.
   void age(std::size_t slot, const Eigen::Matrix2d& covariance);
-  /// The landmarks in these slots have died: nothing more will be added to them.
+  /// Adds the final scores of the landmarks in these slots, which have ended.
   void end(const std::vector<int>& slots, const urban_nav_core::Pose& T_odom_camera);
-  /// The oldest pose goes on by this step, seen from `state.poses.front()`. A view changes by the angle turned and the
-  /// distance over the usual depth (rad).
+  /// Advances the oldest pose by this step, as seen from `state.poses.front()`. The view change is the rotation angle
+  /// plus the distance over the typical depth (rad).
   void advance(const State& state, const urban_nav_core::Pose& T_from_to);
 
   const DriftSandwich& sandwich() const { return sandwich_; }

@@ -18,11 +18,11 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// An eigenvalue of a block scaled to a unit diagonal below this is rounding.
+// Eigenvalues of a block scaled to unit diagonal below this are rounding errors.
 constexpr double kLeastEigenvalue = 1e-12;
 constexpr int kUnused = 1 << 30;
 
-// G with G G^T = D^-1, or the inverse on what D determines.
+// G with G G^T = D^-1, or the pseudo-inverse for singular D.
 template <int N>
 Eigen::Matrix<double, N, N> inverseRoot(const Eigen::Matrix<double, N, N>& D) {
   Eigen::Matrix<double, N, 1> scale;
@@ -67,8 +67,7 @@ void Marginaliser::sort(const State& state, const Prior& prior) {
   }
   for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
     const LandmarkBlock& landmark = state.landmarks[at];
-    // One that only this pose saw and that is not tracked explains its measurement whatever the pose: it hands nothing
-    // on.
+    // A landmark observed only by this pose and not tracked absorbs its measurement: it adds no information.
     if (!landmark.used || landmark.known || landmark.prior >= 0 || !seenBy(landmark, state.first_step)) continue;
     if (!staysWithout(landmark, state.first_step)) continue;
     place_[at] = 3 * static_cast<int>(kept_.size());
@@ -83,7 +82,7 @@ void Marginaliser::sort(const State& state, const Prior& prior) {
   blocks_.push_back({eliminated_ - 6, 6});
 }
 
-// Blocks that stay neighbours, in the order of the prior; its pose is the last of what is eliminated.
+// Blocks that remain adjacent, in the order of the prior; its pose is the last of the eliminated ones.
 void Marginaliser::findRuns(const Prior& prior) {
   runs_.clear();
   runs_.reserve(prior.slots.capacity() + 1);
@@ -110,7 +109,7 @@ void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
   border_.assign(static_cast<std::size_t>(stride_), 0.0);
   offset_information_ = prior.offset_information;
   offset_gradient_ = 0.0;
-  // What the prior does not touch is zero; the rest is overwritten.
+  // Entries outside the prior are zero; the others are overwritten.
   const int touched = prior.has_pose ? prior.landmarkSize() - (eliminated_ - 6) : 0;
   for (int j = 0; j < eliminated_; ++j)
     std::fill(eliminatedColumn(j) + (prior.has_pose ? eliminated_ + touched : 0), eliminatedColumn(j) + stride_, 0.0);
@@ -176,7 +175,7 @@ void Marginaliser::addTerms(const State& state, const Cost& cost, LandmarkScores
   Map<Vector6d>(gradient_.data() + eliminated_ + remaining_ - 6) += term.next_gradient;
 }
 
-// Lambda G at the eliminated rows: what they hold of the gauge.
+// Lambda G at the eliminated rows: their information on the gauge.
 void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
   const std::size_t stride = static_cast<std::size_t>(stride_);
   reserveWithHeadroom(directions_, 6 * stride);
@@ -239,7 +238,7 @@ void Marginaliser::eliminate() {
     Matrix6d& G = roots_[b];
     if (block.size == 6) G = inverseRoot<6>(D);
     else G.topLeftCorner<3, 3>() = inverseRoot<3>(D.topLeftCorner<3, 3>());
-    // F = Lambda_b^T G in place, then what it takes from the blocks that follow.
+    // F = Lambda_b^T G in place, then its update of the following blocks.
     timesRoot(block, G);
     Vector6d y = Vector6d::Zero(), tied = Vector6d::Zero();
     for (int c = 0; c < block.size; ++c) {
@@ -277,7 +276,7 @@ void Marginaliser::eliminate() {
 }
 
 void Marginaliser::computeGain() {
-  // d_pose = G (y - F^T d - b o): its gain, transposed, is -F G^T.
+  // d_pose = G (y - F^T d - b o): the transposed gain is -F G^T.
   reserveWithHeadroom(departed_.gain, static_cast<std::size_t>(6 * remaining_));
   departed_.gain.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
   const Matrix6d& G = roots_.back();
@@ -372,8 +371,7 @@ void Marginaliser::keep(State& state, Prior& prior) {
   state.poses.erase(state.poses.begin());
   ++state.first_step;
 
-  // The gradient was taken at the estimates, eta is it at the centre: g + Pi d + border o, which is gradient() of (-d,
-  // -o).
+  // The gradient is at the estimates, eta at the centre: g + Pi d + border o, which is gradient() of (-d, -o).
   reserveWithHeadroom(prior.eta, static_cast<std::size_t>(remaining_));
   reserveWithHeadroom(prior.border, static_cast<std::size_t>(remaining_));
   prior.eta.assign(gradient_.begin() + eliminated_, gradient_.begin() + stride_);
@@ -401,7 +399,7 @@ void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, co
 
 void archive(urban_nav_core::Archive& archive, Departed& departed) {
   archive(departed.gain, departed.offset_gain, departed.gauge_gain, departed.gauge_loss);
-  archive.require(departed.gain.size() % 6 == 0, "a gain has no six columns");
+  archive.require(departed.gain.size() % 6 == 0, "gain does not have six columns");
 }
 
 }  // namespace swf_vo

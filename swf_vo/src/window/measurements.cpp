@@ -13,8 +13,8 @@ using urban_nav_core::Pose;
 
 namespace {
 
-// Bearings further out than 84 deg from the axis at birth, or nearer than a tenth of a millimetre: an estimate gone
-// astray.
+// Limits of a diverged estimate: bearings over 84 deg from the axis at the first observation, or distances below a
+// tenth of a millimetre.
 constexpr double kAbsurdBearing = 10.0;
 constexpr double kAbsurdInverseDepth = 1e4;
 
@@ -31,7 +31,7 @@ bool hasFullRank(Eigen::Matrix3d information) {
   return true;
 }
 
-// Any rotation that turns z towards the direction.
+// Returns a rotation that maps z to the direction.
 Eigen::Matrix3d lookingAlong(const Vector3d& direction) {
   Eigen::Matrix3d R;
   const Vector3d z = direction.normalized();
@@ -48,7 +48,7 @@ bool fixLandmark(State& state, const MapPoint& point) {
   if (state.findSlot(point.landmark) >= 0 || !point.p_odom.allFinite()) return false;
   LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(state.add(point.landmark))];
   landmark.known = true;
-  // An anchor at the origin that looks at the point.
+  // Anchor at the origin with its z axis towards the point.
   landmark.anchor.R_odom_anchor = lookingAlong(point.p_odom.head<3>());
   landmark.anchor.t_odom_anchor.setZero();
   landmark.estimate = landmark.linearised = Vector3d(0.0, 0.0, point.p_odom.w() / point.p_odom.head<3>().norm());
@@ -69,8 +69,8 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
   Measurement measurement;
   measurement.step = state.first_step + pose;
   measurement.z = observation.z;
-  // What is not symmetric would come back as information, good or bad, in directions that were not measured: at 1e-8 of
-  // a pixel's, more than a second of prediction has.
+  // Asymmetry would act as positive or negative information in unmeasured directions: at 1e-8 of a pixel's it exceeds
+  // the information of a second of prediction.
   measurement.information = 0.5 * (observation.information + observation.information.transpose());
   measurement.sigma_px = observation.sigma_px;
   measurement.inflation = observation.inflation;
@@ -100,7 +100,7 @@ bool withdraw(State& state, LandmarkId id, FrameId frame) {
       std::find_if(landmark.seen.begin(), landmark.seen.end(), [&](const Measurement& m) { return m.step == step; });
   if (at == landmark.seen.end()) return false;
   landmark.seen.erase(at);
-  // Nothing is left of it: the next measurement starts it anew.
+  // Without measurements the landmark is removed; the next one initialises it again.
   if (landmark.seen.empty() && landmark.prior < 0 && !landmark.known) state.remove(slot);
   return true;
 }

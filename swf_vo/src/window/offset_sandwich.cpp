@@ -15,7 +15,7 @@ using urban_nav_core::Vector6d;
 namespace {
 
 constexpr double kPriorClusters = 4.0;
-// Beyond these no sum of squares is believed.
+// Limits of the ratio.
 constexpr double kLeastRatio = 1e-2;
 constexpr double kLargestRatio = 1e6;
 
@@ -74,7 +74,7 @@ void OffsetSandwich::Region::archive(urban_nav_core::Archive& archive) { archive
 
 void OffsetSandwich::archive(urban_nav_core::Archive& archive) {
   archive(drift_, cross_, information_, squares_, squared_shares_, regions_);
-  archive.require(squared_shares_ > 0.0, "shares of landmarks");
+  archive.require(squared_shares_ > 0.0, "invalid cluster shares");
 }
 
 }  // namespace swf_vo

@@ -9,24 +9,25 @@
 
 namespace swf_vo {
 
-/// By how much the variance of the disparity offset is larger than its information says, learnt from residuals alone.
+/// Ratio of the actual variance of the disparity offset to that of its information, estimated from residuals.
 ///
-/// The sandwich of drift_sandwich.hpp for the one number that all frames share. A dead landmark's score of the offset,
-/// with the drift of the camera eliminated,
-///   s = g_o - A g_xi,   i = I_oo - 2 A I_xi,o + A I_xi,xi A^T,   A = (sum of I_o,xi) (sum of I_xi,xi)^-1,
-/// has the variance i if measurements err independently. Scores of one region of the image are taken to be correlated
-/// as there, and
+/// The sandwich estimator of drift_sandwich.hpp for the one state common to all frames. The score of an ended landmark
+/// for the offset, with the drift of the camera eliminated,
+///   s = g_o - A g_xi, i = I_oo - 2 A I_xi,o + A I_xi,xi A^T, A = (sum of I_o,xi) (sum of I_xi,xi)^-1,
+/// has the variance i if errors of measurements are independent. Scores of one region of the image are taken as
+/// correlated as in drift_sandwich.hpp, and
 ///   ratio = sum(w s s) / sum(i).
-/// All landmarks speak of the same number, so none of them has leverage on it worth mentioning.
+/// All landmarks measure the same state, so the leverage of each is negligible.
 ///
-/// Few clusters say little, and what all of them share is not seen: the logarithm of the ratio is the mean of the
-/// measured one, weighted with the effective number of clusters, and of what is taken without any, weighted with 4.
+/// A variance from few clusters is uncertain, and errors common to all clusters are not detected: the logarithm of the
+/// ratio is the mean of the measured one, weighted by the effective number of clusters, and of the default without
+/// data, with weight 4.
 class OffsetSandwich {
  public:
-  /// The view has changed by as much (rad).
+  /// Decreases the weight of earlier scores after a view change (rad).
   void advance(double view_change);
   void add(const DriftScore& landmark);
-  /// `without`: the ratio where no landmark has died.
+  /// `without`: default ratio, used until landmarks have ended.
   double ratio(double without) const;
   void archive(urban_nav_core::Archive& archive);
 
@@ -38,8 +39,8 @@ class OffsetSandwich {
   };
   Region& find(const Eigen::Vector2d& direction);
 
-  urban_nav_core::Matrix6d drift_ = urban_nav_core::Matrix6d::Zero();  // sum I_xi,xi, faded
-  urban_nav_core::Vector6d cross_ = urban_nav_core::Vector6d::Zero();  // sum I_xi,o, faded
+  urban_nav_core::Matrix6d drift_ = urban_nav_core::Matrix6d::Zero();  // sum I_xi,xi, exponentially weighted
+  urban_nav_core::Vector6d cross_ = urban_nav_core::Vector6d::Zero();  // sum I_xi,o, exponentially weighted
   double information_ = 0.0;                                           // sum i
   double squares_ = 0.0;                                               // sum w s s
   double squared_shares_ = 1.0;

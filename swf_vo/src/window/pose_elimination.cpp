@@ -104,7 +104,7 @@ void PoseElimination::factor(const State& state, const Prior& prior, const Norma
       link.next = equations.next[j];
       diagonal = pivots_[j + 1].diagonal();
     }
-    // X L^-T column by column; a held column has no say.
+    // X L^-T column by column; held columns are excluded.
     for (int c = 0; c < 6; ++c) {
       double* column = across(6 * j + static_cast<std::size_t>(c));
       const double inverse = link.held[c] ? 0.0 : 1.0 / link.L(c, c);
@@ -165,7 +165,7 @@ void PoseElimination::archive(urban_nav_core::Archive& archive) {
   if (map_size_ > 0) cholesky_.archive(archive, dense_);
   if (archive.isReading() && map_size_ == 0) dense_.reset(0);
   stride_ = static_cast<std::size_t>(dense_.stride());
-  archive.require(map_size_ == dense_.size() && across_.size() == stride_ * 6 * poses, "a factor is of another size");
+  archive.require(map_size_ == dense_.size() && across_.size() == stride_ * 6 * poses, "invalid size of a factor");
 }
 
 }  // namespace swf_vo

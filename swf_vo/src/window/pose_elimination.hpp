@@ -10,18 +10,18 @@
 
 namespace swf_vo {
 
-/// Solves Lambda d = g by eliminating poses first (Newman et al. 2009, section 2.1, path-onto-map). They form a chain,
-/// each tied to the next by its process term, so eliminating k of them costs k small steps; what is left is a dense
-/// system of all landmarks. Cheaper than landmarks first if there are few landmarks and many poses.
+/// Solves Lambda d = g by eliminating poses first (Newman et al. 2009, section 2.1, path-onto-map). Poses form a chain,
+/// each coupled to the next by its process term, so eliminating k of them takes k small steps; the remainder is a dense
+/// system of all landmarks. Cheaper than landmarks first for few landmarks and many poses.
 class PoseElimination {
  public:
-  /// Returns the operations (multiply and add) of a factorisation.
+  /// Returns the number of operations (multiply and add) of a factorisation.
   static double operations(std::size_t poses, std::size_t landmarks);
 
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, double datum_strength);
 
-  /// In place: `path` holds 6 numbers a pose, `map` 3 a landmark, those of the prior first, then by slot. `hold`:
-  /// components that nothing determines stay where they are (steps); else they answer with process_model::floor()
+  /// Solves in place: `path` holds 6 elements per pose, `map` 3 per landmark, those of the prior first, then by slot.
+  /// `hold`: undetermined components are unchanged (steps); else their information is process_model::floor()
   /// (covariances).
   void solve(std::vector<double>& path, std::vector<double>& map, bool hold) const;
 
@@ -33,8 +33,8 @@ class PoseElimination {
 
  private:
   struct Link {
-    urban_nav_core::Matrix6d L;     ///< of this pose
-    urban_nav_core::Matrix6d next;  ///< rows of the pose after it, times L^-T
+    urban_nav_core::Matrix6d L;     ///< Cholesky factor of this pose
+    urban_nav_core::Matrix6d next;  ///< rows of the next pose, multiplied by L^-T
     bool held[6];
   };
 
@@ -46,7 +46,7 @@ class PoseElimination {
   std::vector<Link> links_;
   std::vector<urban_nav_core::Matrix6d> pivots_;
   std::vector<int> row_;
-  std::vector<double> across_;  // landmarks x poses, column-major: Lambda_mp, then times L^-T
+  std::vector<double> across_;  // landmarks x poses, column-major: Lambda_mp, then multiplied by L^-T
   std::vector<double> floor_;
   std::size_t stride_ = 0;
   int map_size_ = 0;

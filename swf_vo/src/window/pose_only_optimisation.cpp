@@ -24,7 +24,7 @@ constexpr double kNearEnough = 1e-2;
 
 bool isNew(const LandmarkBlock& landmark) { return landmark.seen.size() == 1 && landmark.prior < 0 && !landmark.known; }
 
-// A and b of the pose from all landmarks that more than this pose has seen; returns how many.
+// Accumulates A and b of the pose over landmarks with measurements in other poses too; returns their number.
 int addLandmarks(const State& state, const SensorModel& sensor, double huber, Matrix6d& A, Vector6d& b) {
   const PoseMatrices pose(state.poses.back().estimate);
   const std::int64_t step = state.newestStep();
@@ -53,7 +53,7 @@ int addLandmarks(const State& state, const SensorModel& sensor, double huber, Ma
 void optimiseNewestPose(State& state, const SensorModel& sensor, double huber) {
   PoseBlock& newest = state.poses.back();
   const Pose predicted = newest.estimate;
-  // The prediction with its information, in the axes of odom.
+  // Information of the prediction, in the axes of odom.
   Matrix6d lift = Matrix6d::Zero();
   lift.topLeftCorner<3, 3>() = lift.bottomRightCorner<3, 3>() = predicted.R();
   const Matrix6d held = lift * (process_model::floor() + newest.u.information) * lift.transpose();

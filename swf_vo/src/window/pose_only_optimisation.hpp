@@ -6,9 +6,9 @@
 
 namespace swf_vo {
 
-/// Robust optimisation of the newest pose alone, with landmarks fixed (motion-only bundle adjustment). Gauss-Newton
-/// over everything then begins where residuals are of the size of their noise, so that its first factor has the right
-/// weights and can serve to the end. Landmarks that only the newest pose has seen move with it.
+/// Robust optimisation of the newest pose with fixed landmarks (motion-only bundle adjustment). Gauss-Newton over the
+/// window then starts with residuals at the level of the noise, so that its first factor has the right weights and can
+/// be reused in all iterations. Landmarks observed by the newest pose only move with it.
 void optimiseNewestPose(State& state, const SensorModel& sensor, double huber);
 
 }  // namespace swf_vo

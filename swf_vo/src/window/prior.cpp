@@ -16,7 +16,7 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kDegreesOfFreedom = 4.0;  // of what is known of calibrations: the usual choice for data with outliers
+constexpr double kDegreesOfFreedom = 4.0;  // Student's t for calibration errors: common choice for data with outliers
 
 }  // namespace
 
@@ -105,7 +105,7 @@ void Prior::archive(urban_nav_core::Archive& archive) {
   const auto rows = static_cast<std::size_t>(size());
   archive.require(landmark_centre.size() == slots.size() && information.size() == size() && eta.size() == rows &&
                       border.size() == rows,
-                  "the blocks of the prior do not agree");
+                  "inconsistent block sizes of the prior");
 }
 
 }  // namespace swf_vo

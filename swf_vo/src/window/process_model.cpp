@@ -29,8 +29,7 @@ Vector6d error(const Pose& T_odom_last, const Pose& T_odom_next, const Pose& u) 
 
 Residual residual(const Pose& T_odom_last, const Pose& T_odom_next, const Pose& u) {
   // With T_last -> (t + rho, Exp(phi) R): the relative translation R^T (t' - t) changes by -R^T rho + R^T [t' - t]x
-  // phi, the relative rotation is multiplied by Exp(-R^T phi) from the left; the next pose likewise with the signs
-  // turned.
+  // phi, and the relative rotation is multiplied by Exp(-R^T phi) from the left; for the next pose with opposite signs.
   Residual result;
   result.e = error(T_odom_last, T_odom_next, u);
   const Matrix3d Rt = T_odom_last.R().transpose();

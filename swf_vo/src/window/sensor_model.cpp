@@ -8,7 +8,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Depth relative to the depth at birth: nearer than this share the camera has run into the point or past it.
+// Minimum depth relative to the first observation: below, the camera has reached or passed the point.
 constexpr double kNearest = 1e-3;
 
 Matrix3d cross(const Vector3d& a) {

@@ -8,10 +8,10 @@
 
 namespace swf_vo {
 
-/// A landmark as inverse depth in a constant anchor frame: the point ((a, b, 1) / rho) of the frame `anchor`, which is
-/// the camera where the landmark was born *as it was estimated then*: a number, not a state. So a landmark is a fixed
-/// point of `odom`, but the stereo pixel is nearly linear in theta = (a, b, rho), and points near infinity (rho = 0,
-/// also slightly below while estimating) need no special case.
+/// A landmark in inverse depth relative to a constant anchor frame: the point ((a, b, 1) / rho) in the frame `anchor`,
+/// which is the camera of the first observation *as estimated at that time*: a constant, not a state. A landmark is
+/// therefore a fixed point of `odom`, the stereo pixel is nearly linear in theta = (a, b, rho), and points near
+/// infinity (rho = 0, also slightly negative while estimating) need no special case.
 struct Anchor {
   Eigen::Matrix3d R_odom_anchor = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t_odom_anchor = Eigen::Vector3d::Zero();
@@ -20,7 +20,7 @@ struct Anchor {
   Eigen::Vector4d homogeneous(const Eigen::Vector3d& theta) const;
 };
 
-/// A pose as the sensor model needs it, made once for many landmarks.
+/// A pose in the form required by the sensor model, computed once for many landmarks.
 struct PoseMatrices {
   Eigen::Matrix3d R_camera_odom = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t_odom_camera = Eigen::Vector3d::Zero();
@@ -29,9 +29,9 @@ struct PoseMatrices {
   explicit PoseMatrices(const urban_nav_core::Pose& T_odom_camera);
 };
 
-/// z_ij = h(x_m(i), x_p(j)) + v (Newman et al. 2009, section 2.1 and eq. 2): the stereo pixel (u_left, v, u_right) of a
-/// landmark. h depends on nothing but where the point is seen from, so moving pose and point together changes nothing:
-/// its Jacobians at any one pair of values leave the six gauge directions empty.
+/// z_ij = h(x_m(i), x_p(j)) + v (Newman et al. 2009, section 2.1 and eq. 2): stereo pixel (u_left, v, u_right) of a
+/// landmark. h depends only on the point relative to the camera and is invariant to a common motion of both: its
+/// Jacobians at one set of values have no component in the six gauge directions.
 class SensorModel {
  public:
   explicit SensorModel(const urban_nav_core::StereoCamera& camera);
@@ -39,7 +39,7 @@ class SensorModel {
   struct Linearised {
     Eigen::Matrix3d
         H;  ///< dz/dw, w being the point as seen from the camera's place, scaled by rho, in the axes of odom
-    Eigen::Vector3d w;  ///< ... and w itself
+    Eigen::Vector3d w;  ///< dz/dw, w being the point relative to the camera centre, scaled by rho, in the axes of odom
     double rho = 0.0;
     Eigen::Matrix3d landmark;  ///< dz/dtheta
 
@@ -47,16 +47,16 @@ class SensorModel {
     Eigen::Matrix<double, 3, 6> pose() const;
   };
 
-  /// h; false, and z untouched, where the point is not in front of the camera.
+  /// Computes h; returns false, with z unchanged, if the point is not in front of the camera.
   bool predict(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose, Eigen::Vector3d& z) const;
-  /// Both Jacobians, exact; false where the point is not in front.
+  /// Computes both exact Jacobians; returns false if the point is not in front of the camera.
   bool linearise(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose,
                  Linearised& result) const;
 
-  /// theta of a landmark whose anchor is the camera that sees it at z. Any finite z has one; a negative disparity gives
-  /// rho < 0.
+  /// Returns theta of a landmark whose anchor is the camera that measured z. Defined for any finite z; a negative
+  /// disparity gives rho < 0.
   Eigen::Vector3d invert(const Eigen::Vector3d& z) const;
-  /// A covariance of pixels of the left image as one of (a, b).
+  /// Transforms a covariance of left-image pixels to one of (a, b).
   Eigen::Matrix2d bearing(const Eigen::Matrix2d& covariance_px) const;
 
  private:

@@ -17,17 +17,17 @@ using urban_nav_core::Vector6d;
 namespace {
 
 constexpr double kLeastSolvePivot = 1e-12;
-// The other way has to promise this share of the work: its panels are narrow.
+// The alternative order must have at most this share of the operations: its panels are narrow.
 constexpr double kWorthChanging = 0.7;
-// Columns of eliminated landmarks that are taken together.
+// Columns of eliminated landmarks processed together.
 constexpr int kSolvePanel = 48;
-constexpr std::size_t kMostRows = 1 << 20;  // of a factor that is read
-// Any would do; this one leaves the oldest pose a negligible variance.
+constexpr std::size_t kMostRows = 1 << 20;  // limit for an archived factor
+// Arbitrary; this value gives the oldest pose a negligible variance.
 constexpr double kDatumStrength = 1e3;
-// The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of
-// camera and surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate
-// is off by 2 to 30 times what the information says. It is weighted a twentieth as much (in standard deviation) as
-// alignments alone would have it; by what measurements are inflated they have lost of that already.
+// The disparity offset is estimated from the change of disparities with distance, as are all errors that the models of
+// camera and surfaces neglect: in rendered rooms without an offset, and on real sequences, the error of its estimate is
+// 2 to 30 times its standard deviation. Its information is divided by this number (standard deviation times 20), less
+// the inflation that is already in the measurements.
 constexpr double kCaution = 400.0;
 
 double cautionFor(const State& state) {
@@ -42,7 +42,7 @@ double cautionFor(const State& state) {
 
 bool isFree(const LandmarkBlock& landmark) { return landmark.used && !landmark.known && landmark.prior < 0; }
 
-// R, lower triangular, with R^T R = C^-1; what C does not determine has zero rows.
+// R, lower triangular, with R^T R = C^-1; rows of undetermined directions are zero.
 Matrix3d inverseRoot(const Matrix3d& C) {
   Matrix3d L = Matrix3d::Zero();
   bool held[3] = {false, false, false};
@@ -122,8 +122,7 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
   }
 }
 
-// Landmarks are born in the order of their slots more or less, so that those of one strip were seen from much the same
-// poses.
+// Slots are roughly in order of first observation, so that the landmarks of one strip were observed from similar poses.
 void Solver::subtractStrip(Strip& strip) {
   if (strip.columns > 0) {
     const int first = strip.first / kernels::kStrip * kernels::kStrip;
@@ -158,7 +157,7 @@ void Solver::factor(const State& state, const Prior& prior, const NormalEquation
   if (border_.used) factorBorder(state, prior, equations);
 }
 
-// The disparity offset stands last: x = Lambda^-1 g - Lambda^-1 border o.
+// The disparity offset is last: x = Lambda^-1 g - Lambda^-1 border o.
 void Solver::factorBorder(const State& state, const Prior& prior, const NormalEquations& equations) {
   solveFor(state, prior, equations, {prior.border, equations.border.pose, equations.border.landmark});
   border_.rows = rhs_;
@@ -238,7 +237,7 @@ void Solver::factorLandmarksFirst(const State& state, const Prior& prior, const 
   for (std::vector<double>* some : {&floor_, &rhs_, &column_})
     reserveWithHeadroom(*some, static_cast<std::size_t>(size));
   floor_.assign(static_cast<std::size_t>(size), 1.0);
-  // The prior's blocks are the first of this matrix, in its own order.
+  // The prior's blocks are the first of this matrix, in the same order.
   for (int j = 0; j < size; ++j) {
     const int known = std::max(prior.size(), j);
     if (j < prior.size())
@@ -349,14 +348,14 @@ void Solver::archive(urban_nav_core::Archive& archive) {
           border_.caution);
   const std::size_t rows = offset_ + 6 * poses_;
   archive.require(poses_ < kMostRows && offset_ < kMostRows && (!border_.used || border_.rows.size() == rows),
-                  "a factor is of another size");
+                  "invalid size of a factor");
   if (poses_ == 0) return;
   if (poses_first_) archive(pose_elimination_);
   else cholesky_.archive(archive, dense_);
   archive.require(poses_first_ ? pose_elimination_.poses() == poses_ &&
                                      static_cast<std::size_t>(pose_elimination_.mapSize()) >= offset_
                                : static_cast<std::size_t>(dense_.size()) == rows,
-                  "a factor is of another size");
+                  "invalid size of a factor");
 }
 
 }  // namespace swf_vo

@@ -7,7 +7,7 @@ namespace swf_vo {
 
 namespace {
 
-// A track is seldom longer than this; longer ones grow by doubling.
+// Typical maximum length of a track; longer ones grow by doubling.
 constexpr std::size_t kUsualTrack = 16;
 constexpr std::size_t kFewestSlots = 64;
 
@@ -96,16 +96,16 @@ void State::archive(urban_nav_core::Archive& archive) {
   if (archive.isReading()) check(archive);
 }
 
-// Places are found by these numbers without asking again.
+// Indices are used without checks afterwards.
 void State::check(const urban_nav_core::Archive& archive) const {
-  archive.require(slots_.size() + free_.size() == landmarks.size(), "slots of landmarks are missing");
+  archive.require(slots_.size() + free_.size() == landmarks.size(), "missing landmark slots");
   for (std::size_t j = 1; j < poses.size(); ++j)
-    archive.require(poses[j].frame > poses[j - 1].frame, "poses are out of order");
+    archive.require(poses[j].frame > poses[j - 1].frame, "frames are not increasing");
   std::vector<bool> taken(landmarks.size(), false);
   const auto take = [&](int slot, bool used) {
     const auto at = static_cast<std::size_t>(slot);
     archive.require(slot >= 0 && at < landmarks.size() && !taken[at] && landmarks[at].used == used,
-                    "two landmarks have one slot");
+                    "invalid or duplicate landmark slot");
     taken[at] = true;
   };
   for (const int slot : free_) take(slot, false);
@@ -113,13 +113,13 @@ void State::check(const urban_nav_core::Archive& archive) const {
     const auto& [id, slot] = slots_[i];
     take(slot, true);
     archive.require(landmarks[static_cast<std::size_t>(slot)].id == id && (i == 0 || slots_[i - 1].first < id),
-                    "landmarks are out of order");
+                    "landmark ids are not increasing");
   }
   for (const LandmarkBlock& landmark : landmarks) {
-    archive.require(landmark.used || landmark.seen.empty(), "a free slot has measurements");
+    archive.require(landmark.used || landmark.seen.empty(), "free slot with measurements");
     std::int64_t last = first_step - 1;
     for (const Measurement& measurement : landmark.seen) {
-      archive.require(measurement.step > last && measurement.step <= newestStep(), "a measurement has no pose");
+      archive.require(measurement.step > last && measurement.step <= newestStep(), "measurement without a pose");
       last = measurement.step;
     }
   }

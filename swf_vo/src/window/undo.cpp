@@ -6,7 +6,7 @@
 namespace swf_vo {
 
 void Undo::beginStep(const Filter& filter, FrameId frame, const ProcessInput& u, bool marginalises, std::size_t size) {
-  // The oldest record moves to the back and is written over, so that its memory is used again.
+  // The oldest record is moved to the end and overwritten, to reuse its memory.
   if (steps_.size() > size) std::rotate(steps_.begin(), steps_.begin() + 1, steps_.end());
   else steps_.emplace_back();
   Step& step = steps_.back();
@@ -84,7 +84,7 @@ bool Undo::withdraw(LandmarkId landmark, FrameId frame) {
 
 void Undo::replay(Filter& filter) {
   if (!isPending()) return;
-  // Before the first checkpoint nothing was marginalised: there every measurement can be taken out one by one.
+  // Before the first checkpoint nothing was marginalised: measurements are withdrawn individually.
   std::size_t from = static_cast<std::size_t>(pending_);
   while (from < steps_.size() && !steps_[from].has_checkpoint) ++from;
   pending_ = -1;

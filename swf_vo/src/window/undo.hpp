@@ -7,32 +7,34 @@
 
 namespace swf_vo {
 
-/// The inputs of the steps whose poses are in the window, and where the filter stood before each that marginalised
-/// something: so that a measurement can go in or out of the past exactly (reversible data association, out-of-sequence
-/// measurements: Newman et al. 2009, section 2.2.1). What went into the prior since was linearised and weighted with it
-/// or without it; so the filter goes back to the step of the measurement and takes the later steps again: what results
-/// is, to the last bit, the filter that never had it, or had it in time. (Of the first `size` frames, before which
-/// nothing was marginalised, it goes in or out by itself, and the two agree as far as Gauss-Newton converges.) Costs
-/// `size` copies of state and prior, and as many updates as steps are taken again.
+/// Record of the steps whose poses are in the window: inputs, and the filter state before each step that marginalised.
+/// With it a measurement can be inserted into or withdrawn from an earlier step exactly (reversible data association,
+/// out-of-sequence measurements: Newman et al. 2009, section 2.2.1). Information marginalised since that step depends
+/// on the measurement by its linearisation points and weights; so the filter returns to the step of the measurement and
+/// repeats the later steps. The result is bit-identical to that of a filter that never had the measurement, or had it
+/// in time. (In the first `size` frames, before any marginalisation, the measurement is inserted or withdrawn directly,
+/// and the two agree up to the convergence of Gauss-Newton.) Cost: `size` copies of state and prior, and one update for
+/// each repeated step.
 class Undo {
  public:
-  /// Before addPose: `marginalises` says whether this step will take information out of the window.
+  /// Call before addPose. `marginalises`: this step will marginalise.
   void beginStep(const Filter& filter, FrameId frame, const ProcessInput& u, bool marginalises, std::size_t size);
-  /// Notes what the filter took; it may be of an earlier step.
+  /// Records an observation used by the filter; it may belong to an earlier step.
   void observed(const Observation& observation);
   void ended(LandmarkId landmark);
 
-  /// The measurement belongs to an earlier step than the last, and something was marginalised since.
+  /// Returns whether the measurement belongs to an earlier step than the last, and information was marginalised since.
   bool needsReplay(FrameId frame) const;
-  /// Changes the record of an earlier step; false if there is no such step or measurement, or it is there already.
+  /// Changes the record of an earlier step. Returns false if there is no such step or measurement, or if it exists
+  /// already.
   bool insert(const Observation& observation);
   bool withdraw(LandmarkId landmark, FrameId frame);
 
-  /// Takes a measurement out of the record that needs no replay.
+  /// Removes a measurement that needs no replay from the record.
   void forget(LandmarkId landmark, FrameId frame);
 
   bool isPending() const { return pending_ >= 0; }
-  /// Takes the recorded steps again from the earliest change. The last step is left before its update.
+  /// Repeats the recorded steps from the earliest change. The last step is not updated.
   void replay(Filter& filter);
 
  private:

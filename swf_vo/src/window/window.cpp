@@ -18,10 +18,11 @@ using urban_nav_core::StereoCamera;
 class Window::Implementation {
  public:
   Implementation(const WindowOptions& chosen, const StereoCamera& camera) : options(chosen), filter(chosen, camera) {
-    frames.reserve(static_cast<std::size_t>(std::clamp(chosen.size, 1, 256)) + 2);  // of one landmark
+    frames.reserve(static_cast<std::size_t>(std::clamp(chosen.size, 1, 256)) + 2);  // frames with measurements of one
+                                                                                    // landmark
   }
 
-  // An earlier frame's measurement, with something marginalised since.
+  // Returns whether a measurement belongs to an earlier frame and information was marginalised since.
   bool isLate(FrameId frame) const {
     return options.exact_undo && filter.state().toPose(frame) >= 0 && undo.needsReplay(frame);
   }

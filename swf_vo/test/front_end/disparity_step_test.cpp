@@ -15,10 +15,10 @@ using urban_nav_core::StereoCamera;
 
 StereoCamera stepCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.3, 0.02}; }
 
-/// Landmarks of earlier frames as a pair sees them whose right camera was turned about its y axis.
+/// Landmarks of earlier frames, as measured by a pair whose right camera was rotated about its y axis.
 class DisplacedView {
  public:
-  /// `shift`: px, by which disparities in the middle are larger; `sigma`: of each pixel coordinate, px.
+  /// `shift`: increase of disparities at the image centre, px; `sigma`: of each pixel coordinate, px.
   DisplacedView(unsigned seed, int count, double shift, double sigma, const Pose& T_camera_odom) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0.0, 1.0);
@@ -71,7 +71,7 @@ TEST(DisparityStep, ItsErrorsAreAsLargeAsStated) {
     const DisparityStep step = DisparityStepMeter().measure(stepCamera(), kStepPlace, view.matches);
     squares += std::pow((step.px - 0.2) / step.sigma_px, 2);
   }
-  // The larger of two estimates of a variance is stated, which is more than right by chance.
+  // The larger of two variance estimates is used, so that the mean exceeds the true variance.
   EXPECT_GT(squares / runs, 0.5);
   EXPECT_LT(squares / runs, 1.3);
 }

@@ -24,7 +24,7 @@ using urban_nav_core::StereoPair;
 using urban_nav_core::Vector6d;
 using namespace urban_nav_core::testing;
 
-/// Feeds a front end with exact poses and landmarks triangulated from their first observation, in place of a window.
+/// Drives a front end with exact poses and landmarks triangulated from their first observation, without a window.
 class Bench {
  public:
   explicit Bench(const StereoCamera& camera) : camera_(camera), front_end_(Parameters(), camera) { map_.reserve(4000); }
@@ -152,7 +152,7 @@ TEST(FrontEnd, FirstObservationsAreAsGoodAsTheySay) {
     normalised += std::min(9.0, error * error / variance);
   }
   const double count = static_cast<double>(seen.fresh.size());
-  EXPECT_GT(near, 0.75 * count);  // the rest stands on the border of something nearer
+  EXPECT_GT(near, 0.75 * count);  // the others are on edges of nearer objects
   EXPECT_LT(normalised / count, 2.5);
 }
 
@@ -177,7 +177,7 @@ TEST(FrontEnd, SwappedDarkAndAbsurdImagesGiveFewMatchesAndNoHarm) {
     fresh.learn(fresh.see(good, truth, truth), truth);
     const FrontEndResult& seen = fresh.see(pair, truth, truth);
     EXPECT_TRUE(seen.T_odom_camera.isFinite());
-    // what one eye sees of a known place is true, if the other sees nothing
+    // measurements in a single image are correct as well
     if (pair.stamp != bright.stamp) {
       EXPECT_LT(static_cast<double>(seen.tracked.size()), 0.5 * static_cast<double>(known)) << pair.stamp;
     }

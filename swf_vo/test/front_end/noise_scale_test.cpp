@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLandmarks = 60;
 
-// Residuals of three coordinates, with these standard deviations beside what is claimed, over some frames.
+// Residuals of three coordinates over some frames, with these standard deviations relative to the stated ones.
 struct Seen {
   NoiseScale scale{kLandmarks};
   std::vector<NoiseScale::Own> own = std::vector<NoiseScale::Own>(kLandmarks);

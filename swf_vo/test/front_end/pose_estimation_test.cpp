@@ -25,12 +25,12 @@ Vector6d tangent(double x, double y, double z, double a, double b, double c) {
   return v;
 }
 
-/// Landmarks in front of the origin, seen from another place.
+/// Landmarks in front of the origin, measured from another pose.
 class World {
  public:
   explicit World(unsigned seed) : random_(seed) { tracks_.reserve(1000); }
 
-  /// `mover`: what moves these points before they are seen (in odom); identity for what stands still.
+  /// `mover`: motion of these points before the measurement (in odom); identity for static points.
   void add(int count, double sigma, int seen, const Pose& T_camera_odom, const Pose& mover = Pose()) {
     std::normal_distribution<double> normal(0.0, 1.0);
     std::uniform_real_distribution<double> u(30.0, 480.0), v(30.0, 350.0), inverse(0.02, 0.3);
@@ -122,8 +122,8 @@ TEST(Localise, PointsWithoutRightImageAndAtInfinityCount) {
 }
 
 TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
-  // 60 % of the matches move together, by 0.5 m a frame; they came into view lately, and the prediction is off by 10
-  // cm.
+  // 60 % of the matches are on one object that moves by 0.5 m a frame; they are recent, and the prediction is wrong by
+  // 10 cm.
   for (unsigned seed = 0; seed < 20; ++seed) {
     World world(seed);
     const Pose van(urban_nav_core::Quaterniond::Identity(), Eigen::Vector3d(0.05, 0.0, 0.5));

@@ -36,7 +36,7 @@ TEST(Combine, TheRowsDifferenceMovesThePlaceAlongAnEdge) {
   match.left.covariance << 0.10, 0.09, 0.09, 0.10;
   combine(0.0, match);
   ASSERT_TRUE(match.measured);
-  // A row further down goes with a column further right.
+  // A lower row implies a column further to the right.
   EXPECT_GT(match.z.y(), 50.0);
   EXPECT_GT(match.z.x(), 100.05);
 }

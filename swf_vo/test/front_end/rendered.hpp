@@ -8,7 +8,7 @@ namespace swf_vo {
 
 using urban_nav_core::testing::makeCamera;
 
-/// A small camera, so that tests stay fast.
+/// A small camera, for fast tests.
 inline urban_nav_core::testing::SequenceOptions smallCamera(double noise = 1.0) {
   urban_nav_core::testing::SequenceOptions options;
   options.camera.fx = options.camera.fy = 250.0;

@@ -25,7 +25,7 @@ class Replenish : public ::testing::Test {
     corners_.extract(frame_.pair());
   }
 
-  // As if exposed for so many times as long.
+  // Multiplies the exposure time.
   void expose(double times) {
     for (GreyImage* image : {&frame_.left, &frame_.right})
       for (std::uint8_t& pixel : image->pixels)
@@ -33,7 +33,7 @@ class Replenish : public ::testing::Test {
     corners_.extract(frame_.pair());
   }
 
-  // White within so many pixels of an observation's place in the left image.
+  // Returns whether an observation is within `reach` px of a white pixel in the left image.
   bool isNearWhite(const Observation& observation, int reach) const {
     const int u = static_cast<int>(std::lround(observation.z.x())),
               v = static_cast<int>(std::lround(observation.z.y()));

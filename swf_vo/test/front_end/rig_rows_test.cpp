@@ -16,7 +16,7 @@ constexpr RigRows::Priors kRigPriors = {1e-3, 1e-4};
 struct RigTruth {
   double offset_px = 0.0, roll = 0.0, delay_s = 0.0;
   double outliers = 0.0;  ///< share of matches
-  double place_px = 0.0;  ///< standard deviation of an error that belongs to a place of the image
+  double place_px = 0.0;  ///< standard deviation of an error that depends on the position in the image
   bool moving = true;
 };
 
@@ -83,7 +83,8 @@ TEST(RigRows, StandingStillSaysNothingOfTheDelay) {
   EXPECT_NEAR(found.roll_rad, 5e-4, 3e-5);
 }
 
-/// Errors of places do not average out over landmarks: mean square of errors over the variance stated, over many rigs.
+/// Returns the ratio of the mean squared error to the stated variance over many rigs; errors of positions do not
+/// average out over landmarks.
 double varianceRatio(double place_px) {
   double squares = 0.0, stated = 0.0;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {

@@ -20,7 +20,7 @@ using namespace urban_nav_core::testing;
 
 constexpr double kDegree = M_PI / 180.0;
 
-/// Error of the rotation found between two views from one place, deg.
+/// Returns the error of the rotation between two views from one position, deg.
 double computeError(const Vector3d& turn, double gain, const std::vector<Parallax>& known = {},
                     const Quaterniond& start_of_search = Quaterniond::Identity()) {
   SequenceOptions options = smallCamera(2.0);
@@ -57,7 +57,7 @@ TEST(Rotation, ACameraThatTurnsBackIsFoundWhereALargeTurnWasPredicted) {
 
 TEST(Rotation, BrightnessDoesNotMatter) {
   EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 0.5), 0.15);
-  EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 1.4), 0.3);  // bright parts are cut off at 255
+  EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 1.4), 0.3);  // bright parts are saturated
 }
 
 TEST(Rotation, KnownPlacesSuffice) {

@@ -19,7 +19,7 @@ using namespace urban_nav_core::testing;
 
 constexpr double kFloor = 0.05;
 
-/// Landmarks started in frame 0 of a room, their true places by the scene, and the corners of frame 1.
+/// Landmarks started in frame 0 of a room, their true positions in the scene, and the corners of frame 1.
 class TwoFrames : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -50,7 +50,7 @@ class TwoFrames : public ::testing::Test {
     corners_.extract(sequence.frame(1).pair());
   }
 
-  /// Distance of a sighting from where the landmark truly is.
+  /// Returns the distance of a measurement from the true projection of the landmark.
   double error(Side side, const Match& match) const {
     const PixelMeasurement& sighting = side == Side::Left ? match.left : match.right;
     return (sighting.pixel - *projectInto(side, camera_, T_camera_odom_, match.p_odom)).norm();

@@ -36,7 +36,7 @@ TEST(Tracks, IdsAreNeverReusedAndPlacesAre) {
   EXPECT_EQ(tracks.find(12345), nullptr);
 }
 
-/// Where a point of the surface seen at `pixel` in the first view lies in another.
+/// Returns the projection into another view of a point of the surface seen at `pixel` in the first view.
 Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d& plane, const Pose& T,
                         const Eigen::Vector2d& pixel) {
   const Eigen::Vector3d ray = c.left.ray(pixel);

@@ -59,7 +59,7 @@ cv::Mat withNoise(const cv::Mat& image, double sigma) {
   return result;
 }
 
-/// Stripes of so many pixels, from black to white: along u, along v, or both.
+/// Stripes with these widths, px, from black to white: along u, along v, or both.
 cv::Mat stripes(int along_u, int along_v) {
   cv::Mat image(288, 384, CV_8U);
   for (int v = 0; v < image.rows; ++v)
@@ -104,7 +104,7 @@ TEST(LooksCorrupted, ForgivesOneRow) {
 }
 
 TEST(LooksCorrupted, FindsRowsThatRectificationHasBent) {
-  // Barrel distortion as of a wide lens: the rows at the top sag by 14 px.
+  // Barrel distortion of a wide lens: the rows at the top are displaced by 14 px.
   cv::Mat map_u(288, 384, CV_32F), map_v(288, 384, CV_32F), bent;
   for (int v = 0; v < 288; ++v)
     for (int u = 0; u < 384; ++u) {
@@ -121,7 +121,7 @@ TEST(LooksCorrupted, FindsRowsThatRectificationHasBent) {
   for (const double share : {0.1, 0.3, 0.6}) EXPECT_TRUE(looksCorrupted(bend(spoilt(room(), share)))) << share;
 }
 
-// Small images have few places, and no lens has spread what was left out of larger ones.
+// Small images have few segments, and subsampled ones are not blurred by a lens.
 TEST(LooksCorrupted, SparesSmallImages) {
   for (const int width : {70, 96, 128, 192})
     for (const int interpolation : {cv::INTER_NEAREST, cv::INTER_LINEAR, cv::INTER_AREA})
@@ -187,8 +187,8 @@ TEST(CorruptRowRepair, BridgesRubbishAndNothingElse) {
   }
 }
 
-// A strip that is saturated has no texture at all, nor have rows that are missing: corrupted is found in the first, and
-// what is good stays beside the second.
+// Neither saturated strips nor missing rows have texture: corrupted rows are found within the former, and good rows are
+// kept next to the latter.
 TEST(CorruptRowRepair, TellsAWhiteSkyFromMissingRows) {
   cv::Mat white = room();
   white.rowRange(0, 100).setTo(255);

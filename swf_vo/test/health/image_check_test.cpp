@@ -17,7 +17,7 @@ using urban_nav_core::StereoPair;
 
 constexpr int kCheckedWidth = 512, kCheckedHeight = 384;
 
-/// A wall of random blobs seen by both cameras at one disparity, with noise of its own in every frame.
+/// A wall of random blobs at one disparity in both cameras, with independent noise in every frame.
 struct CheckScene {
   std::vector<std::uint8_t> left, right;
 
@@ -52,21 +52,21 @@ struct CheckScene {
 TEST(ImageCheck, PassesUsualPairs) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) {
-    const ImageVerdict verdict = check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true);
+    const ImageVerdict verdict = check.check(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true);
     EXPECT_TRUE(verdict.usable);
     EXPECT_FALSE(verdict.exchange);
     EXPECT_EQ(verdict.reason, Reason::None) << toString(verdict.reason);
   }
 }
 
-// Suddenly white by half: of no use, until it has lasted so long that it is how the scene looks.
+// Sudden saturation of half of the image: unusable, until it lasts and becomes the reference.
 TEST(ImageCheck, WaitsForTheLightToComeBack) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
+  for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.check(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
   unsigned frame = 5;
   const std::vector<CheckScene> seen = {CheckScene(5, 12.0, 4.5, 15.0), CheckScene(6, 12.0, 4.5, 18.0),
                                         CheckScene(7, 12.0, 4.5, 21.0)};
-  const auto white = [&] { return check.look(seen[frame % 3].pair(), false); };
+  const auto white = [&] { return check.check(seen[frame % 3].pair(), false); };
   for (; frame < 25; ++frame) {
     const ImageVerdict verdict = white();
     EXPECT_FALSE(verdict.usable) << frame;
@@ -82,42 +82,42 @@ TEST(ImageCheck, NamesAMissingImageAndImagesOfOtherSize) {
   ImageCheck check;
   StereoPair pair = scene.pair();
   pair.right = ImageView();
-  EXPECT_EQ(check.look(pair, false).reason, Reason::ImageMissing);
+  EXPECT_EQ(check.check(pair, false).reason, Reason::ImageMissing);
   pair = scene.pair();
   pair.right.height -= 2;
-  EXPECT_EQ(check.look(pair, false).reason, Reason::ImageMissing);
-  EXPECT_FALSE(check.look(pair, false).usable);
+  EXPECT_EQ(check.check(pair, false).reason, Reason::ImageMissing);
+  EXPECT_FALSE(check.check(pair, false).usable);
 }
 
 TEST(ImageCheck, NamesBlackAndWashedOutImages) {
   ImageCheck check;
-  check.look(CheckScene(1, 12.0).pair(), false);
-  EXPECT_EQ(check.look(CheckScene(2, 12.0, 0.0).pair(), false).reason, Reason::Dark);
-  EXPECT_EQ(check.look(CheckScene(3, 12.0, 1000.0).pair(), false).reason, Reason::Dark);
-  EXPECT_EQ(check.look(CheckScene(4, 12.0).pair(), false).reason, Reason::None);
+  check.check(CheckScene(1, 12.0).pair(), false);
+  EXPECT_EQ(check.check(CheckScene(2, 12.0, 0.0).pair(), false).reason, Reason::Dark);
+  EXPECT_EQ(check.check(CheckScene(3, 12.0, 1000.0).pair(), false).reason, Reason::Dark);
+  EXPECT_EQ(check.check(CheckScene(4, 12.0).pair(), false).reason, Reason::None);
 }
 
 TEST(ImageCheck, NamesAFrozenCameraEvenIfOnlyOneIs) {
   ImageCheck check;
   const CheckScene first(1, 12.0), second(2, 12.0);
-  check.look(first.pair(), false);
+  check.check(first.pair(), false);
   StereoPair half = second.pair();
   half.right = first.pair().right;
-  EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
-  EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
-  EXPECT_EQ(check.look(CheckScene(3, 12.0).pair(), false).reason, Reason::None)
+  EXPECT_EQ(check.check(half, false).reason, Reason::Frozen);
+  EXPECT_EQ(check.check(half, false).reason, Reason::Frozen);
+  EXPECT_EQ(check.check(CheckScene(3, 12.0).pair(), false).reason, Reason::None)
       << "the same scene with fresh noise is not frozen";
 }
 
 TEST(ImageCheck, NamesAJumpOfExposureOnceAndThenGetsUsedToIt) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) check.look(CheckScene(i, 12.0).pair(), false);
-  EXPECT_EQ(check.look(CheckScene(10, 12.0, 2.2).pair(), false).reason, Reason::ExposureJump);
-  for (unsigned i = 0; i < 10; ++i) check.look(CheckScene(20 + i, 12.0, 2.2).pair(), false);
-  EXPECT_EQ(check.look(CheckScene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
+  for (unsigned i = 0; i < 5; ++i) check.check(CheckScene(i, 12.0).pair(), false);
+  EXPECT_EQ(check.check(CheckScene(10, 12.0, 2.2).pair(), false).reason, Reason::ExposureJump);
+  for (unsigned i = 0; i < 10; ++i) check.check(CheckScene(20 + i, 12.0, 2.2).pair(), false);
+  EXPECT_EQ(check.check(CheckScene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
 }
 
-/// The scene in steps of grey, so that it has edges; then spread over 5 x 5 pixels, `times` times.
+/// The scene with stepped grey levels, so that it has edges; then blurred over 5 x 5 pixels, `times` times.
 CheckScene stepped(unsigned seed, int times) {
   CheckScene scene(seed, 12.0, 1.0, 3.0 * seed, 0.0);
   for (auto* image : {&scene.left, &scene.right}) {
@@ -136,34 +136,34 @@ CheckScene stepped(unsigned seed, int times) {
 
 TEST(ImageCheck, NamesBlurAndGetsUsedToIt) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) EXPECT_EQ(check.look(stepped(i, 0).pair(), false).reason, Reason::None) << i;
-  const ImageVerdict verdict = check.look(stepped(5, 2).pair(), false);
+  for (unsigned i = 0; i < 5; ++i) EXPECT_EQ(check.check(stepped(i, 0).pair(), false).reason, Reason::None) << i;
+  const ImageVerdict verdict = check.check(stepped(5, 2).pair(), false);
   EXPECT_EQ(verdict.reason, Reason::Blurred);
   EXPECT_TRUE(verdict.usable);
   EXPECT_GT(verdict.edges.left.minCoeff(), 2.0);
   unsigned frames = 6;
   const std::vector<CheckScene> seen = {stepped(6, 2), stepped(7, 2), stepped(8, 2)};
-  while (frames < 100 && check.look(seen[frames % 3].pair(), false).reason == Reason::Blurred) ++frames;
+  while (frames < 100 && check.check(seen[frames % 3].pair(), false).reason == Reason::Blurred) ++frames;
   EXPECT_GT(frames, 30U);
   EXPECT_LT(frames, 100U);
 }
 
 TEST(ImageCheck, DoesNotTakeOneSoftImageForBlur) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) check.look(stepped(i, 0).pair(), false);
+  for (unsigned i = 0; i < 5; ++i) check.check(stepped(i, 0).pair(), false);
   CheckScene one_soft = stepped(5, 0);
   one_soft.right = stepped(5, 2).right;
-  EXPECT_EQ(check.look(one_soft.pair(), false).reason, Reason::None);
+  EXPECT_EQ(check.check(one_soft.pair(), false).reason, Reason::None);
 }
 
 TEST(ImageCheck, FindsExchangedImagesAtTheStartAndLater) {
   ImageCheck fresh;
-  EXPECT_TRUE(fresh.look(CheckScene(1, 14.0).exchanged(), false).exchange);
+  EXPECT_TRUE(fresh.check(CheckScene(1, 14.0).exchanged(), false).exchange);
   ImageCheck running;
-  for (unsigned i = 0; i < 3; ++i) running.look(CheckScene(i, 14.0).pair(), false);
-  const ImageVerdict verdict = running.look(CheckScene(7, 14.0).exchanged(), true);
+  for (unsigned i = 0; i < 3; ++i) running.check(CheckScene(i, 14.0).pair(), false);
+  const ImageVerdict verdict = running.check(CheckScene(7, 14.0).exchanged(), true);
   EXPECT_TRUE(verdict.exchange);
-  EXPECT_TRUE(verdict.usable) << "they can be used the other way round";
+  EXPECT_TRUE(verdict.usable) << "usable after swapping";
   EXPECT_EQ(verdict.reason, Reason::Swapped);
 }
 

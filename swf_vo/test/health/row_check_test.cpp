@@ -16,7 +16,7 @@ using urban_nav_core::testing::StereoFrame;
 
 StereoFrame roomPair() { return inTheRoom("loop", 1.0, 2).frames.front(); }
 
-// The image as a camera sees it that is turned about its axis and shifted down, to whole pixels.
+// The image of a camera rotated about its axis and shifted down, to whole pixels.
 GreyImage displaced(const GreyImage& image, double roll_rad, double lower_px) {
   GreyImage result = image;
   for (int v = 0; v < image.height; ++v)
@@ -51,7 +51,7 @@ TEST(RowCheck, SaysHowFarAnImageIsShifted) {
   }
 }
 
-// A quarter of the width is as far from the axis as the median point of an image.
+// A quarter of the width is the median distance of an image's pixels from the axis.
 TEST(RowCheck, SeesARoll) {
   constexpr double kRoll = 0.05;
   StereoFrame frame = roomPair();

@@ -35,7 +35,7 @@ std::string findFigure(const urban_nav_live::StageReport& report, const std::str
   return "absent";
 }
 
-/// A stage that keeps what it publishes.
+/// A stage that records its output.
 struct Recorded {
   std::vector<Frame> frames;
   std::vector<Settled> settled;
@@ -44,8 +44,7 @@ struct Recorded {
                            frames.push_back(frame);
                            EXPECT_GE(process_ms, 0.0);
                          },
-                         [this](const Settled& each) { settled.push_back(each); },
-                         nullptr}};
+                         [this](const Settled& each) { settled.push_back(each); }, nullptr}};
 
   void play(RenderedSequence& sequence, int first, int count) {
     for (int i = first; i < first + count; ++i) {
@@ -121,7 +120,7 @@ TEST(LiveOdometry, ReportsWhyThereIsNoSession) {
   live.odometry.end("reset");
   EXPECT_EQ(live.odometry.report().summary, "no session (reset)");
   live.odometry.end("again");
-  EXPECT_EQ(live.odometry.report().summary, "no session (reset)") << "there was none to end";
+  EXPECT_EQ(live.odometry.report().summary, "no session (reset)") << "no session to end";
 }
 
 TEST(TracksPicture, DrawsTheImageAndItsFeatures) {

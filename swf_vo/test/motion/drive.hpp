@@ -11,7 +11,8 @@
 
 namespace swf_vo {
 
-/// A robot that drives on level ground, nods and sways, known to a millisecond. Stamps are nanoseconds since the start.
+/// Motion of a robot on level ground, with pitch and roll oscillations, at 1 ms. Stamps are nanoseconds since the
+/// start.
 class LevelDrive {
  public:
   explicit LevelDrive(double seconds) {
@@ -37,7 +38,7 @@ class LevelDrive {
   /// Returns T_odom_base.
   const urban_nav_core::Pose& at(int ms) const { return poses_[static_cast<std::size_t>(ms)]; }
   urban_nav_core::Pose between(int from, int to) const { return at(from).inverse() * at(to); }
-  /// Returns the motion of the wheels between two times, as seen from above.
+  /// Returns the planar motion of the wheels between two times.
   urban_nav_core::Pose rolled(int from, int to) const {
     return levels_[static_cast<std::size_t>(from)].inverse() * levels_[static_cast<std::size_t>(to)];
   }
@@ -54,10 +55,10 @@ struct DriveErrors {
   double rate_density = 0.0017;                    // rad/s/sqrt(Hz)
   int imu_delay_ms = 0;
   double speed_scale = 1.0, turn_scale = 1.0;
-  double wheel_noise = 0.01;  // of the distance of a message
+  double wheel_noise = 0.01;  // share of the distance of a message
 };
 
-/// Draws what sensors state and what images see of a drive. The same seed draws the same.
+/// Draws sensor and image measurements of a drive. Deterministic for a seed.
 class DriveSensors {
  public:
   DriveSensors(const LevelDrive& drive, const DriveErrors& errors, unsigned seed)
@@ -79,7 +80,7 @@ class DriveSensors {
     return input;
   }
 
-  /// Returns what wheels state of 40 ms from `ms` on.
+  /// Returns the wheel measurement over 40 ms from `ms` on.
   urban_nav_core::MotionInput wheels(int ms) {
     constexpr int kPeriod = 40;
     urban_nav_core::Vector6d motion = urban_nav_core::logSe3(drive_.rolled(ms, ms + kPeriod));
@@ -95,7 +96,7 @@ class DriveSensors {
     return input;
   }
 
-  /// Returns a step as images measure it, with errors of its covariance; all of them add up.
+  /// Returns a step as measured by images, with errors according to its covariance, which is all drift.
   Settled step(FrameId frame, int from, int to) {
     constexpr double kForward = 1e-3, kTurn = 1e-4;  // m, rad
     Settled settled;

@@ -24,7 +24,7 @@ TEST(MeanChoice, WithoutEvidenceTheVelocityContinues) {
 
 TEST(MeanChoice, EachPartIsThatWhichWasNearer) {
   MeanChoice choice;
-  const Pose steady = offBy(0.02, 0.001), by_sensors = offBy(0.001, 0.02);  // a gyroscope, and wheels that slip
+  const Pose steady = offBy(0.02, 0.001), by_sensors = offBy(0.001, 0.02);  // a gyroscope, and slipping wheels
   choice.see(steady, by_sensors, kMeasured);
   EXPECT_TRUE(isApprox(choice.choose(steady, by_sensors), offBy(0.001, 0.001), 1e-12));
   EXPECT_TRUE(isApprox(choice.choose(by_sensors, steady), offBy(0.02, 0.02), 1e-12)) << "by part, not by size";

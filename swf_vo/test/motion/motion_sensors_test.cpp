@@ -26,7 +26,7 @@ const LevelDrive& longDrive() {
 
 using Change = std::function<void(MotionInput&, int ms)>;
 
-/// Frames of a drive with their sensors, up to a time. Frames settle after ten others.
+/// Frames of a drive with its sensors, up to a time. Frames settle ten frames later.
 class Play {
  public:
   explicit Play(const DriveErrors& errors, unsigned seed = 1, Change change = {}, bool wheels = true)
@@ -47,7 +47,7 @@ class Play {
     }
   }
 
-  /// Time without images, and the prediction over it.
+  /// Advances without images, and returns the prediction.
   std::optional<ProcessInput> outage(int end_ms) {
     const int from = now_;
     feed(end_ms);
@@ -114,7 +114,7 @@ TEST(MotionSensors, BiasIsStatedInTheAxesOfTheImu) {
   EXPECT_GT(expected.y(), 0.07);
 }
 
-// 2.5 s without images while turning: the error is that of the covariance, over many draws of all errors.
+// 2.5 s without images while turning: the error corresponds to the covariance, over many draws of all errors.
 TEST(MotionSensors, OutageIsBridgedWithTheCovarianceOfThePrediction) {
   constexpr int kDraws = 24;
   double nees = 0.0, worst_m = 0.0, worst_rad = 0.0;
@@ -133,7 +133,7 @@ TEST(MotionSensors, OutageIsBridgedWithTheCovarianceOfThePrediction) {
     worst_m = std::max(worst_m, distanceBetween(truth, u->T_from_to));
     worst_rad = std::max(worst_rad, angleBetween(truth, u->T_from_to));
   }
-  // Steps sideways and upwards have room for real ground, which this one does not use.
+  // Lateral and vertical slip are allowed for real ground, but do not occur here.
   EXPECT_GT(nees, 1.5);
   EXPECT_LT(nees, 8.0);
   EXPECT_LT(worst_m, 0.06);
@@ -152,7 +152,7 @@ TEST(MotionSensors, WithoutWheelsTheRotationGoesOnAndTheTranslationIsUnknown) {
   EXPECT_LT(e.dot(u->information.bottomRightCorner<3, 3>() * e), 16.3);  // 99.9 % of 3 degrees of freedom
 }
 
-// In steps of a dark stretch the errors that they share add up as over one step.
+// Common errors of the steps of an outage accumulate as over a single step.
 TEST(MotionSensors, StepsOfAChainAreAsUncertainAsItIs) {
   DriveErrors errors;
   errors.bias = {0.0, 0.0, 0.05};
@@ -174,7 +174,7 @@ TEST(MotionSensors, StepsOfAChainAreAsUncertainAsItIs) {
 struct WrongSensor {
   const char* what;
   Change change;
-  const char* words;  // of the sentence
+  const char* words;  // expected in the sentence
 };
 
 class WrongGyroscope : public ::testing::TestWithParam<WrongSensor> {};
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "late"}),
     [](const auto& instance) { return std::string(instance.param.what); });
 
-// Frames are final half a second later; until then a sensor that was sound could lead everything astray.
+// Frames settle half a second later; until then a faulty sensor must not affect the prediction.
 TEST(MotionSensors, ThatGoWrongPredictNothingFromTheFirstStepOn) {
   const auto exchanged = turned([](const auto& w) { return Eigen::Vector3d(w.y(), w.z(), w.x()); });
   Play play(
@@ -237,7 +237,7 @@ TEST(MotionSensors, ThatGoWrongPredictNothingFromTheFirstStepOn) {
   play.until(10'000);
   EXPECT_TRUE(play.motion.estimates().uses_gyroscope);
   play.until(10'000 + 2 * kFrame);
-  EXPECT_TRUE(play.motion.estimates().uses_gyroscope);  // not yet known for what it is
+  EXPECT_TRUE(play.motion.estimates().uses_gyroscope);  // fault not yet detected
   EXPECT_FALSE(play.outage(play.now() + kFrame));
 }
 
@@ -279,7 +279,7 @@ TEST(MotionSensors, BeforeTheyHaveMovedPredictNothing) {
   EXPECT_TRUE(motion.estimates().has_gyroscope);
   EXPECT_FALSE(motion.estimates().uses_gyroscope);
   EXPECT_TRUE(motion.estimates().faults.empty());
-  EXPECT_LT(motion.estimates().gyroscope_bias_sigma.maxCoeff(), 0.002);  // known from rest all the same
+  EXPECT_LT(motion.estimates().gyroscope_bias_sigma.maxCoeff(), 0.002);  // estimated from rest
 }
 
 TEST(MotionSensors, WheelsOfAnotherRadiusAreLeftOutAndNamed) {

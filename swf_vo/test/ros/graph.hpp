@@ -19,7 +19,7 @@
 
 namespace swf_vo::test {
 
-/// A walk through a textured room, small enough to be rendered in a moment.
+/// A walk through a textured room, small enough for fast rendering.
 inline urban_nav_core::testing::RenderedSequence room() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
@@ -32,7 +32,7 @@ inline urban_nav_core::testing::RenderedSequence room() {
   return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, 25.0), options);
 }
 
-/// The ROS graph as the nodelet sees it: a robot that publishes, and a listener who keeps everything.
+/// ROS graph of the nodelet: a robot that publishes, and a listener that records everything.
 class Graph : public urban_nav_ros::testing::StereoListener {
  public:
   Graph() : urban_nav_ros::testing::StereoListener("swf_vo") {

@@ -14,7 +14,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::testing::RenderedSequence;
 
-// Not the identity, so that a transform left out is seen; the rotation is exact in the message and in the core.
+// Not the identity, so that a missing transform is detected; the rotation is exact in the message and in the core.
 Pose mounting() { return Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, 1.1)); }
 
 class SwfVoNodelet : public ::testing::Test {
@@ -31,7 +31,7 @@ class SwfVoNodelet : public ::testing::Test {
     ASSERT_TRUE(graph().connected());
     graph().place(mounting());
     ASSERT_TRUE(graph().call("reset"));
-    // What the session before still had in its window comes first.
+    // The frames in the window of the previous session are published first.
     ASSERT_TRUE(graph().receipts().drain({"vo/odometry", "vo/relative_pose", "vo/statistics"}));
     graph().forget();
   }
@@ -39,7 +39,7 @@ class SwfVoNodelet : public ::testing::Test {
   RenderedSequence& sequence() { return *sequence_; }
   StereoCamera camera() { return makeCamera(sequence().options().camera); }
 
-  /// One frame after the other, each when the one before has come out: no queue overflows.
+  /// Plays frames one by one, each after the previous one was published, so that no queue overflows.
   bool play(int first, int count) {
     for (int i = first; i < first + count; ++i) {
       const std::size_t before = graph().frames.size();
@@ -49,7 +49,7 @@ class SwfVoNodelet : public ::testing::Test {
     return true;
   }
 
-  /// Shows frame after frame, since images may overtake the first camera_info of their calibration.
+  /// Publishes frames repeatedly, since images may overtake the first camera_info of their calibration.
   bool showUntilASessionBegins(int first, const StereoCamera& camera) {
     const std::size_t before = graph().frames.size();
     const auto began = [&] {
@@ -73,7 +73,7 @@ RenderedSequence* SwfVoNodelet::sequence_ = nullptr;
 TEST_F(SwfVoNodelet, AgreesWithTheCoreToTheLastBit) {
   constexpr int kCount = 24;
   ASSERT_TRUE(play(0, kCount));
-  ASSERT_TRUE(graph().call("reset"));  // what is in the window leaves
+  ASSERT_TRUE(graph().call("reset"));  // flushes the window
   ASSERT_TRUE(Graph::until([&] { return graph().relative.size() == kCount - 1; })) << graph().relative.size();
   ASSERT_TRUE(Graph::until([&] { return graph().odometry.size() == kCount && graph().transforms.size() == kCount; }));
 
@@ -120,7 +120,7 @@ TEST_F(SwfVoNodelet, APartnerThatDoesNotComeIsNamedWithItsDelay) {
       }
     return false;
   };
-  // A frame is given out once later images show that its partner will not come.
+  // A frame is published once later images show that its partner is missing.
   for (int i = 6; i < 100 && !(named() && graph().frames.size() >= 8U); ++i) {
     graph().publish(sequence().frame(i), camera(), true, false);
     ros::WallDuration(0.05).sleep();
@@ -138,7 +138,7 @@ TEST_F(SwfVoNodelet, TimeGoingBackBeginsANewSession) {
   EXPECT_EQ(graph().frames.back().frame, 4U);
   ASSERT_TRUE(play(0, 5));
   EXPECT_EQ(graph().frames.back().frame, 4U) << "counts from 0 again";
-  // Topics come one by one: the frame may overtake what belongs to it.
+  // Topics arrive independently: the frame may overtake related messages.
   const ros::Time last = urban_nav_ros::toRosTime(sequence().stamp(4));
   EXPECT_TRUE(Graph::until([&] { return !graph().odometry.empty() && graph().odometry.back().header.stamp == last; }));
   EXPECT_TRUE(Graph::until([&] { return graph().relative.size() == 4U; })) << "the session before was flushed";
@@ -149,7 +149,7 @@ TEST_F(SwfVoNodelet, AnotherCalibrationBeginsANewSession) {
   StereoCamera other = camera();
   other.baseline = 0.2;
   EXPECT_TRUE(showUntilASessionBegins(4, other));
-  // The change back as well, so that it is not left to the next test.
+  // Restores the calibration for the next test.
   EXPECT_TRUE(showUntilASessionBegins(40, camera()));
 }
 

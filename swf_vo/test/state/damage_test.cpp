@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A state that belongs to something else, or is damaged, is named.
+// States of other settings and damaged states are rejected with a message.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -36,11 +36,11 @@ TEST(State, BelongsToItsParametersAndItsCamera) {
   EXPECT_EQ(catchError(parameters, stereoCamera(), state), "");
   parameters.window = 12;
   EXPECT_EQ(catchError(parameters, stereoCamera(), state),
-            "state of swf_vo: was made with window = 10 and is to go on with window = 12: allowed the same parameters");
+            "state of swf_vo: created with window = 10, used with window = 12: parameters must be equal");
   urban_nav_core::StereoCamera camera = stereoCamera();
   camera.baseline += 1e-6;
   EXPECT_EQ(catchError(Parameters(), camera, state),
-            "state of swf_vo: was made with another calibration: allowed the same camera and extrinsics");
+            "state of swf_vo: created with another calibration: camera and extrinsics must be equal");
 }
 
 TEST(State, IsNamedWhereItIsDamaged) {
@@ -53,7 +53,7 @@ TEST(State, IsNamedWhereItIsDamaged) {
   }
 }
 
-// Damage under a checksum that is right: what is taken all the same still gives frames.
+// Damage with a valid checksum: a state that is accepted still gives frames.
 TEST(State, FuzzedBeyondItsChecksum) {
   const std::string name = "swf_vo";
   const std::vector<Step> some = collectSteps("loop", 20, "black:1000:1");

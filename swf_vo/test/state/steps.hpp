@@ -9,22 +9,21 @@
 
 namespace swf_vo {
 
-/// Where the camera stands in base_link.
+/// Pose of the camera in base_link.
 inline const urban_nav_core::Pose kPlace(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0.1, 0.0, 1.1));
 
-/// What arrives, one after the other.
+/// Input of one step.
 struct Step {
   urban_nav_core::testing::StereoFrame frame;
   std::vector<urban_nav_core::MotionInput> inputs;
 };
 
-/// Frames of a motion with a fault on them (parseFault), of which every twentieth comes twice; with wheels if asked
-/// for.
+/// Frames of a motion with a fault (parseFault), every twentieth repeated; optionally with wheels.
 inline std::vector<Step> collectSteps(const std::string& motion, int count, const std::string& fault,
                                       bool wheels = false) {
   const Recording& recording = inTheRoom(motion, 1.0, count);
   urban_nav_core::testing::FaultFilter faults({urban_nav_core::testing::parseFault(fault)}, 1);
-  std::vector<Step> made;
+  std::vector<Step> result;
   urban_nav_core::StampNs last = 0;
   for (int i = 0; i < count; ++i) {
     const urban_nav_core::testing::StereoFrame& frame = recording.frames[static_cast<std::size_t>(i)];
@@ -39,10 +38,10 @@ inline std::vector<Step> collectSteps(const std::string& motion, int count, cons
       step.inputs.push_back(input);
     }
     last = frame.stamp;
-    made.push_back(step);
-    if (i % 20 == 13) made.push_back(step);
+    result.push_back(step);
+    if (i % 20 == 13) result.push_back(step);
   }
-  return made;
+  return result;
 }
 
 }  // namespace swf_vo

@@ -14,15 +14,15 @@
 
 namespace swf_vo {
 
-/// The whole trajectory at once by Ceres, with a cost of its own (points in `odom`, projection and process error by
-/// automatic differentiation): what the window is held against.
+/// Batch solution of the whole trajectory by Ceres, with an independent cost (points in `odom`, projection and process
+/// error by automatic differentiation), as reference for the window.
 struct BatchProblem {
   urban_nav_core::StereoCamera camera;
-  std::vector<urban_nav_core::Pose> poses;     ///< start values by frame, and results
-  std::vector<ProcessInput> inputs;            ///< inputs[i] leads from pose i - 1 to pose i
-  urban_nav_core::Matrix6d first_information;  ///< of poses.front() at its start value
-  std::vector<Eigen::Vector3d> points;         ///< start values by landmark, and results
-  std::vector<char> known;                     ///< landmarks that are held; empty: none
+  std::vector<urban_nav_core::Pose> poses;     ///< initial values by frame, and results
+  std::vector<ProcessInput> inputs;            ///< inputs[i] is from pose i - 1 to pose i
+  urban_nav_core::Matrix6d first_information;  ///< of poses.front() at its initial value
+  std::vector<Eigen::Vector3d> points;         ///< initial values by landmark, and results
+  std::vector<char> known;                     ///< fixed landmarks; empty: none
   std::vector<Observation> observations;
   double huber = 0.0;
   int iterations = 100;
@@ -30,7 +30,7 @@ struct BatchProblem {
 
 namespace batch {
 
-// A pose as (t, rotation vector of the turn applied to its start value).
+// A pose as (t, rotation vector relative to the initial value).
 struct Start {
   Eigen::Matrix3d R;
 
@@ -103,7 +103,7 @@ Matrix squareRoot(const Matrix& information) {
 
 }  // namespace batch
 
-/// False if Ceres did not converge.
+/// Returns false if Ceres did not converge.
 inline bool solveBatch(BatchProblem& all) {
   std::vector<std::array<double, 6>> poses(all.poses.size());
   std::vector<batch::Start> starts;

@@ -21,8 +21,7 @@ TEST(Window, LongerThanTheRunEqualsTheBatch) {
   const auto tracks = simulateTracks(motion);
   WindowOptions options;
   options.size = 20;
-  options.huber =
-      1.0;  // a fifth of all measurements lie beyond it; gross outliers would give both several minima to choose from
+  options.huber = 1.0;  // a fifth of all measurements are beyond; gross outliers would create several minima
   options.iterations = 100;
   options.tolerance = 1e-18;
   TrackRunner run(tracks, options);

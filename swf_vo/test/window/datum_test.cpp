@@ -27,7 +27,7 @@ double largestDifference(const Matrix6d& P, const Matrix6d& Q) {
 }
 
 TEST(Datum, HeldAnewChangesNothing) {
-  // Noise so small that the world is linear: all that is left is algebra.
+  // With such small noise the problem is linear, and only the algebra is tested.
   const auto tracks = turning(130, 1e-3);
   WindowOptions often, never;
   often.iterations = never.iterations = 20;
@@ -73,7 +73,7 @@ TEST(Datum, GivesProperCovariancesHeldAtEachStep) {
   }
 }
 
-// Mean of the normalised squared error of composed ways of `length` steps, over a few runs.
+// Mean normalised squared error of compositions of `length` steps, over a few runs.
 double meanNees(std::size_t length, urban_nav_core::testing::TrackMotion kind) {
   double sum = 0.0;
   int ways = 0;
@@ -130,7 +130,7 @@ TEST(Datum, TheRigsScaleIsOneErrorOfTheWholePath) {
   Matrix6d expected = Matrix6d::Zero();
   expected.topLeftCorner<3, 3>() = off.rig_scale * off.rig_scale * path * path.transpose();
   EXPECT_LT((added - expected).norm(), 0.05 * expected.norm()) << "but for where the first pose was taken to be";
-  // What adds up over steps as if independent does not have it.
+  // Not contained in the part that accumulates independently over steps.
   EXPECT_EQ(a.settled.back().drift_covariance, b.settled.back().drift_covariance);
   EXPECT_NEAR(b.window.scaleSigma(), off.rig_scale, 1e-12);
   // Each step states its sensitivity.

@@ -8,7 +8,7 @@
 namespace swf_vo {
 namespace {
 
-// A positive definite matrix of the given size with a few digits in every place.
+// A positive definite matrix of the given size with a few digits in every element.
 DenseMatrix example(int n) {
   DenseMatrix A;
   A.reset(n);
@@ -49,7 +49,7 @@ TEST(DenseCholesky, GivesTheSameBitsWithEveryInstructionSet) {
 }
 
 TEST(DenseCholesky, HoldsWhatIsNotDetermined) {
-  // Two coordinates that only their difference is known of: the later one is held, the earlier one answers.
+  // Two coordinates of which only the difference is determined: the later one is held, the earlier one is solved for.
   DenseMatrix A;
   A.reset(3);
   A(0, 0) = 4.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By how much the drift is larger than the model says: scores of known variance, and tracks whose landmarks drift.
+// Ratio of the drift's variance to that of the model: scores of known variance, and tracks with drifting landmarks.
 #include "window/drift_sandwich.hpp"
 
 #include <gtest/gtest.h>
@@ -25,19 +25,19 @@ using urban_nav_core::Vector6d;
 using urban_nav_core::testing::TrackMotion;
 using urban_nav_core::testing::Tracks;
 
-/// How landmarks err: `scale` times what their information says (translation, rotation), each by itself; and all of one
-/// surface alike, by `shared` standard deviations of a generation's estimate, for two generations.
+/// Errors of landmarks: independent ones of `scale` times the stated standard deviation (translation, rotation); and
+/// common ones of a surface, of `shared` standard deviations of a generation's estimate, for two generations.
 struct Errors {
   double translation = 1.0, rotation = 1.0, shared = 0.0;
 };
 
 struct Generations {
   DriftSandwich sandwich;
-  double squared = 0.0, stated = 0.0;  // of the shift over two generations each
+  double squared = 0.0, stated = 0.0;  // each for the shift over two generations
 };
 
-/// Generations of landmarks on ten surfaces that measure one rate each, which is estimated from them: what is left of
-/// their scores at the estimate.
+/// Generations of landmarks on ten surfaces that measure one rate, which is estimated from them; their scores at the
+/// estimate.
 Generations generations(int count, int landmarks, const Errors& errors, const DriftSandwich& before = {}) {
   constexpr double kShiftWeight = 3.0, kTurnWeight = 200.0;
   std::mt19937 generator(1);
@@ -66,7 +66,7 @@ Generations generations(int count, int landmarks, const Errors& errors, const Dr
       const Surface& surface = surfaces[k % surfaces.size()];
       Eigen::Matrix<double, 6, 3> J;
       for (int i = 0; i < 18; ++i) J(i % 6, i / 6) = normal(generator) * (i % 6 < 3 ? kShiftWeight : kTurnWeight);
-      // Half of the landmarks see the translation alone, half the rotation alone.
+      // Half of the landmarks measure the translation only, half the rotation only.
       const bool moved = normal(generator) > 0.0;
       if (moved) J.bottomRows<3>().setZero();
       else J.topRows<3>().setZero();
@@ -106,7 +106,7 @@ TEST(DriftSandwich, IsOneWhereTheModelIsRight) {
 }
 
 TEST(DriftSandwich, CorrectsForLeverage) {
-  // Three unknowns from six landmarks each: residuals have half of the variance.
+  // Three unknowns from six landmarks: residuals have half of the variance.
   const DriftSandwich::Ratio ratio = learnt(300, 12, {});
   EXPECT_NEAR(ratio.translation, 1.0, 0.3);
   EXPECT_NEAR(ratio.rotation, 1.0, 0.3);
@@ -142,8 +142,8 @@ TEST(DriftSandwich, ForgetsAsTheViewChanges) {
   EXPECT_LT(generations(60, 60, {}, before).sandwich.ratio().rotation, 0.3 * before.ratio().rotation);
 }
 
-/// Tracks whose landmarks move over their surfaces, each at its own steady rate of this standard deviation, in both
-/// images at once.
+/// Tracks whose landmarks drift over their surfaces, each at a constant rate with this standard deviation, equally in
+/// both images.
 Tracks drifting(double px_a_frame, TrackMotion motion, std::uint64_t seed, int frames = 301) {
   urban_nav_core::testing::TrackOptions options;
   options.seed = seed;
@@ -189,7 +189,7 @@ OdometryChain odometry(const Tracks& tracks, bool robust, const std::function<bo
   return chain;
 }
 
-/// Squares over stated variances, of translation and of rotation.
+/// Squares over stated variances, for translation and rotation.
 struct Ratios {
   double squared[2] = {}, stated[2] = {};
   void add(const Vector6d& error, const Matrix6d& covariance) {
@@ -233,7 +233,7 @@ TEST(DriftSandwich, LeavesTheDriftOfLandmarksThatKeepStill) {
   }
 }
 
-// Two filters with every other landmark each have errors of their own, so what lies between them needs no truth.
+// Two filters, each with every other landmark, have independent errors, so their difference needs no ground truth.
 TEST(DriftSandwich, AgreesWithTheJackknifeOfOddAndEvenLandmarks) {
   const auto between = [](bool robust) {
     Ratios ratios;

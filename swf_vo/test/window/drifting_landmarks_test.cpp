@@ -26,8 +26,8 @@ TrackOptions sixtyFeatures(std::uint64_t seed) {
   return options;
 }
 
-/// Runs to the end; `slide` says by how much a landmark is moved in a frame (px). Returns how often each landmark was
-/// called a stray.
+/// Runs to the end; `slide` gives the displacement of a landmark in a frame (px). Returns how often each landmark was
+/// found to drift.
 template <typename Slide>
 std::map<LandmarkId, int> driftingLandmarks(const urban_nav_core::testing::Tracks& tracks, const Slide& slide) {
   TrackRunner run(tracks, WindowOptions());
@@ -46,7 +46,7 @@ std::map<LandmarkId, int> driftingLandmarks(const urban_nav_core::testing::Track
   return found;
 }
 
-// Three landmarks slide by less per frame than a measurement's standard deviation.
+// Three landmarks drift by less per frame than the standard deviation of a measurement.
 TEST(DriftingLandmarks, FindsWhatSlidesSlowly) {
   const auto tracks = simulateTracks(sixtyFeatures(3));
   const auto sliding = [](LandmarkId landmark) { return landmark < 30 && landmark % 10 == 0; };

@@ -11,9 +11,9 @@
 
 namespace swf_vo {
 
-/// EKF-SLAM as in a textbook (Thrun et al. 2005, chapter 10), in covariance form: propagate, forget the old pose,
-/// augment, update. It shares the models with the window and nothing else. `first_estimates`: Jacobians at the first
-/// estimates (Huang et al. 2008) instead of the latest.
+/// Textbook EKF-SLAM (Thrun et al. 2005, chapter 10) in covariance form: propagate, remove the old pose, augment,
+/// update. Only the models are shared with the window. `first_estimates`: Jacobians at the first estimates (Huang et
+/// al. 2008) instead of the latest.
 class EkfReference {
  public:
   EkfReference(const urban_nav_core::StereoCamera& camera, bool first_estimates)
@@ -103,7 +103,7 @@ class EkfReference {
     for (std::size_t i = 0; i < landmarks_.size(); ++i)
       landmarks_[i].theta += dx.segment<3>(3 * static_cast<Eigen::Index>(i));
     const urban_nav_core::Vector6d d = dx.tail<6>();
-    // A landmark that is born in this frame moves with the pose, as the measurement that made it demands.
+    // A landmark initialised in this frame moves with the pose, as its measurement requires.
     for (auto& [id, birth] : fresh_) {
       SensorModel::Linearised at;
       sensor_.linearise(birth.first.anchor, birth.first.theta, at_first, at);
@@ -117,8 +117,8 @@ class EkfReference {
   urban_nav_core::Matrix6d covariance() const { return P.bottomRightCorner<6, 6>(); }
 
  private:
-  // With Jacobians that stay, the residuals at the new estimate are taken anew, as a further Gauss-Newton step would:
-  // what one linear step left of them shifts the mean away from the estimate.
+  // With fixed Jacobians the residuals are recomputed at the new estimate, as in a further Gauss-Newton step: their
+  // remainder after one linear step shifts the mean from the estimate.
   struct Landmark {
     LandmarkId id = 0;
     Anchor anchor;
@@ -178,7 +178,7 @@ class EkfReference {
     landmarks_.push_back(landmark);
   }
 
-  // The first estimate of a landmark is the one after the update in which it was born.
+  // The first estimate of a landmark is that after the update of its first frame.
   void augmentFirst() {
     const PoseMatrices at_first(pose_first_), at_pose(pose);
     for (auto& [id, birth] : fresh_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// At window 1, with one iteration and no robust kernel, the filter is the extended Kalman filter (section 2.2.1).
+// At window 1, with one iteration and no robust kernel, the filter equals the extended Kalman filter (section 2.2.1).
 #include <gtest/gtest.h>
 
 #include "window/ekf_reference.hpp"
@@ -42,7 +42,7 @@ TEST_P(WindowOne, EqualsTheExtendedKalmanFilter) {
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-8) << "frame " << i;
     moved += urban_nav_core::distanceBetween(newest.pose, run.truth()) > 1e-5;
   }
-  EXPECT_GT(moved, 40) << "without errors the comparison says little";
+  EXPECT_GT(moved, 40) << "without errors the comparison is not significant";
 }
 
 INSTANTIATE_TEST_SUITE_P(Linearised, WindowOne, ::testing::Bool(),

@@ -18,7 +18,7 @@ using urban_nav_core::Vector6d;
 const Vector3d kOrigin(1.0, -2.0, 0.5);
 const Pose kT_odom_camera(expSo3(Vector3d(0.3, -0.8, 0.2)), Vector3d(2.0, 0.4, -1.0));
 
-// The world shifted, and turned about `kOrigin`.
+// The world shifted and rotated about `kOrigin`.
 Pose movement(const Vector6d& x) {
   const Eigen::Quaterniond turn = expSo3(x.tail<3>());
   return Pose(turn, kOrigin + x.head<3>() - turn * kOrigin);
@@ -26,7 +26,7 @@ Pose movement(const Vector6d& x) {
 
 Anchor someAnchor() { return {expSo3(Vector3d(-0.2, 0.5, 0.1)).toRotationMatrix(), Vector3d(0.7, -0.1, 0.9)}; }
 
-// Inverse-depth coordinates of a point of `odom`, its homogeneous scale kept.
+// Inverse-depth coordinates of a point of `odom`, with its homogeneous scale.
 Vector3d computeTheta(const Anchor& anchor, const Eigen::Vector4d& point) {
   const Vector3d p = anchor.R_odom_anchor.transpose() * (point.head<3>() - point.w() * anchor.t_odom_anchor);
   return Vector3d(p.x() / p.z(), p.y() / p.z(), point.w() / p.z());

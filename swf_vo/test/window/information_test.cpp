@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What marginalisation leaves is the Schur complement of the batch at one set of linearisation points, and nothing
-// fills the directions that no measurement sees (section 2.2).
+// The marginal is the Schur complement of the batch at one set of linearisation points, and the unobservable directions
+// have no information (section 2.2).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ void addProcess(Batch& batch, const Pose& last, const Block& last_frame, const P
   batch.information.block(n, l, 6, 6) += at.next.transpose() * W * at.last;
 }
 
-// Eliminates the first `count` rows one after another.
+// Eliminates the first `count` rows successively.
 MatrixXd schur(MatrixXd A, Eigen::Index count) {
   for (Eigen::Index j = 0; j < count; ++j) {
     const Eigen::Index rest = A.rows() - j - 1;
@@ -112,7 +112,7 @@ TEST(Information, IsTheSchurComplementOfTheBatch) {
   WindowOptions options;
   options.size = 5;
   options.huber = 0.0;
-  options.datum_ratio = 1e300;  // a datum held anew is in the prior, and not in the batch
+  options.datum_ratio = 1e300;  // a replaced datum would be in the prior, but not in the batch
   Filter filter(options, tracks.camera);
   TrackRunner inputs(tracks, options);
   History history;
@@ -128,7 +128,7 @@ TEST(Information, IsTheSchurComplementOfTheBatch) {
   const SensorModel model(tracks.camera);
   const Batch window = windowInformation(filter, model);
 
-  // The batch over the same blocks, preceded by all that left, at the points where each was linearised.
+  // The batch over the same blocks, preceded by all marginalised ones, at their linearisation points.
   std::map<std::int64_t, Pose> poses;
   std::map<std::int64_t, Point> points;
   Batch batch;

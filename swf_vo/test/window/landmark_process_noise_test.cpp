@@ -16,7 +16,7 @@ Eigen::MatrixXd full(const Prior& prior) {
   return M;
 }
 
-// A prior of 11 landmarks and a pose with information of full rank, whatever it means.
+// A prior of 11 landmarks and a pose with arbitrary information of full rank.
 Prior somePrior(bool offset) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -76,8 +76,7 @@ TEST(LandmarkProcessNoise, AddsItsCovarianceToThatOfTheBlocksThatMovedAndNothing
 }
 
 TEST(LandmarkProcessNoise, KeepsWhatTheDepartedPoseOwes) {
-  // d_left = gain d + offset_gain o, with d before the step; afterwards said of d + w, it has the same covariance with
-  // it.
+  // d_left = gain d + offset_gain o, with d before the step; expressed in d + w it has the same covariance with it.
   Prior prior = somePrior(false);
   const int n = prior.size();
   std::mt19937 random(9);

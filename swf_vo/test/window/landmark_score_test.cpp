@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a landmark says of a steady drift of the camera, against drifts that are known.
+// Score of a landmark for a constant-rate drift of the camera, with known drifts.
 #include "window/landmark_score.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ const urban_nav_core::StereoCamera& camera() {
   return camera;
 }
 
-/// A landmark seen from a path, whose poses are estimated with an error that grows by `drift` a radian of view change.
+/// A landmark observed along a path, whose poses have an error that grows by `drift` per radian of view change.
 struct SeenLandmark {
   LandmarkBlock landmark;
   std::vector<PoseBlock> poses;
@@ -41,7 +41,7 @@ struct SeenLandmark {
       const Pose truth = expSe3(twist);
       PoseBlock pose;
       pose.frame = i;
-      // What is true is the estimate moved by the drift.
+      // The true pose is the estimate displaced by the drift.
       pose.estimate = boxPlus(truth, -(kStepRad * i) * gauge::ofPose(truth, Vector3d::Zero()) * drift);
       pose.linearised = pose.estimate;
       poses.push_back(pose);
@@ -113,7 +113,7 @@ TEST(LandmarkScore, LandmarksTogetherFindDriftAndOffset) {
   }
   const Eigen::Matrix<double, 7, 1> found = information.ldlt().solve(score);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(found[i], drift[i], 0.02 * drift.norm()) << i;
-  EXPECT_NEAR(found[6], -kOffsetPx, 0.05 * kOffsetPx) << "a larger offset moves what the right image shows to the left";
+  EXPECT_NEAR(found[6], -kOffsetPx, 0.05 * kOffsetPx) << "a larger offset shifts the right image to the left";
 }
 
 TEST(LandmarkScore, IsSaidAboutTheCamera) {
@@ -155,7 +155,7 @@ TEST(LandmarkScore, HasTheVarianceOfItsInformation) {
     squares += one.score * one.score.transpose() / kRuns;
     information = one.information;
   }
-  // Of one variance the estimate is off by the root of 2 / runs.
+  // The relative standard deviation of a variance estimate is the root of 2 / runs.
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares(i, i) / information(i, i), 1.0, 5.0 * std::sqrt(2.0 / kRuns)) << i;
 }
 
@@ -171,7 +171,7 @@ TEST(LandmarkScore, AgeingLosesInformationAndIsAdditive) {
   const DriftScore a = once.evaluate(Pose()), b = twice.evaluate(Pose());
   EXPECT_LT((a.information - b.information).norm(), 1e-9 * a.information.norm());
   EXPECT_LT((a.score - b.score).norm(), 1e-9 * a.score.norm());
-  // theta is eliminated: what is known of a drift does not depend on what is known of where theta will go.
+  // theta is eliminated: the information on a drift is independent of that on the future of theta.
   EXPECT_LT((a.information - fresh).norm(), 1e-9 * fresh.norm());
 }
 

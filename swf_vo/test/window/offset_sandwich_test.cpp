@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By how much the variance of the disparity offset is larger than its information says: scores of known variance.
+// Ratio of the variance of the disparity offset to that of its information: scores of known variance.
 #include "window/offset_sandwich.hpp"
 
 #include <gtest/gtest.h>
@@ -17,12 +17,13 @@ using urban_nav_core::Vector6d;
 constexpr double kCautionAlone = 400.0;
 
 struct OffsetErrors {
-  double each = 1.0;      ///< of a measurement, standard deviations
-  double shared = 0.0;    ///< of all that die in one region in a row, in standard deviations of one landmark
-  bool drifting = false;  ///< the camera drifts by some standard deviations, which the estimate has not followed
+  double each = 1.0;      ///< independent error of a measurement, standard deviations
+  double shared = 0.0;    ///< error common to consecutive landmarks of one region, in standard deviations of one
+                          ///< landmark
+  bool drifting = false;  ///< the camera drifts by some standard deviations, not followed by the estimate
 };
 
-/// Landmarks that measure a drift of the camera and the offset by rows of Gaussian numbers.
+/// Landmarks that measure a drift of the camera and the offset by rows of Gaussian random numbers.
 OffsetSandwich learnOffset(int landmarks, const OffsetErrors& errors) {
   std::mt19937 generator(5);
   std::normal_distribution<double> normal;
@@ -36,7 +37,7 @@ OffsetSandwich learnOffset(int landmarks, const OffsetErrors& errors) {
       for (double& each : shared) each = errors.shared * normal(generator);
     Eigen::Matrix<double, 7, 12> J;
     for (int i = 0; i < J.size(); ++i) J(i % 7, i / 7) = normal(generator);
-    // The offset looks like a drift for the most part.
+    // The offset is largely correlated with a drift.
     J.row(6) = 0.3 * J.row(6) + J.row(0) - 2.0 * J.row(4);
     Eigen::Matrix<double, 12, 1> r;
     for (int i = 0; i < 12; ++i) r[i] = errors.each * normal(generator);
@@ -65,7 +66,7 @@ TEST(OffsetSandwich, IsAsTakenBeforeLandmarksHaveDied) {
 
 TEST(OffsetSandwich, GoesToOneWhereTheModelIsRight) {
   const OffsetSandwich sandwich = learnOffset(4000, {});
-  // Forty places, whose landmarks count together: the weight of what is taken is 4 to 40.
+  // Forty regions with correlated landmarks: the weight of the default is 4 to 40.
   EXPECT_LT(sandwich.ratio(kCautionAlone), 4.0);
   EXPECT_NEAR(sandwich.ratio(1.0), 1.0, 0.3);
   EXPECT_GT(learnOffset(30, {}).ratio(kCautionAlone), sandwich.ratio(kCautionAlone));
@@ -86,7 +87,7 @@ TEST(OffsetSandwich, IsBlindToTheDriftOfTheCamera) {
   EXPECT_NEAR(std::log(drifting / still), 0.0, std::log(1.5));
 }
 
-/// OffsetErrors of the offset over what is stated for them, in windows that were told of another offset than there is.
+/// Errors of the offset relative to the stated ones, in windows with a wrong calibrated offset.
 struct StatedOffsets {
   double squared = 0.0, stated = 0.0;
 };
@@ -114,7 +115,7 @@ StatedOffsets statedOffsets(bool robust) {
   return sums;
 }
 
-// Where all that the model leaves out is nothing, the cautious estimate is known far better than its caution has it.
+// Without model errors, the estimate is far more accurate than its reduced information.
 TEST(OffsetSandwich, StatesHowWellAWindowKnowsTheOffset) {
   const StatedOffsets model = statedOffsets(false), robust = statedOffsets(true);
   EXPECT_EQ(model.squared, robust.squared);

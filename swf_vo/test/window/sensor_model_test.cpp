@@ -32,7 +32,7 @@ Vector6d poseTangent(double x, double y, double z, double a, double b, double c)
   return d;
 }
 
-// Far from the anchor as well: half a metre and 40 deg.
+// Also far from the anchor: half a metre and 40 deg.
 const Vector6d kOffsets[] = {Vector6d::Zero(), poseTangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02),
                              poseTangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
 const Vector3d kThetas[] = {{0.1, -0.2, 0.3}, {-0.3, 0.1, 0.01}, {0.2, 0.2, 0.0}, {0.0, 0.1, -0.02}, {0.1, 0.0, 0.5}};
@@ -82,7 +82,7 @@ TEST(SensorModel, MovingEverythingTogetherChangesNothing) {
   ASSERT_TRUE(scene.model.linearise(scene.anchor, theta, PoseMatrices(pose), at));
   const Eigen::Vector4d h = scene.anchor.homogeneous(theta);
   const Vector3d p = h.head<3>() / h.w();
-  // theta of a point of odom; then what a shift and turn of odom does to pose and point.
+  // Derivative of theta by a point of odom; then that of pose and point by a shift and turn of odom.
   const auto by_point = urban_nav_core::testing::numericJacobian<3, 3>(
       [&](const Vector3d& x) -> Vector3d {
         const Vector3d q = scene.anchor.R_odom_anchor.transpose() * (x - scene.anchor.t_odom_anchor);

@@ -9,7 +9,7 @@
 namespace swf_vo {
 namespace {
 
-// A window in full swing, with landmarks in its prior and others that are free, its gradients and its matrices.
+// A window in operation, with landmarks inside and outside its prior, its gradients and its matrices.
 struct System {
   State state;
   Prior prior;
@@ -31,7 +31,7 @@ System systemAfter(int frames, int size, int features, bool absolute = true) {
   if (!absolute) run.first_information.setZero();
   while (!run.done()) run.step();
   System system{run.window.filter().state(), run.window.filter().prior(), {}, {}, 0.0};
-  // Somewhere beside the optimum, so that there is a step to take.
+  // Displaced from the optimum, so that the step is not zero.
   for (PoseBlock& pose : system.state.poses)
     pose.estimate = urban_nav_core::boxPlus(pose.estimate, urban_nav_core::Vector6d::Constant(0.002));
   run.window.filter().cost().relinearise(system.state, system.prior);
@@ -89,7 +89,7 @@ TEST(Solver, ChoosesTheCheaperWay) {
   solver.factor(many_landmarks.state, many_landmarks.prior, many_landmarks.equations, false);
   EXPECT_FALSE(solver.eliminatedPosesFirst());
   System few = systemAfter(90, 90, 6);
-  // Of the landmarks, only the first twenty.
+  // Only the first twenty landmarks.
   int left = 0;
   for (LandmarkBlock& landmark : few.state.landmarks)
     if (landmark.used && ++left > 20) landmark.seen.clear();

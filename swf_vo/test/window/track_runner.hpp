@@ -19,7 +19,7 @@ inline urban_nav_core::Matrix6d diagonalInformation(double sigma_translation, do
   return d.asDiagonal();
 }
 
-/// 25 features that come and go as the camera drives, turns and stops.
+/// 25 features that enter and leave the view as the camera drives, turns and stops.
 inline urban_nav_core::testing::TrackOptions mixedMotion(int frames, double sigma_px, std::uint64_t seed) {
   urban_nav_core::testing::TrackOptions motion;
   motion.seed = seed;
@@ -30,7 +30,7 @@ inline urban_nav_core::testing::TrackOptions mixedMotion(int frames, double sigm
   return motion;
 }
 
-/// Drives a Window through simulated tracks, one step a call.
+/// Runs a Window on simulated tracks, one step per call.
 class TrackRunner {
  public:
   TrackRunner(const urban_nav_core::testing::Tracks& tracks, const WindowOptions& options)
@@ -38,7 +38,7 @@ class TrackRunner {
     first_information = diagonalInformation(1e-3, 1e-4);
   }
 
-  /// The process input of a step: by default what was driven, off by a fixed amount, with an information to match.
+  /// Process input of a step: by default the true motion with a fixed error, and an information to match.
   ProcessInput input(std::size_t i) const {
     ProcessInput u;
     const urban_nav_core::Pose truth =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A measurement that is withdrawn or comes late leaves the filter that never had it, or had it in time (section 2.2.1).
+// A withdrawn or late measurement gives the filter that never had it, or had it in time (section 2.2.1).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace {
 using urban_nav_core::Matrix6d;
 
 constexpr std::size_t kTouchedFrame = 14, kChangeFrame = 18, kLastFrame = 24;
-constexpr std::size_t kSlidesFrom = 10, kFirstUndone = 12;  // from there on every frame of six can be gone back to
+constexpr std::size_t kSlidesFrom = 10, kFirstUndone = 12;  // from then on, each of six frames can be undone
 constexpr double kPxAFrame = 0.4;
 
 urban_nav_core::testing::Tracks someTracks() {
@@ -33,7 +33,7 @@ WindowOptions sixPoses() {
   return options;
 }
 
-// A landmark, another than `but`, that was seen before and after the touched frame.
+// Returns a landmark, different from `but`, that was measured before and after the touched frame.
 LandmarkId victim(const urban_nav_core::testing::Tracks& tracks, std::size_t touched = kTouchedFrame,
                   LandmarkId but = -1) {
   for (const auto& sighting : tracks.frames[touched].sightings) {
@@ -100,7 +100,7 @@ TEST(Undo, ALandmarkTakenBackInTheMiddleOfAStepIsGone) {
   const auto tracks = someTracks();
   const LandmarkId landmark = victim(tracks);
   TrackRunner had(tracks, sixPoses()), never(tracks, sixPoses());
-  // As far back as the window reaches: what was marginalised earlier stays.
+  // Limited by the window: earlier marginalised terms are not changed.
   const FrameId oldest = static_cast<FrameId>(kTouchedFrame + 3) - 5;
   const auto before = [&](const Observation& o) { return o.landmark != landmark || o.frame < oldest; };
   for (std::size_t i = 0; i <= kLastFrame; ++i) {
@@ -114,8 +114,8 @@ TEST(Undo, ALandmarkTakenBackInTheMiddleOfAStepIsGone) {
   expectSame(had.window, never.window, 1e-9);
 }
 
-/// Tracks in which one landmark slides over its surface; the window gives up what driftingLandmarks after each update,
-/// as SwfVo has it done.
+/// Tracks in which one landmark drifts over its surface; the window drops driftingLandmarks() after each update, as in
+/// SwfVo.
 class Sliding {
  public:
   using Wanted = std::function<bool(const Observation&)>;
@@ -134,7 +134,8 @@ class Sliding {
     }
   }
 
-  /// The same with what another gave up: never seen from the frames that were in the window then, nor later.
+  /// The same step without landmarks that another window dropped: no measurements in frames of the window at that time,
+  /// nor later.
   void stepWithout(const GivenUp& others, const Wanted& wanted) {
     observe([&](const Observation& o) {
       const auto at = others.find(o.landmark);
@@ -189,7 +190,7 @@ TEST(Undo, StrayLeavesNoTraceInTheWindow) {
   expectSame(had.window(), never.window(), 1e-9);
 }
 
-// The steps that are taken again go over the one after which the stray was given up.
+// The repeated steps include that after which the drifting landmark was dropped.
 TEST(Undo, WithdrawnAndLateMeasurementsCountRightAroundAStray) {
   const auto tracks = manyTracks();
   const LandmarkId stray = victim(tracks);

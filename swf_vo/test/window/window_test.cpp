@@ -28,7 +28,7 @@ double poseNees(const Pose& truth, const urban_nav_core::PoseWithCovariance& est
 
 TEST(Window, WithoutNoiseWithoutError) {
   auto tracks = simulateTracks(makeTracks(60, 0.0));
-  tracks.sigma_px = 0.3;  // what is claimed of the measurements
+  tracks.sigma_px = 0.3;  // stated for the measurements
   for (const int size : {1, 5, 20}) {
     WindowOptions options;
     options.size = size;
@@ -67,7 +67,7 @@ TEST(Window, BackSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
                                               filter.settled[static_cast<std::size_t>(frame)].T_odom_camera.pose,
                                               batch.window.pose(frame)));
   }
-  EXPECT_GT(settled_off, 1e-7) << "what settled could not know what came after";
+  EXPECT_GT(settled_off, 1e-7) << "settled poses do not depend on later measurements";
 }
 
 TEST(Window, SettledPosesAreTheProductOfTheirSteps) {
@@ -85,7 +85,7 @@ TEST(Window, SettledPosesAreTheProductOfTheirSteps) {
 }
 
 TEST(Window, IsConsistent) {
-  // Eight runs in place of the bench's fifty: a wide band (99.99 % of the mean of eight chi-squares of six).
+  // Eight runs instead of the bench's fifty: a wide band (99.99 % of the mean of eight chi-squares of six).
   double now = 0.0, relative = 0.0;
   int steps = 0;
   constexpr int kRuns = 8;
@@ -103,7 +103,7 @@ TEST(Window, IsConsistent) {
   EXPECT_NEAR(relative / steps, 6.0, 1.0);
 }
 
-// The calibration is believed where it is right, and given up where the images insist on something else.
+// A correct calibration is kept, and a wrong one is overruled by the images.
 TEST(Window, LearnsWhatTheCalibrationGotWrong) {
   for (const double offset : {0.0, 0.1, 0.8}) {
     urban_nav_core::testing::TrackOptions motion = makeTracks(120, 0.1);
@@ -137,7 +137,7 @@ TEST(Window, GoesOnByPredictionWhereNothingIsSeen) {
   EXPECT_LT(poseNees(run.truth(), run.window.newest()), 40.0);
 }
 
-// Where the estimate of a pose begins says nothing of where the pose is.
+// The initial estimate of a pose is not a measurement of it.
 TEST(Window, TakesAStartForNoEvidence) {
   const auto tracks = simulateTracks(makeTracks(40, 0.5));
   const Pose start = expSe3((Vector6d() << 0.4, -0.1, 0.6, 0.02, 0.1, -0.03).finished());
@@ -201,8 +201,8 @@ TEST(Window, SurvivesNonsense) {
   }
 }
 
-// As where two recordings of different places are read as one: landmarks are seen here and there in turns, and next to
-// nothing says how far the camera went.
+// Two interleaved recordings of different places: landmarks are measured alternately at two positions, and the motion
+// of the camera is almost undetermined.
 TEST(Window, StaysNearWhereMeasurementsContradictEachOther) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     urban_nav_core::testing::TrackOptions motion = makeTracks(80, 0.1, seed), other = makeTracks(80, 0.1, seed + 100);
@@ -243,7 +243,7 @@ TEST(Window, StartsALandmarkOnlyFromAFullMeasurement) {
   EXPECT_FALSE(window.observe(observation));
   observation.information = pixelInformation(0.5);
   EXPECT_TRUE(window.observe(observation));
-  EXPECT_FALSE(window.observe(observation)) << "seen from this frame already";
+  EXPECT_FALSE(window.observe(observation)) << "already measured in this frame";
   observation.frame = 5;
   EXPECT_FALSE(window.observe(observation)) << "no such frame";
   ASSERT_EQ(window.map().size(), 1U);

@@ -10,16 +10,16 @@
 
 namespace loop_metric {
 
-/// Checks measured closures against each other and discounts the information that they share: pairwise consistency,
-/// then shared clouds, then shared keyframes. For a batch, as offline: every closure is compared with all others.
+/// Checks measured closures against each other and discounts shared information: pairwise consistency, then shared
+/// clouds, then shared keyframes. Batch version, as used offline: every closure is compared with all others.
 void applyChecks(std::vector<urban_nav_core::MetricClosure>& closures, const PlaceData& place_data,
                  const Parameters& parameters);
 
-/// Applies the steps of applyChecks() to closures that arrive one after another, as live: earlier verdicts are final.
-/// Not thread-safe.
+/// Applies the steps of applyChecks() to closures in order of arrival, as used live: earlier verdicts are final. Not
+/// thread-safe.
 class SequentialChecks {
  public:
-  /// Checks a closure against those accepted before it. Rejected closures are left unchanged.
+  /// Checks a closure against those accepted earlier. Rejected closures are unchanged.
   void apply(urban_nav_core::MetricClosure& closure, const PlaceData& place_data, const Parameters& parameters);
 
  private:

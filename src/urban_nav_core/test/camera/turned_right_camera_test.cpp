@@ -22,7 +22,8 @@ double greyOf(const Vector3d& ray) {
 /// Picture of a right camera that is turned by `turn`.
 std::vector<std::uint8_t> pictureOf(const StereoCamera& camera, const Vector3d& turn) {
   const Matrix3d R_calibrated_turned =
-      Eigen::AngleAxisd(turn.norm(), turn.isZero() ? Vector3d::UnitX() : Vector3d(turn.normalized())).toRotationMatrix();
+      Eigen::AngleAxisd(turn.norm(), turn.isZero() ? Vector3d::UnitX() : Vector3d(turn.normalized()))
+          .toRotationMatrix();
   std::vector<std::uint8_t> pixels;
   for (int v = 0; v < camera.left.height; ++v)
     for (int u = 0; u < camera.left.width; ++u) {
@@ -46,8 +47,9 @@ TEST(TurnedRightCamera, ShowsWhatTheCalibratedCameraWouldSee) {
     int worst = 0;
     for (int v = 10; v < camera.left.height - 10; ++v)
       for (int u = 10; u < camera.left.width - 10; ++u)
-        worst = std::max(worst, std::abs(corrected.at(u, v) - static_cast<int>(wanted[static_cast<std::size_t>(
-                                                                  v * camera.left.width + u)])));
+        worst =
+            std::max(worst, std::abs(corrected.at(u, v) -
+                                     static_cast<int>(wanted[static_cast<std::size_t>(v * camera.left.width + u)])));
     EXPECT_LE(worst, 2) << turn.transpose();
   }
 }

@@ -11,9 +11,9 @@ namespace urban_nav_registration::bench {
 
 enum class Feature { Sift, Orb };
 
-/// What OpenCV has for the purpose, put together as its tutorials do: features of both left images, brute force with
+/// Pose estimation with OpenCV, composed as in its tutorials: features of both left images, brute-force matching with
 /// the ratio test, depth of those of a by block matching (StereoSGBM), solvePnPRansac on three points,
-/// solvePnPRefineLM. Taken as right from 50 inliers on; empty below.
+/// solvePnPRefineLM. Accepted from 50 inliers on; empty below.
 std::optional<urban_nav_core::Pose> poseByOpenCv(Feature feature, const urban_nav_core::StereoCamera& camera,
                                                  const urban_nav_core::StereoPair& a,
                                                  const urban_nav_core::StereoPair& b);

@@ -13,8 +13,8 @@ struct Parameters {
   double cloud_half_length;  // m
   double odometry_scale;     // share
   // stereo
-  int points;                     // of a keyframe
-  int min_matches;                // to accept
+  int points;                     // per keyframe
+  int min_matches;                // of an accepted transform
   double max_reprojection_error;  // px, mean
   double min_patch_correlation;   // mean correlation
   double disparity_offset;        // px
@@ -22,15 +22,15 @@ struct Parameters {
   // clouds
   double voxel_size;                     // m
   double max_correspondence_distance;    // m
-  int iterations;                        // of one step from coarse to fine
+  int iterations;                        // per level
   double laser_bias;                     // m
   double free_deviation;                 // m
   double max_residual;                   // m
   double inlier_distance;                // m
   double min_inliers;                    // share
   double min_vertical_inliers;           // share
-  double max_residual_ratio;             // of what noise explains
-  double max_unmodelled_residual_ratio;  // the same
+  double max_residual_ratio;             // multiple of the expected residual
+  double max_unmodelled_residual_ratio;  // multiple of the expected residual
   double min_overlap;                    // share
   double max_free_space_violation;       // share
   int min_surfels;                       // with a counterpart
@@ -40,7 +40,7 @@ struct Parameters {
   Parameters();
 };
 
-/// The table: the only definition of the defaults, ranges, units and descriptions of these parameters.
+/// The parameter table: the single source of defaults, ranges, units and descriptions.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace urban_nav_registration

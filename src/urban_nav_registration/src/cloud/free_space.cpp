@@ -9,12 +9,12 @@ using urban_nav_core::PointCloud;
 
 namespace {
 
-constexpr std::size_t kWide = 128, kHigh = 64;  // cubes: 64 m by 64 m by 32 m of half a metre
+constexpr std::size_t kWide = 128, kHigh = 64;  // cubes: 64 m by 64 m by 32 m for cubes of half a metre
 constexpr std::size_t kAcross = kWide, kAbove = kWide * kWide;
 constexpr std::uint8_t kOccupied = 255;
-constexpr std::uint8_t kFewest = 2;         // beams: one alone may have gone by at the cube's edge
-constexpr std::size_t kMostBeams = 40'000;  // a laser's 181 in each of 100 scans over 20 m, twice
-constexpr float kBeforeTheEnd = 2.0F;       // edges
+constexpr std::uint8_t kFewest = 2;         // beams: a single one may have passed at the cube's edge
+constexpr std::size_t kMostBeams = 40'000;  // two lasers with 181 beams in each of 100 scans over 20 m
+constexpr float kBeforeTheEnd = 2.0F;       // edges before the end of a beam
 
 }  // namespace
 
@@ -23,10 +23,10 @@ FreeSpace::FreeSpace(const PointCloud& cloud, float edge) : per_m_(1.0F / edge),
   for (const Eigen::Vector3f& point : cloud.points) mark(findCube(point));
   const std::size_t step = std::max<std::size_t>(1, (count + kMostBeams - 1) / kMostBeams);
   for (std::size_t i = 0; i < count; i += step) {
-    const Eigen::Vector3f way = cloud.points[i] - cloud.origins[i];
-    const float length = way.norm();
+    const Eigen::Vector3f beam = cloud.points[i] - cloud.origins[i];
+    const float length = beam.norm();
     if (!(length < 200.0F)) continue;  // NaN too
-    const Eigen::Vector3f along = way * (edge / std::max(length, edge));
+    const Eigen::Vector3f along = beam * (edge / std::max(length, edge));
     Eigen::Vector3f at = cloud.origins[i] + 0.5F * along;
     for (float left = length - 0.5F * edge; left > kBeforeTheEnd * edge; left -= edge, at += along) {
       const std::size_t cube = findCube(at);

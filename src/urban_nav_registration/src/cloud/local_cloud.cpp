@@ -16,13 +16,13 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs kLongestStay = 20'000'000'000;  // ns: before and after a time, however little the robot moved
-constexpr StampNs kLongestGap = 500'000'000;      // ns without a pose in which beams have no place
-constexpr double kUsualRange = 10.0;              // m: of surfaces beside a street
-constexpr double kLeastBend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s
-constexpr std::size_t kMostPoints = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
+constexpr StampNs kLongestStay = 20'000'000'000;  // ns before and after a stamp, for a slow or standing robot
+constexpr StampNs kLongestGap = 500'000'000;      // ns without a pose, in which beams are dropped
+constexpr double kUsualRange = 10.0;              // m, typical distance of surfaces in a street
+constexpr double kLeastBend = 0.005;              // m: a millisecond of the lasers' clocks at a yaw rate of 0.5 rad/s
+constexpr std::size_t kMostPoints = 400'000;      // per cloud: two lasers of 75 Hz and 181 beams over 15 s
 
-/// Evenly, so that dense clouds stay bounded.
+/// Thins the cloud evenly to kMostPoints.
 void thin(PointCloud& cloud) {
   if (cloud.points.size() <= kMostPoints) return;
   const std::size_t step = (cloud.points.size() + kMostPoints - 1) / kMostPoints;
@@ -37,25 +37,26 @@ void thin(PointCloud& cloud) {
 
 }  // namespace
 
-std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs at, double way) {
+std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs at, double half_length) {
   const urban_nav_core::Trajectory& frames = odometry.trajectory();
   const double here = odometry.distance(at);
   const std::size_t nearest = frames.nearest(at);
   std::size_t first = nearest, last = nearest;
   while (first > 0 && at - frames[first - 1].stamp <= kLongestStay &&
-         here - odometry.distance(frames[first - 1].stamp) <= way)
+         here - odometry.distance(frames[first - 1].stamp) <= half_length)
     --first;
   while (last + 1 < frames.size() && frames[last + 1].stamp - at <= kLongestStay &&
-         odometry.distance(frames[last + 1].stamp) - here <= way)
+         odometry.distance(frames[last + 1].stamp) - here <= half_length)
     ++last;
   return {frames[first].stamp, frames[last].stamp};
 }
 
-PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, const std::vector<LaserScans>& lasers) {
+PointCloud localCloud(const OdometryChain& odometry, StampNs at, double half_length,
+                      const std::vector<LaserScans>& lasers) {
   PointCloud cloud;
   const std::optional<Pose> T_first_moment = odometry.at(at);
   if (!T_first_moment) return cloud;
-  const auto [first, last] = stretchAround(odometry, at, way);
+  const auto [first, last] = stretchAround(odometry, at, half_length);
   std::vector<urban_nav_core::LaserPoint> points;
   for (const LaserScans& laser : lasers) {
     urban_nav_core::BeamRenderer renderer(odometry.trajectory(), laser.T_base_laser, T_first_moment->inverse(),
@@ -73,11 +74,11 @@ PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, con
   return cloud;
 }
 
-// Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is
-// a third of that over a half.
-double deformationSigma(const OdometryChain& odometry, StampNs at, double way) {
+// Mean deviation of a random walk from end to end after alignment by its mean: a sixth of its variance over the whole
+// length, which is a third of that over a half.
+double deformationSigma(const OdometryChain& odometry, StampNs at, double half_length) {
   if (!odometry.nearestFrame(at)) return 0.0;
-  const auto [first, last] = stretchAround(odometry, at, way);
+  const auto [first, last] = stretchAround(odometry, at, half_length);
   double variance = 0.0;
   for (const StampNs end : {first, last})
     if (const auto T_moment_end = odometry.between(at, end)) {

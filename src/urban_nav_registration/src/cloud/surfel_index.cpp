@@ -10,17 +10,17 @@
 namespace urban_nav_registration {
 
 namespace {
-constexpr float kAlikeSurface = 0.70710678F;  // cosine of 45 deg: nearer to this surface than to one across it
+constexpr float kAlikeSurface = 0.70710678F;  // cosine of 45 deg, to exclude surfaces across
 
-constexpr std::uint32_t kSurfelLanes = 4;  // surfels that are looked at at once
+constexpr std::uint32_t kSurfelLanes = 4;  // surfels compared at once
 
-/// The eight cells around the corner next to a point, nearest first: bit 0, 1, 2 set means over the nearest face in x,
-/// y, z.
+/// The eight cells around the nearest corner of a point's cell, nearest first: bits 0, 1, 2 select the cell across the
+/// nearest face in x, y, z.
 constexpr std::array<int, 8> kNearestFirst = {0, 1, 2, 4, 3, 5, 6, 7};
 }  // namespace
 
-// Cells of twice the reach: the eight around the corner next to a point hold all that is within reach, and once
-// something near was found in its own, the others are too far away mostly.
+// Cells of twice the reach: the eight around the nearest corner contain all surfels within reach, and once a near
+// surfel is found in the point's own cell, the others are mostly too far away.
 SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::shared_ptr<const SurfelIndex> finer)
     : finer_(std::move(finer)), reach_(reach), per_m_(0.5F / reach), table_(surfels.size() / 4 + 16) {
   std::vector<std::uint32_t> cells(surfels.size(), CellTable::kNone);

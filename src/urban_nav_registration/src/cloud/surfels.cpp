@@ -16,7 +16,7 @@ namespace {
 
 using urban_nav_core::PointCloud;
 
-/// Sums over the points of a cube, measured from its lower corner so that single precision is enough.
+/// Sums over the points of a cube, relative to its lower corner, so that single precision is sufficient.
 struct Moments {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, count = 0;
@@ -27,7 +27,7 @@ Eigen::Vector3f cellCorner(const Cell& cell) {
   return {static_cast<float>(cell.x), static_cast<float>(cell.y), static_cast<float>(cell.z)};
 }
 
-/// Measured from a corner that lies by d further down.
+/// Changes the reference of the sums to a corner lower by d.
 inline void shiftBy(Moments& cube, const Eigen::Vector3f& d) {
   const Eigen::Vector3f nd = cube.count * d, s = cube.sum;
   cube.xx += (2.0F * s.x() + nd.x()) * d.x();
@@ -50,7 +50,7 @@ inline void addTo(Moments& sum, const Moments& cube) {
   sum.count += cube.count;
 }
 
-constexpr float kLeastExtent = 0.04F;  // variance, in edges squared: a deviation of a fifth of the edge
+constexpr float kLeastExtent = 0.04F;  // variance, in edges squared: a standard deviation of a fifth of the edge
 
 bool isWithin(const Eigen::Vector3f& point, float limit) {
   return std::abs(point.x()) < limit && std::abs(point.y()) < limit && std::abs(point.z()) < limit;  // false for NaN
@@ -72,7 +72,7 @@ SurfelGrid makeGrid(const PointCloud& cloud, float voxel) {
     if (!isWithin(point, limit)) continue;
     ++grid.used;
     const Cell cell = toCell(point, per_m);
-    if (const std::uint64_t key = toKey(cell); key != last) {  // beams beside each other mostly share a cube
+    if (const std::uint64_t key = toKey(cell); key != last) {  // adjacent beams mostly share a cube
       number = grid.table.insert(key);
       last = key;
     }
@@ -91,7 +91,7 @@ SurfelGrid makeGrid(const PointCloud& cloud, float voxel) {
     cube.zz += d.z() * d.z();
     cube.count += 1.0F;
   }
-  // From sums to means: each cube weighs the same in its neighbours' normals, however many beams fell into it.
+  // From sums to means: each cube has equal weight in its neighbours' normals, independent of its number of beams.
   for (Moments& cube : grid.cubes) {
     const float share = 1.0F / cube.count;
     cube.sum *= share;
@@ -103,10 +103,11 @@ SurfelGrid makeGrid(const PointCloud& cloud, float voxel) {
 
 struct Coarser {
   SurfelGrid grid;
-  std::vector<std::uint32_t> cube_of;  // of each cube of the finer grid
+  std::vector<std::uint32_t> cube_of;  // index of the coarse cube, per cube of the finer grid
 };
 
-/// The same points in cubes of twice the edge: each of the eight within counts as much as it has beams' cubes in it.
+/// Returns the points in cubes of twice the edge; each of the eight sub-cubes is weighted by its number of occupied
+/// voxels.
 Coarser coarsen(const SurfelGrid& fine, float edge) {
   Coarser coarser{{CellTable(fine.cubes.size() / 4 + 16), {}, fine.used}, {}};
   SurfelGrid& grid = coarser.grid;
@@ -127,7 +128,7 @@ Coarser coarsen(const SurfelGrid& fine, float edge) {
   return coarser;
 }
 
-/// A cube by its place in the order of keys: along x, then y, then z.
+/// A cube with its key, for ordering along x, then y, then z.
 struct Placed {
   std::uint64_t key;
   std::uint32_t number;
@@ -140,14 +141,15 @@ std::vector<Placed> inOrder(const SurfelGrid& grid) {
   return placed;
 }
 
-/// Walks along cubes in the order of their keys, and beside them along the nine rows of neighbours: a cube and its 26
-/// neighbours are found without looking anything up.
+/// Iterates over cubes in the order of their keys and, in parallel, over the nine rows of neighbours: the 26 neighbours
+/// of a cube are found without look-ups.
 class VoxelNeighbours {
  public:
   VoxelNeighbours(const SurfelGrid& grid, const std::vector<Placed>& placed, float edge)
       : grid_(grid), placed_(placed), edge_(edge) {}
 
-  /// Moments of the cube and its neighbours from the cube's corner. Keys must come in growing order.
+  /// Returns the moments of the cube and its neighbours relative to the cube's corner. Requires keys in increasing
+  /// order.
   Moments around(std::uint64_t key) {
     Moments all;
     std::size_t row = 0;
@@ -178,16 +180,16 @@ class VoxelNeighbours {
   const std::vector<Placed>& placed_;
   float edge_;
   bool begun_ = false;
-  std::array<std::size_t, 9> rows_{};  // where the neighbours of the last cube begin in `placed_`
+  std::array<std::size_t, 9> rows_{};  // first neighbours of the last cube in `placed_`
 };
 
-/// How the points of a cube and its 26 neighbours lie; planarity below 0: they are no surface at this scale.
-struct Lie {
+/// Plane through the points of a cube and its 26 neighbours; negative planarity: no surface at this scale.
+struct LocalPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float planarity = -1.0F;
 };
 
-Lie computeLie(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
+LocalPlane fitLocalPlane(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
   if (all.count < 3.0F) return {};
   const float share = 1.0F / all.count;
   const Eigen::Vector3f mean = share * all.sum;
@@ -197,30 +199,30 @@ Lie computeLie(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
   eigen.computeDirect(covariance + edge * edge * flat);
   const Eigen::Vector3f& variance = eigen.eigenvalues();
-  // A surface reaches further than a part of its cube in both directions: one ring of a laser on the ground does not.
+  // A surface extends beyond a part of its cube in both directions; a single ring of a laser on the ground does not.
   if (!(variance[1] > kLeastExtent * edge * edge)) return {};
   return {eigen.eigenvectors().col(0), std::max(0.0F, 1.0F - std::max(variance[0], 0.0F) / variance[1])};
 }
 
-/// Of all cubes of a grid that are wanted, in the order of the grid.
-std::vector<Lie> computeLies(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
-                             const Eigen::Matrix3f& flat) {
+/// Computes the planes of all wanted cubes of a grid, in the order of the grid.
+std::vector<LocalPlane> fitLocalPlanes(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
+                                       const Eigen::Matrix3f& flat) {
   constexpr std::size_t kRun = 512;
   const std::vector<Placed> placed = inOrder(grid);
-  std::vector<Lie> lies(placed.size());
+  std::vector<LocalPlane> planes(placed.size());
   urban_nav_core::forEach((placed.size() + kRun - 1) / kRun, 1, [&](std::size_t run) {
     VoxelNeighbours neighbours(grid, placed, edge);
     for (std::size_t i = run * kRun; i < std::min(placed.size(), (run + 1) * kRun); ++i)
       if (wanted[placed[i].number] != 0)
-        lies[placed[i].number] = computeLie(neighbours.around(placed[i].key), edge, flat);
+        planes[placed[i].number] = fitLocalPlane(neighbours.around(placed[i].key), edge, flat);
   });
-  return lies;
+  return planes;
 }
 
 constexpr int kScales = 4;  // cubes of 1, 2, 4, 8 voxels: far from the sensor its beams are metres apart
 
-/// Normal of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them. A plane that the
-/// sensor looks down upon is ground.
+/// Returns the normal of the plane if all points and the sensor lie in one plane, to a hundredth of the voxel.
+/// A plane below the sensor is ground.
 std::optional<Eigen::Vector3f> findScanPlane(const SurfelGrid& grid, float voxel) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
@@ -244,7 +246,8 @@ Surfels makeSurfels(const PointCloud& cloud, float voxel) {
   SurfelGrid grid = makeGrid(cloud, voxel);
   Surfels surfels;
   surfels.scan_plane = findScanPlane(grid, voxel);
-  Eigen::Matrix3f flat = Eigen::Matrix3f::Zero();  // added to covariances: what such a scan does not see of its walls
+  Eigen::Matrix3f flat = Eigen::Matrix3f::Zero();  // added to covariances: extent of walls that a planar scan does not
+                                                   // measure
   if (surfels.scan_plane) flat = *surfels.scan_plane * surfels.scan_plane->transpose();
   surfels.voxel = voxel;
   surfels.points = grid.used;
@@ -255,9 +258,9 @@ Surfels makeSurfels(const PointCloud& cloud, float voxel) {
     surfels.all[i].mean = voxel * cellCorner(own.cell) + own.sum / own.count;
     surfels.all[i].normal = Eigen::Vector3f::UnitZ();
   }
-  std::vector<std::uint32_t> open(grid.cubes.size());  // surfels without a normal yet
+  std::vector<std::uint32_t> open(grid.cubes.size());  // surfels without a normal so far
   std::iota(open.begin(), open.end(), 0U);
-  std::vector<std::uint32_t> cube_of = open;  // of each surfel in the grid of the scale
+  std::vector<std::uint32_t> cube_of = open;  // index of each surfel in the grid of the scale
   for (int scale = 0; scale < kScales && !open.empty(); ++scale) {
     const float edge = voxel * static_cast<float>(1 << scale);
     if (scale > 0) {
@@ -267,17 +270,18 @@ Surfels makeSurfels(const PointCloud& cloud, float voxel) {
     }
     std::vector<std::uint8_t> wanted(grid.cubes.size(), 0);
     for (const std::uint32_t i : open) wanted[cube_of[i]] = 1;
-    const std::vector<Lie> lies = computeLies(grid, wanted, edge, flat);
+    const std::vector<LocalPlane> planes = fitLocalPlanes(grid, wanted, edge, flat);
     std::vector<std::uint32_t> still_open;
     for (const std::uint32_t i : open) {
-      const Lie& lie = lies[cube_of[i]];
-      if (lie.planarity < 0.0F) {
+      const LocalPlane& local_plane = planes[cube_of[i]];
+      if (local_plane.planarity < 0.0F) {
         still_open.push_back(i);
         continue;
       }
       Surfel& surfel = surfels.all[i];
-      surfel.normal = lie.normal.dot(surfel.mean) > 0.0F ? Eigen::Vector3f(-lie.normal) : lie.normal;
-      surfel.planarity = lie.planarity;
+      surfel.normal =
+          local_plane.normal.dot(surfel.mean) > 0.0F ? Eigen::Vector3f(-local_plane.normal) : local_plane.normal;
+      surfel.planarity = local_plane.planarity;
     }
     open = std::move(still_open);
   }

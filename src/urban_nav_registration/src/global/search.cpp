@@ -19,10 +19,10 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr double kHalfTurn = 3.14159265358979;
-constexpr int kBearings = 12;       // of walls, 15 deg each
-constexpr double kFarthest = 50.0;  // m from the sensor: beyond, headings are too coarse
+constexpr int kBearings = 12;       // bins of wall directions, 15 deg each
+constexpr double kFarthest = 50.0;  // m from the sensor: beyond, the resolution of headings is too coarse
 constexpr std::size_t kKept = 10;   // candidates
-constexpr int kShiftLanes = 8;      // shifts that are summed up at once
+constexpr int kShiftLanes = 8;      // shifts summed at once
 
 using Piece = VerticalStructure::Piece;
 
@@ -43,12 +43,12 @@ std::vector<Piece> cutPieces(const Surfels& surfels, const UpDirection& upright,
 }
 
 int toBearing(double angle) {
-  const double turns = angle / kHalfTurn;  // walls are the same from both sides
+  const double turns = angle / kHalfTurn;  // modulo half a turn, as walls have two sides
   return static_cast<int>((turns - std::floor(turns)) * kBearings) % kBearings;
 }
 
-/// One picture from above for each bearing: 2 where a piece lies, 1 next to it (in place or bearing). Around what may
-/// hold pieces there is a margin of two windows, so that a window which reaches beyond the margin holds nothing.
+/// One top view per wall direction: 2 at a piece, 1 next to it (in position or direction). A margin of two windows
+/// around the pieces ensures that windows beyond it are empty.
 struct Pictures {
   double x0 = 0.0, y0 = 0.0, cell = 1.0;
   int width = 0;
@@ -90,13 +90,13 @@ struct Peak {
   int score = 0;
 };
 
-/// sums[i] += counts[i], for a whole number of lanes.
+/// sums[i] += counts[i]; requires a multiple of kShiftLanes.
 void addRow(const std::uint8_t* counts, std::uint16_t* sums, int length) {
   for (int i = 0; i < length; i += kShiftLanes)
     cv::v_store(sums + i, cv::v_add_wrap(cv::v_load(sums + i), cv::v_load_expand(counts + i)));
 }
 
-/// The best shifts of one heading.
+/// Returns the best shifts for one heading.
 std::vector<Peak> findPeaks(Pictures& pictures, const std::vector<Piece>& pieces, int heading, int headings,
                             const Vector3d& centre, int half) {
   const double angle = 2.0 * kHalfTurn * heading / headings, c = std::cos(angle), s = std::sin(angle);

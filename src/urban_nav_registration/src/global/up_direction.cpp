@@ -11,7 +11,7 @@ namespace {
 constexpr float kHalfTurnF = 3.14159265F;
 constexpr float kAlikeNormal = 0.985F;  // cosine of 10 deg
 
-/// Sum of planarity over the normals within a cone around `axis`, and their mean direction.
+/// Returns the sum of planarity of normals within a cone around `axis`, and their mean direction.
 std::pair<float, Eigen::Vector3f> within(const Surfels& surfels, const Eigen::Vector3f& axis, float cosine) {
   float weight = 0.0F;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -47,7 +47,7 @@ UpDirection estimateUpDirection(const Surfels& surfels) {
     const Eigen::Vector3f sum = within(surfels, upright.up, kAlikeNormal).second;
     if (sum.norm() > 0.0F) upright.up = sum.normalized();
   }
-  // The fullest layer of 0.4 m, in steps of half of that.
+  // Fullest layer of 0.4 m, in steps of half of that.
   constexpr float kLayer = 0.2F, kNear = 20.0F;
   std::vector<float> layers(400, 0.0F);
   for (const Surfel& surfel : surfels.all) {

@@ -6,16 +6,16 @@
 
 namespace urban_nav_registration {
 
-/// How a cloud stands.
+/// Vertical direction and ground of a cloud.
 struct UpDirection {
   Eigen::Vector3f up =
-      Eigen::Vector3f::UnitZ();  ///< against gravity as far as the ground shows it, in the cloud's frame
+      Eigen::Vector3f::UnitZ();  ///< opposite to gravity as estimated from the ground, in the cloud's frame
   float ground = 0.0F;           ///< height of the ground around the sensor, m along `up`
   bool has_ground = false;
 };
 
-/// The direction within 35 deg of z that most normals share, and the height at which most of those surfaces near the
-/// sensor lie.
+/// Returns the most frequent direction of normals within 35 deg of z, and the most frequent height of these surfaces
+/// near the sensor.
 UpDirection estimateUpDirection(const Surfels& surfels);
 
 }  // namespace urban_nav_registration

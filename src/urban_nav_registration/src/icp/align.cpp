@@ -20,12 +20,12 @@ using urban_nav_core::PointCloud;
 
 namespace {
 
-constexpr std::size_t kFewPoints = 30;  // less is no cloud: a plane of 25 pieces cannot come of it
+constexpr std::size_t kFewPoints = 30;  // fewer points cannot give 25 surfels
 constexpr std::size_t kFewSurfaces = 25;
 constexpr double kAllHeadings = 3.14159265358979323846;
-constexpr float kFreeCube = 2.0F;  // voxels: a beam's neighbours in the next scans go through the same cube
+constexpr float kFreeCube = 2.0F;  // voxels: adjacent beams of the next scans pass through the same cube
 
-/// What clouds that were gathered by odometry tell beyond their surfaces.
+/// Free space of local clouds.
 struct Spaces {
   FreeSpace of_source, of_target;
 
@@ -33,14 +33,14 @@ struct Spaces {
       : of_source(source, kFreeCube * voxel), of_target(target, kFreeCube * voxel) {}
 };
 
-/// m: residuals that noise and bend make.
+/// Returns the residuals expected from noise and deformation, m.
 RobustScale explainedBy(const PointCloud& source, const PointCloud& target, double deformation_sigma, float voxel) {
   const RobustScale a = cloudNoise(source, voxel), b = cloudNoise(target, voxel);
   return {std::max(std::hypot(a.all, b.all, deformation_sigma), 1e-9),
           std::max(std::hypot(a.upright, b.upright, deformation_sigma), 1e-9)};
 }
 
-/// Everything about the two clouds that does not depend on the pose.
+/// Data of the two clouds that do not depend on the pose.
 struct Pair {
   const Surfels& source_surfels;
   const Surfels& target_surfels;
@@ -48,9 +48,9 @@ struct Pair {
   Source source;
   const Parameters& parameters;
   const PosePredicate& is_possible;
-  std::optional<RobustScale> explained;  ///< where it is asked for
-  std::optional<Spaces> spaces;          ///< of gathered clouds
-  bool is_planar = false;                ///< two scans of one plane each, from files
+  std::optional<RobustScale> explained;  ///< expected residuals, if required
+  std::optional<Spaces> spaces;          ///< for local clouds
+  bool is_planar = false;                ///< two planar scans, from files
 };
 
 /// Normal of the plane of planar scans in the target frame.
@@ -59,7 +59,7 @@ std::optional<Vector3d> scanPlane(const Pair& pair) {
   return pair.target_surfels.scan_plane->cast<double>();
 }
 
-/// Logarithm of the number of poses in the plane, a voxel apart, within a distance and a turn of a guess.
+/// Returns the logarithm of the number of poses in the plane, a voxel apart, within a distance and an angle of a guess.
 double countPoses(const Pair& pair, double radius, double turn) {
   double squares = 0.0;
   for (const Surfel& surfel : pair.source_surfels.all) squares += static_cast<double>(surfel.mean.squaredNorm());
@@ -76,40 +76,40 @@ struct Try {
 };
 
 Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t end) {
-  Try made;
-  made.refined = refine(pair.source, pair.target, start, first, end, pair.parameters.iterations);
-  made.fit = computeFit(pair.source.steps()[end - 1], made.refined, pair.parameters);
-  return made;
+  Try attempt;
+  attempt.refined = refine(pair.source, pair.target, start, first, end, pair.parameters.iterations);
+  attempt.fit = computeFit(pair.source.steps()[end - 1], attempt.refined, pair.parameters);
+  return attempt;
 }
 
-Observability computeObservability(const Try& made, const Pair& pair) {
+Observability computeObservability(const Try& attempt, const Pair& pair) {
   const double bias = pair.spaces ? pair.explained->all : pair.parameters.laser_bias;
-  return computeObservability(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters,
+  return computeObservability(attempt.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters,
                               scanPlane(pair));
 }
 
-std::optional<ValidationContext> validationContext(const Try& made, const Pair& pair) {
+std::optional<ValidationContext> validationContext(const Try& attempt, const Pair& pair) {
   if (!pair.explained) return std::nullopt;
-  const RobustScale spread = computeResidualScale(made.refined.matches);
+  const RobustScale spread = computeResidualScale(attempt.refined.matches);
   ValidationContext plausibility;
   plausibility.misfit = spread.all / pair.explained->all;
   plausibility.upright_misfit = spread.upright / pair.explained->upright;
   if (pair.spaces)
     plausibility.seen_through =
         freeSpaceViolation(pair.source_surfels.all, pair.target_surfels.all, pair.spaces->of_source,
-                           pair.spaces->of_target, made.refined, pair.parameters.inlier_distance)
+                           pair.spaces->of_target, attempt.refined, pair.parameters.inlier_distance)
             .share();
   return plausibility;
 }
 
-bool isPossible(const Try& made, const Pair& pair) {
-  const std::optional<ValidationContext> plausibility = validationContext(made, pair);
+bool isPossible(const Try& attempt, const Pair& pair) {
+  const std::optional<ValidationContext> plausibility = validationContext(attempt, pair);
   if (plausibility && !isPlausible(*plausibility, pair.parameters)) return false;
   return !pair.is_possible ||
-         pair.is_possible({made.refined.T_target_source, computeObservability(made, pair).information});
+         pair.is_possible({attempt.refined.T_target_source, computeObservability(attempt, pair).information});
 }
 
-/// Can it be, give or take what a candidate may be off?
+/// Returns whether a candidate is possible within its accuracy.
 bool mayBe(const Pose& candidate, const Pair& pair) {
   if (!pair.is_possible) return true;
   urban_nav_core::Constraint rough;
@@ -118,33 +118,33 @@ bool mayBe(const Pose& candidate, const Pair& pair) {
   return pair.is_possible(rough);
 }
 
-/// Of an alignment from a guess: no further than its counterparts were looked for.
-std::optional<PlanarEvidence> localEvidence(const Try& made, const Pair& pair) {
+/// Returns the evidence of an alignment from a guess; its poses are limited by the maximum correspondence distance.
+std::optional<PlanarEvidence> localEvidence(const Try& attempt, const Pair& pair) {
   if (!pair.is_planar) return std::nullopt;
   constexpr double kBasin = 0.5;  // rad
-  return PlanarEvidence{computePlanarEvidence(made.fit, made.fit.score()),
+  return PlanarEvidence{computePlanarEvidence(attempt.fit, attempt.fit.score()),
                         countPoses(pair, pair.parameters.max_correspondence_distance, kBasin)};
 }
 
-/// Of the best pose of a search against the best different one, which has this share of its score.
-std::optional<PlanarEvidence> searchEvidence(const Try& made, double second, const Pair& pair) {
+/// Returns the evidence of the best pose of a search against the best different one, with score ratio `second`.
+std::optional<PlanarEvidence> searchEvidence(const Try& attempt, double second, const Pair& pair) {
   if (!pair.is_planar) return std::nullopt;
-  const double score = made.fit.score();
-  return PlanarEvidence{computePlanarEvidence(made.fit, score) - computePlanarEvidence(made.fit, second * score),
+  const double score = attempt.fit.score();
+  return PlanarEvidence{computePlanarEvidence(attempt.fit, score) - computePlanarEvidence(attempt.fit, second * score),
                         countPoses(pair, pair.parameters.search_radius, kAllHeadings)};
 }
 
-Alignment judged(const Try& made, const Pair& pair, const std::optional<PlanarEvidence>& planar, Alignment alignment,
+Alignment judged(const Try& attempt, const Pair& pair, const std::optional<PlanarEvidence>& planar, Alignment alignment,
                  bool is_alone = false) {
-  alignment.T_target_source = made.refined.T_target_source;
-  alignment.iterations += made.refined.iterations;
-  const Observability observed = computeObservability(made, pair);
-  std::optional<ValidationContext> plausibility = validationContext(made, pair);
+  alignment.T_target_source = attempt.refined.T_target_source;
+  alignment.iterations += attempt.refined.iterations;
+  const Observability observed = computeObservability(attempt, pair);
+  std::optional<ValidationContext> plausibility = validationContext(attempt, pair);
   if (plausibility) plausibility->is_alone = is_alone;
-  judge(made.fit, plausibility, planar, made.refined, observed, pair.parameters, alignment);
+  judge(attempt.fit, plausibility, planar, attempt.refined, observed, pair.parameters, alignment);
   if (alignment.verdict != ClosureVerdict::Rejected && pair.is_possible &&
-      !pair.is_possible({made.refined.T_target_source, observed.information}))
-    reject(alignment, AlignmentReason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
+      !pair.is_possible({attempt.refined.T_target_source, observed.information}))
+    reject(alignment, AlignmentReason::Impossible, "the surfaces fit, but the pose contradicts other information");
   return alignment;
 }
 
@@ -153,20 +153,20 @@ std::size_t countSurfaces(const Surfels& surfels) {
                                                 [](const Surfel& surfel) { return surfel.planarity > 0.0F; }));
 }
 
-/// False, and the alignment rejected, where the clouds cannot be aligned at all.
+/// Returns false, with the alignment rejected, if the clouds cannot be aligned.
 bool checkClouds(const Surfels& source, const Surfels& target, Alignment& alignment) {
   const auto check = [&](const Surfels& surfels, const char* which) {
     if (surfels.points < kFewPoints) {
       reject(alignment, AlignmentReason::TooFewPoints,
-             std::string("the ") + which + " holds " + std::to_string(surfels.points) + " points, at least " +
-                 std::to_string(kFewPoints) + " are needed");
+             std::string("too few points in the ") + which + ": " + std::to_string(surfels.points) + ", at least " +
+                 std::to_string(kFewPoints) + " required");
       return false;
     }
     const std::size_t surfaces = countSurfaces(surfels);
     if (surfaces < kFewSurfaces) {
       reject(alignment, AlignmentReason::NoSurfaces,
-             std::string("the ") + which + " shows " + std::to_string(surfaces) + " pieces of surface, at least " +
-                 std::to_string(kFewSurfaces) + " are needed");
+             std::string("too few surfaces in the ") + which + ": " + std::to_string(surfaces) + ", at least " +
+                 std::to_string(kFewSurfaces) + " required");
       return false;
     }
     return true;
@@ -176,19 +176,19 @@ bool checkClouds(const Surfels& source, const Surfels& target, Alignment& alignm
 
 bool areOne(const Pose& a, const Pose& b) { return distanceBetween(a, b) < 0.5 && angleBetween(a, b) < 0.09; }
 
-/// Another place, not the same one further along a free direction.
+/// Returns whether a pose is distinct from the best one, not only displaced along a free direction.
 bool isAnother(const Pose& pose, const Alignment& best) {
-  constexpr double kFar = 50.0;  // squared deviations: six would be usual
+  constexpr double kFar = 50.0;  // squared standard deviations; the expected value is six
   if (areOne(pose, best.T_target_source)) return false;
   if (best.verdict != ClosureVerdict::Degenerate) return true;
   const Vector6d d = boxMinus(pose, best.T_target_source);
   return d.dot(best.information * d) > kFar;
 }
 
-/// What a glance around found that might be as good as an answer that was found near the guess: usually nothing.
+/// Returns candidates of the coarse search that may fit as well as the alignment from the guess; usually none.
 std::vector<PoseCandidate> findRivals(const Alignment& local, const std::vector<PoseCandidate>& candidates) {
-  constexpr double kFar = 2.5, kTurned = 0.26;  // m, rad: what a coarse candidate may be off
-  constexpr double kClearly = 0.85;             // of the answer's own score: below, it is not as good
+  constexpr double kFar = 2.5, kTurned = 0.26;  // m, rad: accuracy of a coarse candidate
+  constexpr double kClearly = 0.85;             // of the score of the alignment: below, the fit is clearly worse
   const auto isOwn = [&](const PoseCandidate& candidate) {
     return distanceBetween(candidate.T_target_source, local.T_target_source) < kFar &&
            angleBetween(candidate.T_target_source, local.T_target_source) < kTurned;
@@ -202,10 +202,10 @@ std::vector<PoseCandidate> findRivals(const Alignment& local, const std::vector<
   return others;
 }
 
-/// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far
-/// below the best.
+/// Returns distinct alignments of the candidates that remain after a coarse alignment, except for those with much lower
+/// scores than the best.
 std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
-  constexpr double kFarBelow = 0.6;  // of the best score; max_second_best_ratio asks for more
+  constexpr double kFarBelow = 0.6;  // of the best score; max_second_best_ratio is higher
   const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;
   std::vector<Try> coarse;
   for (const PoseCandidate& candidate : candidates) {
@@ -215,38 +215,39 @@ std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& c
   const auto better = [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); };
   std::stable_sort(coarse.begin(), coarse.end(), better);
   std::vector<Try> tries;
-  for (auto made = coarse.begin(); made != coarse.end(); ++made) {
-    if (made->fit.score() < kFarBelow * coarse.front().fit.score()) break;
+  for (auto attempt = coarse.begin(); attempt != coarse.end(); ++attempt) {
+    if (attempt->fit.score() < kFarBelow * coarse.front().fit.score()) break;
     const auto isSame = [&](const Try& other) {
-      return areOne(made->refined.T_target_source, other.refined.T_target_source);
+      return areOne(attempt->refined.T_target_source, other.refined.T_target_source);
     };
-    if (std::none_of(coarse.begin(), made, isSame))
-      tries.push_back(tryFrom(pair, made->refined.T_target_source, from + 1, end));
+    if (std::none_of(coarse.begin(), attempt, isSame))
+      tries.push_back(tryFrom(pair, attempt->refined.T_target_source, from + 1, end));
   }
   return tries;
 }
 
-/// The best of the candidates, and how the best different one compares with it.
+/// Returns the best alignment of the candidates, with the best distinct one as alternative.
 Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first,
                    const std::vector<PoseCandidate>& candidates) {
-  constexpr double kNear = 0.7;  // of the answer's score: below, a rival is none, which allows for less to be shared
+  constexpr double kNear = 0.7;  // of the score of the result: below, it is no alternative, including the loss of
+                                 // overlap
   std::vector<Try> tries = listTries(pair, candidates);
   if (first != nullptr) tries.insert(tries.begin(), *first);
   if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0, pair.source.steps().size()));
   std::stable_sort(tries.begin(), tries.end(),
                    [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); });
-  const auto is_possible = [&](const Try& made) { return isPossible(made, pair); };
+  const auto is_possible = [&](const Try& attempt) { return isPossible(attempt, pair); };
   const auto found = std::find_if(tries.begin(), tries.end(), is_possible);
   if (found == tries.end()) {
     alignment = judged(tries.front(), pair, searchEvidence(tries.front(), 0.0, pair), alignment);
     alignment.searched = true;
     if (alignment.verdict != ClosureVerdict::Rejected)
-      reject(alignment, AlignmentReason::Impossible, "no pose that can be was found");
+      reject(alignment, AlignmentReason::Impossible, "no possible pose found");
     return alignment;
   }
   const Alignment first_judged = judged(*found, pair, std::nullopt, alignment);
-  const auto second = std::find_if(found + 1, tries.end(), [&](const Try& made) {
-    return isAnother(made.refined.T_target_source, first_judged) && is_possible(made);
+  const auto second = std::find_if(found + 1, tries.end(), [&](const Try& attempt) {
+    return isAnother(attempt.refined.T_target_source, first_judged) && is_possible(attempt);
   });
   const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
   alignment = share < kNear || pair.is_planar
@@ -257,7 +258,7 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   alignment.tests.push_back({"second_pose", share, pair.parameters.max_second_best_ratio, false,
                              share <= pair.parameters.max_second_best_ratio});
   if (alignment.verdict != ClosureVerdict::Rejected && share > pair.parameters.max_second_best_ratio)
-    reject(alignment, AlignmentReason::Ambiguous, "another, different pose fits as well");
+    reject(alignment, AlignmentReason::Ambiguous, "ambiguous: a different pose fits as well");
   return alignment;
 }
 
@@ -289,20 +290,20 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   const auto explain = [&] {
     if (!pair.explained) pair.explained = explainedBy(source, target, parameters.laser_bias, voxel);
   };
-  const auto look = [&](const Vector3d& centre, const SearchResolution& grain) {
+  const auto findCandidates = [&](const Vector3d& centre, const SearchResolution& grain) {
     return searchGlobally(extractVerticalStructure(surfels[0], grain), extractVerticalStructure(surfels[1], grain),
                           centre, parameters.search_radius, grain);
   };
   if (search == SearchMode::AtOnce) {
     explain();
-    return searched(pair, guess, alignment, nullptr, look(guess.t(), kFineResolution));
+    return searched(pair, guess, alignment, nullptr, findCandidates(guess.t(), kFineResolution));
   }
   const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
   const Alignment local = judged(first, pair, localEvidence(first, pair), alignment);
   if (search == SearchMode::Never || local.verdict == ClosureVerdict::Degenerate) return local;
   const bool failed = local.verdict == ClosureVerdict::Rejected;
-  const std::vector<PoseCandidate> others =
-      failed ? look(guess.t(), kFineResolution) : findRivals(local, look(guess.t(), kCoarseResolution));
+  const std::vector<PoseCandidate> others = failed ? findCandidates(guess.t(), kFineResolution)
+                                                   : findRivals(local, findCandidates(guess.t(), kCoarseResolution));
   if (!failed && others.empty()) return local;
   explain();
   return searched(pair, guess, alignment, &first, others);

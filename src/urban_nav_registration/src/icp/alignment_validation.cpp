@@ -9,14 +9,14 @@ using urban_nav_core::ClosureVerdict;
 
 namespace {
 
-constexpr double kFewUpright = 20.0;  // pieces: fewer say nothing
+constexpr double kFewUpright = 20.0;  // surfels: with fewer the share is not significant
 constexpr double kUprightMisfit =
-    2.5;  // times max_residual_ratio: cubes blur the edges of fronts, otherwise from each viewpoint
+    2.5;  // times max_residual_ratio: voxels blur the edges of facades differently from each viewpoint
 constexpr double kEnoughAlone =
-    0.67;  // of min_vertical_inliers, where nothing else comes near: leaves and crowds fall upon themselves by a third
+    0.67;  // of min_vertical_inliers, without alternatives: of leaves and crowds a third coincides
 constexpr double kStillMoving = 0.005;  // m in the last step
-constexpr double kChanceShare = 0.1;    // of pieces of wall at a pose that is wrong, before it is aligned: measured
-constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
+constexpr double kChanceShare = 0.1;    // of wall surfels at a wrong pose, before alignment; measured
+constexpr double kPatchVoxels = 8.0;    // 2 m for 0.25 m: neighbours whose normals have no beam in common
 
 struct Failure {
   AlignmentReason reason;
@@ -26,7 +26,7 @@ struct Failure {
 std::string explainFree(std::size_t directions, bool planar) {
   return std::to_string(directions) + " of " +
          (planar ? "the three directions in the plane of the scans" : "six directions") +
-         " are held by nothing in the clouds";
+         " are not constrained by the clouds";
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ Fit computeFit(const std::vector<Surfel>& source, const Refined& refined, const 
 
 Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters,
                                    const std::optional<Vector3d>& scan_plane) {
-  const Doubt doubt{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation, scan_plane};
-  return observe(refined.matches, std::max(refined.sigma, 1e-4), doubt, kPatchVoxels * voxel);
+  const CloudErrors errors{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation, scan_plane};
+  return observe(refined.matches, std::max(refined.sigma, 1e-4), errors, kPatchVoxels * voxel);
 }
 
 double computePlanarEvidence(const Fit& fit, double share) {
@@ -100,39 +100,40 @@ void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
   };
   alignment.tests.clear();
   alignment.matches = static_cast<std::size_t>(fit.matches);
-  test("matches", fit.matches, parameters.min_surfels, true, AlignmentReason::TooFewMatches, "the clouds hardly meet");
+  test("matches", fit.matches, parameters.min_surfels, true, AlignmentReason::TooFewMatches,
+       "too little overlap of the clouds");
   test("residual_m", refined.sigma, parameters.max_residual, false, AlignmentReason::ResidualTooLarge,
-       "the surfaces do not fall upon each other");
+       "residuals of the surfaces are too large");
   const bool upright = fit.upright >= kFewUpright;
   if (plausibility && plausibility->seen_through) {
     test("misfit", plausibility->misfit, parameters.max_residual_ratio, false, AlignmentReason::Misfit,
-         "the surfaces lie further apart than noise and odometry explain");
+         "residuals of the surfaces exceed noise and odometry drift");
     test("upright_misfit", plausibility->upright_misfit, kUprightMisfit * parameters.max_residual_ratio, false,
-         AlignmentReason::Misfit, "the upright surfaces lie further apart than noise and odometry explain");
+         AlignmentReason::Misfit, "residuals of the vertical surfaces exceed noise and odometry drift");
     test("seen_through", *plausibility->seen_through, parameters.max_free_space_violation, false,
-         AlignmentReason::SeenThrough, "beams of one cloud went through surfaces of the other");
+         AlignmentReason::SeenThrough, "beams of one cloud passed through surfaces of the other");
     test("shared", upright ? fit.upright_inliers : fit.inliers, parameters.min_overlap, true,
-         AlignmentReason::TooFewInliers, "too few of the surfaces fall upon each other");
+         AlignmentReason::TooFewInliers, "too few of the surfaces coincide");
   } else {
     if (plausibility)
       test("misfit", plausibility->misfit, parameters.max_unmodelled_residual_ratio, false, AlignmentReason::Misfit,
-           "the surfaces lie further apart than noise explains");
+           "residuals of the surfaces exceed the noise");
     const double enough = plausibility && plausibility->is_alone ? kEnoughAlone : 1.0;
     test("inliers", fit.inliers, parameters.min_inliers, true, AlignmentReason::TooFewInliers,
-         "too few of the surfaces fall upon each other");
+         "too few of the surfaces coincide");
     if (upright)
       test("upright_inliers", fit.upright_inliers, enough * parameters.min_vertical_inliers, true,
-           AlignmentReason::TooFewInliers, "too few of the upright surfaces fall upon each other");
+           AlignmentReason::TooFewInliers, "too few of the vertical surfaces coincide");
   }
   if (planar)
     test("planar_evidence", planar->evidence, planar->least, true, AlignmentReason::Ambiguous,
-         "so few surfaces of planar scans also fall upon each other where the places differ");
+         "too few surfaces of planar scans coincide to exclude a different place");
   test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, AlignmentReason::NotConverged,
-       "the alignment did not come to rest");
+       "the alignment did not converge");
   alignment.tests.push_back(
       {"weakest_direction_m", observed.weakest, parameters.free_deviation, false, observed.free_directions.empty()});
   if (failure.reason == AlignmentReason::None && observed.held < 2)
-    failure = {AlignmentReason::TooFewMatches, "hardly any direction is held"};
+    failure = {AlignmentReason::TooFewMatches, "almost all directions are unconstrained"};
   if (failure.reason != AlignmentReason::None) {
     reject(alignment, failure.reason, failure.sentence);
     return;

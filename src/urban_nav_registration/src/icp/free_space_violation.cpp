@@ -7,7 +7,7 @@ namespace urban_nav_registration {
 
 namespace {
 
-/// Of upright pieces, by planarity, in the frame of the free space.
+/// Returns the planarity of vertical surfels in free space; poses relate them to the frame of the free space.
 double within(const std::vector<Surfel>& surfels, const FreeSpace& space, const Pose& T_space_surfels) {
   const Eigen::Matrix3f R = T_space_surfels.R().cast<float>();
   const Eigen::Vector3f t = T_space_surfels.t().cast<float>();

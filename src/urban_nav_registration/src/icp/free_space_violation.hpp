@@ -6,10 +6,10 @@
 
 namespace urban_nav_registration {
 
-/// How much of two clouds' upright surfaces, laid upon each other, the beams of the other one went through.
+/// Share of the vertical surfaces of two aligned clouds that beams of the other cloud passed through.
 struct SeenThrough {
-  double confirmed = 0.0;     ///< pieces of the source on a surface of the target
-  double contradicted = 0.0;  ///< pieces of both, half of each counted, where the other one saw nothing
+  double confirmed = 0.0;     ///< surfels of the source on a surface of the target
+  double contradicted = 0.0;  ///< surfels of both in free space of the other, half of each counted
   /// 0: no contradiction; 1: no agreement.
   double share() const { return contradicted / std::max(confirmed + contradicted, 1e-9); }
 };

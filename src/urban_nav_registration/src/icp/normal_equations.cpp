@@ -9,7 +9,7 @@
 namespace urban_nav_registration {
 
 namespace {
-constexpr std::size_t kGrain = 512;  // fixed: the partition is part of the result
+constexpr std::size_t kGrain = 512;  // fixed: the partition affects the rounding
 }
 
 void Matcher::match(const Pose& T_target_source, std::vector<Match>& matches) {
@@ -81,8 +81,8 @@ double computeSpread(const std::vector<Match>& matches) {
     sizes.emplace_back(std::abs(match.residual), match.weight);
     sum += match.weight;
   }
-  // Weighted median by halving what it may be in; a tie of sizes has equal values, so the order within the halves does
-  // not matter but for the rounding of their sums, and nth_element is a function of its input.
+  // Weighted median by bisection. Equal sizes have equal values, so the order within the halves affects only the
+  // rounding of their sums, and nth_element is deterministic.
   auto begin = sizes.begin(), end = sizes.end();
   double below = 0.0;  // weight before `begin`
   while (end - begin > 1) {

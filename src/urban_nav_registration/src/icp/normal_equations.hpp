@@ -13,44 +13,45 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
-/// A source surfel beside the target surfel it fell on, in the target frame.
+/// A source surfel and its counterpart in the target, in the target frame.
 struct Match {
-  Vector3d lever = Vector3d::Zero();          ///< R p_source: from the source's origin
-  Vector3d source_normal = Vector3d::Zero();  ///< turned to the target frame, on the target normal's side
+  Vector3d lever = Vector3d::Zero();          ///< R p_source: relative to the source's origin
+  Vector3d source_normal = Vector3d::Zero();  ///< rotated to the target frame, on the side of the target normal
   Vector3d target_normal = Vector3d::Zero();
-  double residual = 0.0;  ///< target_normal . (T p_source - p_target), m: how far before the plane
-  double weight = 0.0;    ///< planarity of both; 0: no match, and nothing else means anything
+  double residual = 0.0;  ///< target_normal . (T p_source - p_target), m: signed distance from the plane
+  double weight = 0.0;    ///< product of the planarities; 0: no match, and the other members are undefined
 };
 
-/// d residual / d (rho, phi) of T_target_source = [Exp(phi) R, t + rho] for a plane of this normal: (n, lever x n).
+/// Derivative of the residual by (rho, phi) of T_target_source = [Exp(phi) R, t + rho] for a plane of this normal: (n,
+/// lever x n).
 inline Vector6d planeJacobian(const Vector3d& lever, const Vector3d& normal) {
   const Vector3d turn = lever.cross(normal);
   return (Vector6d() << normal.x(), normal.y(), normal.z(), turn.x(), turn.y(), turn.z()).finished();
 }
 
-/// Source surfels beside their counterparts, pose after pose: a counterpart is looked for anew only where the surfel
-/// has moved by more than leaves it the nearest one, which near the end of an alignment is hardly anywhere (Greenspan
-/// and Godin 2001). The turn of its normal in between is let pass: it changes two counterparts in ten thousand, near 45
-/// deg, and the pose by microns. Source and target must outlive it.
+/// Finds the counterparts of source surfels for successive poses. A counterpart is searched again only if the surfel
+/// has moved by more than its margin, which near convergence is rare (Greenspan and Godin 2001). The rotation of its
+/// normal in between is neglected: it changes two counterparts in ten thousand, near 45 deg, and the pose by microns.
+/// Source and target must outlive this object.
 class Matcher {
  public:
   Matcher(const std::vector<Surfel>& source, const SurfelIndex& target) : source_(source), target_(target) {}
 
-  /// In the order of the source; those of planarity 0 and those without a counterpart have weight 0.
+  /// Returns matches in the order of the source; surfels of planarity 0 and those without a counterpart have weight 0.
   void match(const Pose& T_target_source, std::vector<Match>& matches);
 
  private:
   struct Held {
     SurfelIndex::Nearest nearest;
-    Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< for which it was found
+    Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< point at the search
   };
   const std::vector<Surfel>& source_;
   const SurfelIndex& target_;
   std::vector<Held> held_;
 };
 
-/// Sums of the robust normal equations H d = -b of the cost weight * sigma^2 log(1 + (r / sigma)^2): Cauchy's weight 1
-/// / (1 + (r / sigma)^2).
+/// Sums of the robust normal equations H d = -b of the cost weight * sigma^2 log(1 + (r / sigma)^2): Cauchy weights 1 /
+/// (1 + (r / sigma)^2).
 struct NormalEquations {
   Matrix6d H = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
@@ -60,7 +61,8 @@ struct NormalEquations {
 };
 NormalEquations sumUp(const std::vector<Match>& matches, double sigma);
 
-/// 1.4826 times the weighted median of the absolute residuals: the deviation of a Gaussian, m. 0 without matches.
+/// Returns 1.4826 times the weighted median of the absolute residuals: the standard deviation of a Gaussian, m. 0
+/// without matches.
 double computeSpread(const std::vector<Match>& matches);
 
 }  // namespace urban_nav_registration

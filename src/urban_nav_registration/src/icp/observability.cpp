@@ -13,7 +13,7 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr double kLeastError = 0.002;                           // m: no laser is better
+constexpr double kLeastError = 0.002;                           // m: lower limit for lasers
 constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m^2, rad^2: docs/conventions.md
 
 double robustWeight(const Match& match, double sigma) {
@@ -21,7 +21,7 @@ double robustWeight(const Match& match, double sigma) {
   return match.weight / (1.0 + ratio * ratio);
 }
 
-/// The tangent about the matches' centre in units of length: u = S (rho, phi), so that the six directions compare.
+/// Tangent about the matches' centre in units of length: u = S (rho, phi), so that the six directions are comparable.
 struct Scaled {
   Vector3d centre = Vector3d::Zero();
   double length = 1.0, weight = 0.0;
@@ -54,22 +54,23 @@ Scaled scaleMatches(const std::vector<Match>& matches, double sigma) {
   return scaled;
 }
 
-/// A match of weight as all that follows sees it.
+/// Jacobians of a match with positive weight.
 struct Row {
   Vector6d from_target, from_source;
-  double weight;            ///< share of all
-  std::uint32_t patch = 0;  ///< of surface, that it belongs to
+  double weight;            ///< share of the total weight
+  std::uint32_t patch = 0;  ///< index of its surface patch
 };
 
-/// Means over the matches, and sums over each patch of surface, whose errors go together.
+/// Means over the matches, and sums over surface patches, whose errors are correlated.
 struct Sums {
   Matrix6d agreed = Matrix6d::Zero();   // mean of J_source J_target^T, symmetric part
   Matrix6d normal = Matrix6d::Zero();   // mean of J_target J_target^T
-  std::vector<Row> rows;                // of each match of weight, in order
-  std::vector<Vector6d> pull_by_patch;  // sum of weight J_target: what an error of the whole patch pulls by
-  std::vector<double> weight_by_patch, residual_by_patch;  // the latter a weighted mean, m
+  std::vector<Row> rows;                // one per match with positive weight, in order
+  std::vector<Vector6d> pull_by_patch;  // sum of weight J_target: effect of an error common to the patch
+  std::vector<double> weight_by_patch, residual_by_patch;  // residual: weighted mean, m
 
-  /// By how much patches err as wholes, m: of their mean residuals. Infinite where they are too few to tell.
+  /// Returns the standard deviation of errors common to patches, m, from their mean residuals. Infinite with too few
+  /// patches.
   double errorOfPatches() const;
 };
 
@@ -100,7 +101,7 @@ Sums computeSums(const std::vector<Match>& matches, const Scaled& scaled, double
   return sums;
 }
 
-// The alignment has taken six numbers from them.
+// The alignment has used six degrees of freedom.
 double Sums::errorOfPatches() const {
   double squares = 0.0, weights = 0.0, weights2 = 0.0;
   for (std::size_t p = 0; p < weight_by_patch.size(); ++p) {
@@ -112,8 +113,8 @@ double Sums::errorOfPatches() const {
   return count > 7.0 ? std::sqrt(squares / weights * count / (count - 6.0)) : std::numeric_limits<double>::infinity();
 }
 
-/// Deviation of u^T agreed u by the noise of the normals, which is what the two differ by: of the product (a + e1)(a +
-/// e2) it is sqrt(a^2 e^2 + e^4 / 4) with e = e1 - e2. Neighbours share their noise, so it adds up within a patch.
+/// Returns the standard deviation of u^T agreed u due to noise of the normals, estimated from their difference: of the
+/// product (a + e1)(a + e2) it is sqrt(a^2 e^2 + e^4 / 4) with e = e1 - e2. Noise is common to the matches of a patch.
 double cloudNoise(const Sums& sums, const Vector6d& u) {
   std::vector<double> by_patch(sums.pull_by_patch.size(), 0.0);
   for (const Row& row : sums.rows) {
@@ -126,7 +127,7 @@ double cloudNoise(const Sums& sums, const Vector6d& u) {
   return std::sqrt(squares);
 }
 
-/// Orthonormal tangents, in scaled coordinates, of the motions that scans can measure: all six, or those in a plane.
+/// Returns orthonormal tangents, in scaled coordinates, of the measurable motions: all six, or those in a plane.
 Eigen::MatrixXd measurableMotions(const std::optional<Vector3d>& scan_plane) {
   if (!scan_plane) return Eigen::MatrixXd::Identity(6, 6);
   const Vector3d across = scan_plane->unitOrthogonal();
@@ -139,14 +140,14 @@ Eigen::MatrixXd measurableMotions(const std::optional<Vector3d>& scan_plane) {
 
 }  // namespace
 
-Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch) {
+Observability observe(const std::vector<Match>& matches, double sigma, const CloudErrors& errors, double patch) {
   Observability observed;
   const Scaled scaled = scaleMatches(matches, sigma);
   const Sums sums = computeSums(matches, scaled, sigma, patch);
-  const Eigen::MatrixXd motions = measurableMotions(doubt.scan_plane);
+  const Eigen::MatrixXd motions = measurableMotions(errors.scan_plane);
   const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(motions.transpose() * sums.agreed * motions));
-  const double bias = std::max(doubt.bias, 1e-4);
-  const double least = std::pow(bias / doubt.free_deviation, 2);
+  const double bias = std::max(errors.bias, 1e-4);
+  const double least = std::pow(bias / errors.free_deviation, 2);
   Matrix6d free = Matrix6d::Identity() - motions * motions.transpose();  // projector, in scaled coordinates
   std::vector<Vector6d> held_directions;
   for (Eigen::Index i = 0; i < motions.cols(); ++i) {
@@ -166,12 +167,12 @@ Observability observe(const std::vector<Match>& matches, double sigma, const Dou
   unlimited << Vector3d::Constant(kFreeTranslation), Vector3d::Constant(kFreeRotation * scaled.length * scaled.length);
   Matrix6d covariance = free * unlimited.asDiagonal() * free;
   if (!held_directions.empty()) {
-    // Within the held directions: the patches' own errors through the normal equations (cluster-robust, Liang and Zeger
-    // 1986), and what all share, which no residual shows: as much as that which differs.
+    // Within the constrained directions: errors of the patches by the normal equations (cluster-robust, Liang and Zeger
+    // 1986), and an error common to all, which residuals do not show, of the same size.
     const auto count = static_cast<Eigen::Index>(held_directions.size());
     Eigen::MatrixXd basis(6, count);
     for (Eigen::Index i = 0; i < count; ++i) basis.col(i) = held_directions[static_cast<std::size_t>(i)];
-    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(doubt.most, kLeastError));
+    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(errors.most, kLeastError));
     Matrix6d spread = Matrix6d::Zero();
     for (const Vector6d& pull : sums.pull_by_patch) spread += error * error * pull * pull.transpose();
     const auto normal_inverse =

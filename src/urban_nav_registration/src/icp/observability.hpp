@@ -9,33 +9,34 @@
 namespace urban_nav_registration {
 
 struct Observability {
-  Matrix6d information = Matrix6d::Zero();  ///< (rho, phi) in the target frame; exactly zero along what is free
+  Matrix6d information = Matrix6d::Zero();  ///< (rho, phi) in the target frame; exactly zero along free directions
   Matrix6d covariance = Matrix6d::Zero();   ///< for display
-  std::vector<Vector6d> free_directions;    ///< unit, in the same tangent; of planar scans those in the plane alone
+  std::vector<Vector6d> free_directions;    ///< unit, in the same tangent; for planar scans only those in the plane
   std::size_t held = 0;                     ///< number of directions that are not free
-  double weakest = 0.0;  ///< deviation that `Doubt::bias` alone leaves in the weakest direction, m at the mean distance
+  double weakest = 0.0;  ///< standard deviation due to `CloudErrors::bias` only, in the weakest direction, m at the
+                         ///< mean distance
 };
 
-/// How far clouds are to be believed, m.
-struct Doubt {
-  double bias = 0.0;            ///< what all of a cloud's points may be off together
-  double most = 0.0;            ///< that a patch may be off as a whole, where residuals cannot tell
-  double free_deviation = 0.0;  ///< a direction that `bias` moves by more than this is free
-  /// Unit normal in the target frame of the plane of two planar scans, which measure nothing out of it.
+/// Error model of clouds, m.
+struct CloudErrors {
+  double bias = 0.0;            ///< error common to all points of a cloud
+  double most = 0.0;            ///< limit of the error common to a patch, if residuals do not determine it
+  double free_deviation = 0.0;  ///< a direction that `bias` displaces by more than this is free
+  /// Unit normal in the target frame of the plane of two planar scans, which do not measure motions out of it.
   std::optional<Vector3d> scan_plane = {};
 };
 
-/// What the matches say about each direction.
+/// Computes the observability of each direction from the matches.
 ///
-/// A noisy normal fakes information along a wall: its square adds up. Here a direction counts as held only as far as
-/// the normals of both clouds agree: the mean of (J_source d)(J_target d), whose noise is independent and averages out,
-/// less twice its deviation over independent patches. And because beams of one device may err together (the range is
-/// off, the trajectory between the beams), a direction that the bias divided by that mean's root moves by more than
-/// `free_deviation` is free.
+/// Noise of the normals creates spurious information along a wall, since its square accumulates. Here the information
+/// of a direction is determined by the agreement of the normals of both clouds: the mean of (J_source d)(J_target d),
+/// whose noise is independent and averages out, minus twice its standard deviation over independent patches. As beams
+/// of one device may have a common error (range offset, trajectory between the beams), a direction is free if the bias
+/// divided by the root of that mean exceeds `free_deviation`.
 ///
-/// Of what is held, the information is that of patches of surface of `patch` m which err as wholes by what their
-/// residuals show, each for itself and all together, at most by `most`: the points of a patch share its normal, its
-/// beams and their odometry, so their number says nothing.
-Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch);
+/// The information in the other directions is that of surface patches of `patch` m, each with a common error estimated
+/// from the residuals, plus an error common to all patches, each limited to `most`: the points of a patch share its
+/// normal, its beams and their odometry, so their number is not informative.
+Observability observe(const std::vector<Match>& matches, double sigma, const CloudErrors& errors, double patch);
 
 }  // namespace urban_nav_registration

@@ -11,18 +11,18 @@ namespace urban_nav_registration {
 namespace {
 
 constexpr double kLeastSigmaShare =
-    0.04;  // of the voxel: 1 cm of 0.25 m, which no outdoor laser measures better (LMS 291: 1 cm)
+    0.04;  // of the voxel: 1 cm for 0.25 m, the accuracy of outdoor lasers (LMS 291: 1 cm)
 
 constexpr double kDamping =
-    5e-4;  // of the sum over the three directions; a direction counts as held above 1e-2 (observability.hpp)
+    5e-4;  // of the sum over the three directions; a direction counts as constrained above 1e-2 (observability.hpp)
 constexpr double kRelaxation =
-    1.8;  // of a step: Cauchy's weights are twice as stiff as his cost (1.9 times at Gaussian residuals of its scale),
-          // and what they stand for is a bound from above, which any factor below 2 takes down
-constexpr double kRest = 2e-4;        // m that the planes' distances still change by
+    1.8;  // of a step: the reweighted quadratic is twice as stiff as the Cauchy cost (1.9 times for Gaussian residuals
+          // of its scale), which it bounds from above, so that any factor below 2 decreases the cost
+constexpr double kRest = 2e-4;        // m, change of the planes' distances at convergence
 constexpr double kCoarseRest = 5e-3;  // of the reach, before the last step
 
 constexpr std::size_t kEnough =
-    3000;  // pieces for a step that another one follows: five times the voxels of a scan in a street
+    3000;  // maximum number of surfels, except at the last level: five times the voxels of a scan in a street
 
 std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, float edge) {
   CellTable table(surfels.size() / 4 + 16);
@@ -77,8 +77,8 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
       refined.sigma = std::max(computeSpread(refined.matches), 0.5 * kLeastSigmaShare * finest);
       const NormalEquations equations = sumUp(refined.matches, refined.sigma);
       ++refined.iterations;
-      // What nothing holds would wander with the noise of the normals: damped, it stays; what counts is twenty times
-      // stiffer.
+      // Damping keeps undetermined directions from drifting with the noise of the normals; constrained ones are twenty
+      // times stiffer.
       Matrix6d H = equations.H;
       const double scale = std::max(H(0, 0) + H(1, 1) + H(2, 2), 1e-12);
       const double turn = std::max(H(3, 3) + H(4, 4) + H(5, 5), 1e-12);

@@ -8,19 +8,19 @@
 
 namespace urban_nav_registration {
 
-/// A target with its index for each step from coarse to fine, made once for any number of starts.
+/// A target with its index for each level from coarse to fine, created once for any number of starts.
 class Target {
  public:
-  /// `coarsest`: how far a counterpart may be away in the first step, m; halved down to twice the voxel.
+  /// `coarsest`: maximum correspondence distance at the first level, m; halved per level down to twice the voxel.
   Target(const Surfels& surfels, double coarsest);
   const std::vector<std::shared_ptr<const SurfelIndex>>& steps() const { return steps_; }
 
  private:
-  std::vector<std::shared_ptr<const SurfelIndex>> steps_;  // each asks the next one first
+  std::vector<std::shared_ptr<const SurfelIndex>> steps_;  // each searches the next finer one first
 };
 
-/// A source thinned for each step of a Target, to one surfel (the most planar) per cube of half the reach or more, and
-/// a last step with all of them against the finest.
+/// A source thinned for each level of a Target to one surfel (the most planar one) per cube of half the reach or more,
+/// and a last level with all surfels against the finest index.
 class Source {
  public:
   Source(const Surfels& surfels, const Target& target);
@@ -33,16 +33,15 @@ class Source {
 struct Refined {
   Pose T_target_source;
   std::vector<Match> matches;  ///< at that pose
-  double sigma = 0.0;          ///< robust deviation of the residuals, m
-  double last_step =
-      0.0;  ///< by how much the last Gauss-Newton step would move the planes' distances, root mean square, m
+  double sigma = 0.0;          ///< robust standard deviation of the residuals, m
+  double last_step = 0.0;      ///< change of the planes' distances in the last Gauss-Newton step, root mean square, m
   int iterations = 0;
   bool usable = false;  ///< false: too few matches to solve for a pose
 };
 
-/// Gauss-Newton of point-to-plane distances (Chen and Medioni 1992) on SE(3), from coarse to fine, with Cauchy's weight
-/// at the spread that the residuals show, over-relaxed: those weights alone come near at half speed. The steps of the
-/// source from `first` (0: the coarsest) to before `end`, at least one.
+/// Gauss-Newton on point-to-plane distances (Chen and Medioni 1992) on SE(3), from coarse to fine, with Cauchy weights
+/// at the scale of the residuals. Over-relaxed, since iteratively reweighted steps converge at half speed. Uses the
+/// levels of the source from `first` (0: the coarsest) to before `end`, at least one.
 Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first, std::size_t end,
                int iterations);
 

@@ -45,7 +45,7 @@ cv::Mat decodeJpeg(const std::vector<std::uint8_t>& bytes, ImageSize size) {
 }
 
 std::vector<std::uint8_t> encodeJpeg(const urban_nav_core::ImageView& image, int quality) {
-  // cv::Mat has no const view; it is only read
+  // cv::Mat has no const view; the pixels are only read
   const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
                        static_cast<std::size_t>(image.stride));
   std::vector<std::uint8_t> bytes;

@@ -7,8 +7,8 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr int kLargestStoredSize = 32767;  // px: places are kept in 16 bits
-constexpr int kMostLevels = 8;             // of a pyramid from that size on
+constexpr int kLargestStoredSize = 32767;  // px: positions are stored in 16 bits
+constexpr int kMostLevels = 8;             // of a pyramid for that size
 
 }  // namespace
 
@@ -21,15 +21,14 @@ void archive(urban_nav_core::Archive& archive, Keyframe& keyframe) {
   if (!archive.isReading()) return;
   archive.require(keyframe.width >= 0 && keyframe.height >= 0 && keyframe.width <= kLargestStoredSize &&
                       keyframe.height <= kLargestStoredSize,
-                  "an image of no size");
+                  "image size out of range");
   for (const KeyframePoint& point : keyframe.points) {
-    archive.require(point.level < kMostLevels, "a point of no level");
+    archive.require(point.level < kMostLevels, "pyramid level of a point out of range");
     archive.require(point.u >= 0 && point.v >= 0 && point.u << point.level < keyframe.width &&
                         point.v << point.level < keyframe.height,
-                    "a point outside its image");
-    archive.require(std::abs(point.disparity) <= static_cast<float>(keyframe.width),
-                    "a disparity wider than its image");
-    archive.require(point.sigma_disparity > 0.0F, "a disparity without a deviation");
+                    "point outside the image");
+    archive.require(std::abs(point.disparity) <= static_cast<float>(keyframe.width), "disparity out of range");
+    archive.require(point.sigma_disparity > 0.0F, "standard deviation of a disparity is not positive");
   }
 }
 

@@ -8,7 +8,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-// Five seconds at 20 Hz: odometry that lags more has dropped frames. 40 MB at 512x384.
+// Five seconds at 20 Hz; with a longer delay odometry has dropped frames. 40 MB at 512x384.
 constexpr std::size_t kMaxPairs = 100;
 constexpr std::size_t kMaxPoses = 1000;
 

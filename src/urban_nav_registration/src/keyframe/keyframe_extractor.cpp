@@ -21,7 +21,7 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-// As swf_vo's front end has them, which says where they come from.
+// As in swf_vo's front end, which states their sources.
 constexpr int kStereoLevels = 3;
 constexpr double kSlack = 2.0;
 constexpr double kLargestDisparity = 0.16;
@@ -33,10 +33,10 @@ constexpr double kLeastStereoCorrelation = 0.85;
 constexpr std::uint8_t kClippedFrom = 254;
 constexpr int kClippingReach = 2;
 constexpr int kAttemptsPerPoint = 3;
-constexpr std::array<int, 3> kThresholds = {20, 10, 4};  // of FAST, until there are enough
-constexpr int kWantedPerPoint = 6;                       // corners, so that the quadtree has a choice
-// Bench, pairs, a street of 512x384: 80, 90, 95, 100 take 34, 51, 73, 124 kB, and of pairs 4 to 7.5 m apart 75, 77, 78,
-// 79 % are upgraded, nearer ones and errors not distinguished.
+constexpr std::array<int, 3> kThresholds = {20, 10, 4};  // FAST thresholds, tried until there are enough corners
+constexpr int kWantedPerPoint = 6;                       // corners per point, as a choice for the quadtree
+// Bench pairs, street of 512x384: qualities 80, 90, 95, 100 need 34, 51, 73, 124 kB; of pairs 4 to 7.5 m apart 75, 77,
+// 78, 79 % are upgraded; nearer pairs and errors do not differ.
 constexpr int kJpegQuality = 95;
 
 struct CornerCandidate {
@@ -86,17 +86,17 @@ bool measureDepth(const StereoCamera& camera, const ImageView& left, const Image
   if (!whole) return false;
   const auto source = urban_nav_core::cutSource(left, point.u, point.v);
   if (!source) return false;
-  // a surface at 45 deg to the line of sight is as deep as it is wide
+  // typical slope: a surface at 45 deg to the line of sight
   const double usual_slope = std::max(1.0, (*whole - offset + 0.5) * size) / camera.left.fx;
-  urban_nav_core::PatchTemplate made;
+  urban_nav_core::PatchTemplate warped;
   const auto found =
-      urban_nav_core::alignAcross(right, *source, Eigen::Vector2d(point.u - *whole, point.v), usual_slope, made);
+      urban_nav_core::alignAcross(right, *source, Eigen::Vector2d(point.u - *whole, point.v), usual_slope, warped);
   const auto& alignment = found.alignment;
   if (!alignment.converged || alignment.correlation < kLeastStereoCorrelation ||
       std::abs(alignment.position.y() - point.v) > kSameRow)
     return false;
   const double disparity = (point.u - alignment.position.x()) * size;
-  const double variance = 2.0 * alignment.covariance(0, 0) * size * size;  // the left patch has noise as well
+  const double variance = 2.0 * alignment.covariance(0, 0) * size * size;  // includes the noise of the left patch
   if (!(disparity - camera.disparity_offset >= kLeastDisparityPx) || !std::isfinite(variance)) return false;
   point.disparity = static_cast<float>(disparity);
   point.sigma_disparity = static_cast<float>(std::sqrt(variance));
@@ -137,7 +137,7 @@ Keyframe KeyframeExtractor::extract(const urban_nav_core::PoseRef& at, const urb
   int attempts = kAttemptsPerPoint * points_;
   for (const CornerCandidate& candidate : candidates) {
     if (quadtree.count() >= points_ || attempts <= 0) break;
-    // where there is little else, better than nothing
+    // used only where there are few other corners
     if (candidate.of_clipped && 2 * quadtree.count() >= points_) break;
     const double u = candidate.u << candidate.level, v = candidate.v << candidate.level;
     if (!quadtree.mayAdd(u, v)) continue;

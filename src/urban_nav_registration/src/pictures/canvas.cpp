@@ -29,11 +29,11 @@ void writeTitle(cv::Mat& canvas, const std::string& title) {
 }
 
 Picture toPicture(const cv::Mat& canvas) {
-  Picture made;
-  made.width = canvas.cols;
-  made.height = canvas.rows;
-  made.bgr.assign(canvas.datastart, canvas.dataend);
-  return made;
+  Picture result;
+  result.width = canvas.cols;
+  result.height = canvas.rows;
+  result.bgr.assign(canvas.datastart, canvas.dataend);
+  return result;
 }
 
 std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {
@@ -41,7 +41,7 @@ std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {
   if (picture.width <= 0 || picture.height <= 0 ||
       picture.bgr.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
     return bytes;
-  // cv::Mat has no const view; it is only read
+  // cv::Mat has no const view; the pixels are only read
   const cv::Mat pixels(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
   cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, std::clamp(quality, 1, 100)});
   return bytes;

@@ -8,16 +8,16 @@
 
 namespace urban_nav_registration {
 
-// What pictures of closures look like, BGR.
+// Common style of closure pictures, BGR.
 const cv::Scalar kPaper(245, 245, 245), kInk(30, 30, 30);
-constexpr int kCaptionHeight = 24;  ///< px, of the strip below
+constexpr int kCaptionHeight = 24;  ///< px, of the strip below the panels
 constexpr int kPanelGap = 4;        ///< px, between the panels
 
-/// `at`: where the line of text begins, on its base line.
+/// Writes text; `at`: start of its base line.
 void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour);
-/// In the upper left corner, light on dark.
+/// Writes a title in the upper left corner, light on dark.
 void writeTitle(cv::Mat& canvas, const std::string& title);
-/// `canvas` is whole, of three bytes.
+/// Converts a continuous image of three bytes per pixel.
 Picture toPicture(const cv::Mat& canvas);
 
 }  // namespace urban_nav_registration

@@ -18,8 +18,8 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kShownShare = 0.97;    // of the points, along each axis: few of the far ones are left out
-constexpr double kFarthestPoint = 1e4;  // m: beyond, a point is not believed
+constexpr double kShownShare = 0.97;    // share of the points along each axis that defines the extent
+constexpr double kFarthestPoint = 1e4;  // m; farther points are ignored
 constexpr double kSmallestHalf = 0.1, kCloudMargin = 1.05;
 constexpr int kNarrowestCloud = 100, kWidest = 4000;  // px
 const cv::Scalar kRed(60, 60, 220), kBlue(220, 60, 60), kGreen(60, 150, 60);
@@ -33,10 +33,10 @@ Points finite(const PointCloud& cloud) {
 }
 
 Points moved(const Points& points, const Pose& T) {
-  Points made;
-  made.reserve(points.size());
-  for (const Eigen::Vector3d& point : points) made.push_back(T * point);
-  return made;
+  Points result;
+  result.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) result.push_back(T * point);
+  return result;
 }
 
 double quantile(std::vector<double>& values, double share) {
@@ -45,7 +45,7 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// What all panels show: a cube around the points.
+/// Extent of all panels: a cube around the points.
 struct Extent {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double half = 5.0;  ///< m
@@ -66,7 +66,7 @@ Extent computeExtent(const Points& target, const Points& source) {
   return extent;
 }
 
-/// One look at the cube: the axis that points to the right, and the one that points up.
+/// A projection of the cube, with the axes that point right and up.
 class CloudPanel {
  public:
   CloudPanel(cv::Mat canvas, const Extent& extent, int right, int up)
@@ -80,7 +80,7 @@ class CloudPanel {
     const cv::Mat of_target = opacity(target), of_source = opacity(source);
     for (int v = 0; v < canvas_.rows; ++v)
       for (int u = 0; u < canvas_.cols; ++u) {
-        // red ink lets red through, and blue ink blue: where both lie, little is left
+        // multiplicative inks: dark where both clouds have points
         const float t = of_target.at<float>(v, u), s = of_source.at<float>(v, u);
         canvas_.at<cv::Vec3b>(v, u) = cv::Vec3b(level(1.0F - t), level((1.0F - t) * (1.0F - s)), level(1.0F - s));
       }
@@ -92,14 +92,14 @@ class CloudPanel {
     cv::circle(canvas_, pixel(at), 4, kInk, 1, cv::LINE_AA);
   }
 
-  /// A direction that slides, through both sides of a place.
+  /// Draws a free direction to both sides of a position.
   void drawFree(const Eigen::Vector3d& at, const Eigen::Vector3d& direction) {
     const Eigen::Vector3d reach = 0.5 * extent_.half * direction;
     cv::arrowedLine(canvas_, pixel(at), pixel(at + reach), kGreen, 2, cv::LINE_AA, 0, 0.06);
     cv::arrowedLine(canvas_, pixel(at), pixel(at - reach), kGreen, 2, cv::LINE_AA, 0, 0.06);
   }
 
-  /// A round length of about a quarter of the panel.
+  /// Draws a scale bar of a round length of about a quarter of the panel.
   void drawBar() {
     const double about = 0.5 * extent_.half, ten = std::pow(10.0, std::floor(std::log10(about)));
     const double length = about >= 5.0 * ten ? 5.0 * ten : about >= 2.0 * ten ? 2.0 * ten : ten;
@@ -122,7 +122,7 @@ class CloudPanel {
     return {static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y()))};
   }
 
-  /// How much ink each pixel has: half full with as many points as a pixel has in the mean that has any.
+  /// Returns the opacity of each pixel: 0.5 at the mean number of points of the occupied pixels.
   cv::Mat opacity(const Points& points) const {
     cv::Mat counts = cv::Mat::zeros(canvas_.size(), CV_32F);
     for (const Eigen::Vector3d& point : points) {
@@ -155,27 +155,27 @@ Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pos
   const Points of_target = finite(target), of_source = finite(source);
   cv::Mat canvas(size + kCaptionHeight, 3 * size + 2 * kPanelGap, CV_8UC3, kPaper);
   const Extent extent = computeExtent(of_target, moved(of_source, T_target_source));
-  struct Look {
+  struct Projection {
     const char* title;
     const Pose& T;
     int up;
   };
-  const Look looks[] = {{"before, from above", T_guess, 1},
-                        {"aligned, from above", T_target_source, 1},
-                        {"aligned, from the side", T_target_source, 2}};
+  const Projection projections[] = {{"before, from above", T_guess, 1},
+                                    {"aligned, from above", T_target_source, 1},
+                                    {"aligned, from the side", T_target_source, 2}};
   int left = 0;
-  for (const Look& look : looks) {
+  for (const Projection& projection : projections) {
     cv::Mat area = canvas(cv::Rect(left, 0, size, size));
-    CloudPanel panel(area, extent, 0, look.up);
-    panel.draw(of_target, moved(of_source, look.T));
+    CloudPanel panel(area, extent, 0, projection.up);
+    panel.draw(of_target, moved(of_source, projection.T));
     panel.drawOrigin(Eigen::Vector3d::Zero(), kRed);
-    panel.drawOrigin(look.T.t(), kBlue);
-    if (&look.T == &T_target_source)
+    panel.drawOrigin(projection.T.t(), kBlue);
+    if (&projection.T == &T_target_source)
       for (const urban_nav_core::Vector6d& direction : options.free_directions)
         if (direction.allFinite() && direction.head<3>().norm() > 0.5)
-          panel.drawFree(look.T.t(), direction.head<3>().normalized());
+          panel.drawFree(projection.T.t(), direction.head<3>().normalized());
     panel.drawBar();
-    writeTitle(area, look.title);
+    writeTitle(area, projection.title);
     left += size + kPanelGap;
   }
   cv::Mat below = canvas(cv::Rect(0, size, canvas.cols, kCaptionHeight));

@@ -14,14 +14,14 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr int kSubpixelBits = 4;  // of OpenCV's drawing coordinates
+constexpr int kSubpixelBits = 4;  // fractional bits of OpenCV's drawing coordinates
 constexpr int kUsualWidth = 512, kUsualHeight = 384;
-constexpr int kLargestPicture = 16384;  // px: beyond, a size is not believed
+constexpr int kLargestPicture = 16384;  // px; larger sizes are implausible
 constexpr int kNarrowestView = 64;
-constexpr double kOpacity = 0.5;  // of the lines, so that the views stay to be seen
+constexpr double kOpacity = 0.5;  // opacity of the lines, so that the views remain visible
 const cv::Scalar kGrey(150, 150, 150), kPanel(110, 110, 110);
 
-/// Green over yellow to red, in BGR; `share` of the worst.
+/// Returns green over yellow to red, in BGR; `share`: relative to the worst.
 cv::Scalar toColour(double share) {
   const double at = std::clamp(share, 0.0, 1.0);
   return at < 0.5 ? cv::Scalar(60, 200, 60 + 360 * at) : cv::Scalar(60, 200 - 280 * (at - 0.5), 240);
@@ -36,11 +36,11 @@ bool isPlausible(const Keyframe& keyframe) {
          keyframe.height <= kLargestPicture && keyframe.height <= 4 * keyframe.width;
 }
 
-/// A view's place in the picture.
+/// Position of a view in the picture.
 struct ViewPanel {
   cv::Rect area;
   double scale = 1.0;
-  int width = 0, height = 0;  // of the view
+  int width = 0, height = 0;  // size of the view
 
   bool shows(const Eigen::Vector2d& pixel) const {
     return pixel.allFinite() && pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < width && pixel.y() < height;
@@ -52,16 +52,16 @@ struct ViewPanel {
   }
 };
 
-/// `other` lends its size to a view that has none.
+/// `other` provides the size of a view without one.
 ViewPanel makePanel(const Keyframe& keyframe, const Keyframe& other, int widest) {
-  ViewPanel made;
+  ViewPanel result;
   const Keyframe* sized = isPlausible(keyframe) ? &keyframe : isPlausible(other) ? &other : nullptr;
-  made.width = sized != nullptr ? sized->width : kUsualWidth;
-  made.height = sized != nullptr ? sized->height : kUsualHeight;
-  made.scale = std::min(1.0, static_cast<double>(widest) / made.width);
-  made.area = {0, 0, std::max(1, static_cast<int>(std::lround(made.scale * made.width))),
-               std::max(1, static_cast<int>(std::lround(made.scale * made.height)))};
-  return made;
+  result.width = sized != nullptr ? sized->width : kUsualWidth;
+  result.height = sized != nullptr ? sized->height : kUsualHeight;
+  result.scale = std::min(1.0, static_cast<double>(widest) / result.width);
+  result.area = {0, 0, std::max(1, static_cast<int>(std::lround(result.scale * result.width))),
+                 std::max(1, static_cast<int>(std::lround(result.scale * result.height)))};
+  return result;
 }
 
 void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title) {
@@ -87,7 +87,7 @@ void drawMatchesOn(cv::Mat& canvas, const ViewPanel& a, const ViewPanel& b, cons
   const auto colour = [worst_px](const MatchedPixels* match) { return toColour(match->residual_px / worst_px); };
   cv::Mat lines = canvas.clone();
   const auto draw = [&](const std::vector<const MatchedPixels*>& matches, bool is_grey) {
-    // every so many, so that those that are left are spread as all are
+    // evenly spaced, so that the remaining lines are distributed as all
     const std::size_t most = static_cast<std::size_t>(std::max(options.most_lines, 1)), count = matches.size(),
                       lines_drawn = std::min(most, count);
     for (std::size_t k = 0; k < lines_drawn; ++k) {

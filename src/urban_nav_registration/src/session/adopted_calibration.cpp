@@ -15,7 +15,7 @@ constexpr std::uint32_t kCalibrationVersion = 1;
 
 }  // namespace
 
-// Found by the archive through its argument.
+// Found by argument-dependent look-up from the archive.
 void archive(Archive& archive, AdoptedCalibration& device) {
   archive(device.frame, device.delay, device.T_stated_adopted);
 }

@@ -12,7 +12,7 @@ namespace urban_nav_registration {
 namespace {
 
 constexpr double kQuaternionTolerance = 1e-3;
-constexpr double kRounding = 1e-6;  // px, m; of a quaternion
+constexpr double kRounding = 1e-6;  // px, m, and quaternion elements
 
 }  // namespace
 
@@ -28,9 +28,9 @@ std::string calibrationFingerprint(const urban_nav_core::StereoCamera& camera,
 }
 
 std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& words) {
-  constexpr std::size_t kFewestValues = 12;  // one more if the disparity has an offset
-  MountedCamera made;
-  urban_nav_core::Pinhole& left = made.camera.left;
+  constexpr std::size_t kFewestValues = 12;  // one more with a disparity offset
+  MountedCamera result;
+  urban_nav_core::Pinhole& left = result.camera.left;
   std::istringstream text(words);
   std::string word;
   char by = 0;
@@ -44,13 +44,13 @@ std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& word
   }
   if (values.size() != kFewestValues && values.size() != kFewestValues + 1) return std::nullopt;
   left.fx = values[0], left.fy = values[1], left.cx = values[2], left.cy = values[3];
-  made.camera.baseline = values[4];
-  if (!(left.fx > 0.0) || !(left.fy > 0.0) || !(made.camera.baseline > 0.0)) return std::nullopt;
+  result.camera.baseline = values[4];
+  if (!(left.fx > 0.0) || !(left.fy > 0.0) || !(result.camera.baseline > 0.0)) return std::nullopt;
   const Eigen::Quaterniond q(values[11], values[8], values[9], values[10]);
   if (!(std::abs(q.norm() - 1.0) < kQuaternionTolerance)) return std::nullopt;
-  made.T_base_left = urban_nav_core::Pose(q, {values[5], values[6], values[7]});
-  if (values.size() > kFewestValues) made.camera.disparity_offset = values[12];
-  return made;
+  result.T_base_left = urban_nav_core::Pose(q, {values[5], values[6], values[7]});
+  if (values.size() > kFewestValues) result.camera.disparity_offset = values[12];
+  return result;
 }
 
 bool isSameCalibration(const std::string& words, const std::string& others) {

@@ -34,13 +34,13 @@ StampNs SessionOdometry::newest() const { return parts_.empty() ? 0 : parts_.bac
 
 SessionOdometry readOdometry(urban_nav_store::Store& store, const SessionId& session) {
   SessionOdometry odometry;
-  std::map<StampNs, Edge> steps;  // by where they end
+  std::map<StampNs, Edge> steps;  // by end stamp
   store.graph().forEachEdge(session, [&](const Edge& edge) {
     if (edge.kind == EdgeKind::Odometry && edge.b.session == session) steps.emplace(edge.b.stamp, edge);
   });
   std::optional<Node> last;
   store.graph().forEachNode(session, [&](const Node& node) {
-    // The first of a part has no step that leads to it.
+    // The first pose of a part has no step.
     if (last && !node.covariance.isZero(0.0)) {
       RelativePose step;
       step.from = last->stamp;

@@ -18,7 +18,7 @@ StoredKeyframe toStoredKeyframe(const Keyframe& keyframe) {
   StoredKeyframe stored;
   stored.stamp = keyframe.at.stamp;
   stored.image.assign(keyframe.image.begin(), keyframe.image.end());
-  Keyframe rest = keyframe;  // the session is the row's, the image has a column of its own
+  Keyframe rest = keyframe;  // session and image have separate columns
   rest.at.session.clear();
   rest.image.clear();
   urban_nav_core::Archive bytes;

@@ -12,9 +12,9 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr int kViewLevels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
-// Side of a descriptor's window on the thing seen. Bench, pairs, a street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4
-// to 7.5 m apart 72, 75, 78, 77, 75 % are upgraded.
+constexpr int kViewLevels = 6;  // levels of the pyramid: alignment uses 4, descriptors of near points more
+// Side of a descriptor's window in the scene. Bench pairs, street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4 to 7.5 m
+// apart 72, 75, 78, 77, 75 % are upgraded.
 constexpr double kWindowM = 1.2;
 constexpr double kLargestWindow = 0.35;  // of the image's height
 

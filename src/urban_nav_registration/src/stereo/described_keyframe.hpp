@@ -19,10 +19,10 @@ struct ViewPoint {
   double disparity = 0.0, sigma_disparity = 1.0;
   int level = 0;
 
-  double size() const { return 1 << level; }  ///< px of level 0 in one of its level
+  double size() const { return 1 << level; }  ///< px of level 0 per pixel of its level
 };
 
-/// A keyframe made ready for matching: its picture again, and descriptors.
+/// A keyframe prepared for matching: decoded image, and descriptors.
 struct View {
   explicit View(const Keyframe& keyframe, const urban_nav_core::StereoCamera& camera);
 
@@ -31,7 +31,7 @@ struct View {
   urban_nav_core::PoseRef at;
   urban_nav_core::Pyramid pyramid;
   std::vector<ViewPoint> points;
-  Descriptors descriptors;  ///< a column for each point
+  Descriptors descriptors;  ///< one column per point
 };
 
 }  // namespace urban_nav_registration

@@ -13,13 +13,14 @@ using urban_nav_core::Pyramid;
 namespace {
 
 constexpr int kGrid = 16, kParts = 4, kDirections = 8;
-constexpr float kLargestElement = 0.2F;  // Lowe 2004, section 6.1: so that no single edge under other light decides
-constexpr float kLeastContrast = 1.0F;   // grey levels a step, mean over the window
-constexpr float kRatio = 0.9F;           // of distances, best over second best
+constexpr float kLargestElement = 0.2F;  // Lowe 2004, section 6.1: limits the effect of single edges under different
+                                         // light
+constexpr float kLeastContrast = 1.0F;   // grey levels per step, mean over the window
+constexpr float kRatio = 0.9F;           // best over second best distance
 
 constexpr int kWideGrid = kGrid + 2;  // one more on each side for the gradient
 
-/// Where a row or a column of the grid is read: pixel and share of the next one.
+/// Sampling positions of a row or a column of the grid: pixel and share of the next one.
 struct Places {
   std::array<int, kWideGrid> at;
   std::array<float, kWideGrid> share;
@@ -34,8 +35,8 @@ struct Places {
 
 using DescriptorGrid = std::array<float, kGrid * kGrid>;
 
-/// Directions of gradients as places among the bins, 0 ... `kDirections`, to 1e-4 of a bin (Abramowitz and Stegun
-/// 1964, 4.4.49): the library's own takes a third of a descriptor's time.
+/// Converts directions of gradients to positions in the histogram, 0...`kDirections`, to 1e-4 of a bin (Abramowitz and
+/// Stegun 1964, 4.4.49): the library function would take a third of a descriptor's time.
 void computeDirections(const DescriptorGrid& dx, const DescriptorGrid& dy, DescriptorGrid& place) {
   for (std::size_t i = 0; i < place.size(); ++i) {
     const float x = std::abs(dx[i]), y = std::abs(dy[i]);
@@ -50,7 +51,7 @@ void computeDirections(const DescriptorGrid& dx, const DescriptorGrid& dy, Descr
   }
 }
 
-/// Which two parts of the window a row or a column of the grid belongs to, and by how much to the second.
+/// The two parts of the window to which a row or a column of the grid contributes, and the share of the second.
 struct Shares {
   std::array<int, kGrid> part{};
   std::array<float, kGrid> second{};
@@ -77,7 +78,7 @@ struct Weights {
   }
 };
 
-/// Returns grey values at a square grid of points, `step` px apart, about `middle`, interpolated in both directions.
+/// Returns grey values at a square grid of points, `step` px apart, around `middle`, by bilinear interpolation.
 std::array<float, kWideGrid * kWideGrid> sampleWindow(const ImageView& image, const Eigen::Vector2d& middle,
                                                       double step) {
   const Places columns(middle.x(), step, image.width), rows(middle.y(), step, image.height);
@@ -94,12 +95,12 @@ std::array<float, kWideGrid * kWideGrid> sampleWindow(const ImageView& image, co
   return grey;
 }
 
-/// Returns histograms of directions, of gradients of these sizes and directions, for each part of the window.
+/// Returns the histograms of gradient directions, weighted by magnitude, for each part of the window.
 Eigen::Matrix<float, kDescriptorSize, 1> histograms(const DescriptorGrid& size, const DescriptorGrid& place) {
   static const Weights weights;
   static const Shares shares;
-  Eigen::Matrix<float, kDescriptorSize, 1> made;
-  // Histograms with a margin of a part on each side, for what is shared out beyond the window.
+  Eigen::Matrix<float, kDescriptorSize, 1> result;
+  // Histograms with a margin of a part on each side, for shares beyond the window.
   std::array<float, (kParts + 2) * (kParts + 2) * kDirections> bins{};
   for (std::size_t j = 0; j < kGrid; ++j)
     for (std::size_t i = 0; i < kGrid; ++i) {
@@ -122,16 +123,16 @@ Eigen::Matrix<float, kDescriptorSize, 1> histograms(const DescriptorGrid& size, 
   for (int j = 0; j < kParts; ++j)
     for (int i = 0; i < kParts; ++i)
       for (int o = 0; o < kDirections; ++o)
-        made[(j * kParts + i) * kDirections + o] =
+        result[(j * kParts + i) * kDirections + o] =
             bins[static_cast<std::size_t>(((j + 1) * (kParts + 2) + i + 1) * kDirections + o)];
-  return made;
+  return result;
 }
 
 }  // namespace
 
 Eigen::Matrix<float, kDescriptorSize, 1> describe(const Pyramid& pyramid, const Eigen::Vector2d& centre,
                                                   double window) {
-  Eigen::Matrix<float, kDescriptorSize, 1> made = Eigen::Matrix<float, kDescriptorSize, 1>::Zero();
+  Eigen::Matrix<float, kDescriptorSize, 1> result = Eigen::Matrix<float, kDescriptorSize, 1>::Zero();
   const int level = std::clamp(static_cast<int>(std::floor(std::log2(window / kGrid))), 0, pyramid.levels() - 1);
   const ImageView& image = pyramid.level(level);
   const double scale = Pyramid::scale(level);
@@ -147,21 +148,21 @@ Eigen::Matrix<float, kDescriptorSize, 1> describe(const Pyramid& pyramid, const 
       size[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k]);
       contrast += size[k];
     }
-  if (!(contrast > kLeastContrast * kGrid * kGrid)) return made;
+  if (!(contrast > kLeastContrast * kGrid * kGrid)) return result;
   computeDirections(dx, dy, place);
 
-  made = histograms(size, place);
-  made /= made.norm();
-  made = made.cwiseMin(kLargestElement);
-  made /= made.norm();
-  return made;
+  result = histograms(size, place);
+  result /= result.norm();
+  result = result.cwiseMin(kLargestElement);
+  result /= result.norm();
+  return result;
 }
 
 namespace {
 
 struct Nearest {
   int which = -1;
-  float best = -1.0F, second = -1.0F;  // products of unit vectors: the larger the nearer
+  float best = -1.0F, second = -1.0F;  // products of unit vectors: larger is nearer
   void see(int i, float product) {
     if (product > best) {
       second = best;

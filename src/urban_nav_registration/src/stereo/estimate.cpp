@@ -20,17 +20,17 @@ namespace {
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-constexpr double kHuber = 2.5;                              // standard deviations, as swf_vo's
+constexpr double kHuber = 2.5;                              // standard deviations, as in swf_vo
 constexpr double kGateTwo = 13.8, kGateThree = 16.3;        // chi-square, 99.9 %
 constexpr double kMedianTwo = 1.386, kMedianThree = 2.366;  // of chi-square
-constexpr double kExactOffset = 1e6;                        // 1/px: what weighs an offset that is not allowed for
-constexpr int kPartsAcross = 4, kPartsDown = 3;             // of the image, within which errors may be alike
+constexpr double kExactOffset = 1e6;                        // 1/px: information of an offset that is not estimated
+constexpr int kPartsAcross = 4, kPartsDown = 3;             // parts of the image, within which errors may be correlated
 constexpr double kLeastDepthSigmas = 3.0;
 constexpr double kSettledM = 1e-6, kSettledRad = 1e-7;
-// Keeps the pose where matches leave it open; far below what any match says.
+// Constrains the pose in undetermined directions; far below the information of any match.
 constexpr double kAnchor = 1e-6;
 
-/// One sight linearised at its best depth, the depth eliminated.
+/// One measurement linearised at its best depth, with the depth eliminated.
 struct Reduced {
   bool visible = false;
   Matrix7d H;
@@ -38,42 +38,44 @@ struct Reduced {
   double chi2 = 0.0, residual_px = 0.0;
 };
 
-Eigen::Matrix4d computeWeight(const Sight& sight) {
+Eigen::Matrix4d computeWeight(const PointMeasurement& measurement) {
   Eigen::Matrix4d W = Eigen::Matrix4d::Zero();
-  W(0, 0) = 1.0 / (sight.sigma_disparity * sight.sigma_disparity);
-  W.block<2, 2>(1, 1) = sight.covariance.inverse();
-  if (sight.other_sigma > 0.0) W(3, 3) = 1.0 / (sight.other_sigma * sight.other_sigma);
+  W(0, 0) = 1.0 / (measurement.sigma_disparity * measurement.sigma_disparity);
+  W.block<2, 2>(1, 1) = measurement.covariance.inverse();
+  if (measurement.other_sigma > 0.0) W(3, 3) = 1.0 / (measurement.other_sigma * measurement.other_sigma);
   return W;
 }
 
-Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset, double& rho) {
-  Reduced made;
-  const Eigen::Matrix4d W = computeWeight(sight);
-  SightResidual r;
+Reduced reduce(const PointMeasurement& measurement, const StereoCamera& camera, const Pose& T_a_b, double offset,
+               double& rho) {
+  Reduced result;
+  const Eigen::Matrix4d W = computeWeight(measurement);
+  MeasurementResidual r;
   constexpr int kMostSteps = 4;
   for (int step = 0; step < kMostSteps; ++step) {
-    r = computeResidual(sight, camera, T_a_b, offset, rho);
-    if (!r.visible) return made;
+    r = computeResidual(measurement, camera, T_a_b, offset, rho);
+    if (!r.visible) return result;
     const Eigen::Vector4d along = W * r.J.col(kOfDepth);
     const double d = along.dot(r.e) / along.dot(r.J.col(kOfDepth));
-    if (!std::isfinite(d)) return made;
+    if (!std::isfinite(d)) return result;
     if (std::abs(d) < 1e-7 || step + 1 == kMostSteps) break;
     rho += d;
   }
-  // A depth that is not distinguishable from infinity has a derivative of noise, which would pass for knowledge of the
-  // translation.
-  if (rho * camera.left.fx * camera.baseline < kLeastDepthSigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
+  // The derivative with respect to a depth indistinguishable from infinity is noise, which would act as information on
+  // the translation.
+  if (rho * camera.left.fx * camera.baseline < kLeastDepthSigmas * measurement.sigma_disparity)
+    r.J.leftCols<3>().setZero();
   const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;
   const Eigen::Matrix<double, 8, 8> H = JW * r.J;
   const Eigen::Matrix<double, 8, 1> b = JW * r.e;
   const double of_rho = H(kOfDepth, kOfDepth);
   const Vector7d cross = H.col(kOfDepth).head<7>();
-  made.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
-  made.b = b.head<7>() - cross * (b[kOfDepth] / of_rho);
-  made.chi2 = r.e.dot(W * r.e) - b[kOfDepth] * b[kOfDepth] / of_rho;
-  made.residual_px = r.e.segment<2>(1).norm() / sight.size;
-  made.visible = made.H.allFinite() && made.b.allFinite();
-  return made;
+  result.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
+  result.b = b.head<7>() - cross * (b[kOfDepth] / of_rho);
+  result.chi2 = r.e.dot(W * r.e) - b[kOfDepth] * b[kOfDepth] / of_rho;
+  result.residual_px = r.e.segment<2>(1).norm() / measurement.size;
+  result.visible = result.H.allFinite() && result.b.allFinite();
+  return result;
 }
 
 double computeWeight(double chi2, double scale2) {
@@ -81,40 +83,40 @@ double computeWeight(double chi2, double scale2) {
   return chi > kHuber ? kHuber / chi : 1.0;
 }
 
-/// How much larger squared residuals are than promised, by their median, which outliers do not move.
-double estimateScale(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
+/// Returns the ratio of squared residuals to their expected values, by the median, for robustness against outliers.
+double estimateScale(const std::vector<PointMeasurement>& measurements, const std::vector<Reduced>& reduced,
                      std::vector<double>& ratios) {
   ratios.clear();
-  for (std::size_t i = 0; i < sights.size(); ++i)
+  for (std::size_t i = 0; i < measurements.size(); ++i)
     if (reduced[i].visible)
-      ratios.push_back(reduced[i].chi2 / (sights[i].coordinates() == 3 ? kMedianThree : kMedianTwo));
+      ratios.push_back(reduced[i].chi2 / (measurements[i].coordinates() == 3 ? kMedianThree : kMedianTwo));
   if (ratios.empty()) return 1.0;
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
   return std::max(1.0, *middle);
 }
 
-/// How much larger the covariance is than independent errors would have it: errors of neighbours are alike, since they
-/// lie on one surface, under one light, so the scores of each part of the image are summed before they are squared
-/// (Liang and Zeger 1986). One mean over the directions of the translation and one over those of the rotation: from
-/// some ten parts each direction alone would be known to no better than a factor of two.
+/// Ratio of the covariance to that for independent errors. Errors of neighbours are correlated by a common surface and
+/// light, so the scores of each part of the image are summed before they are squared (Liang and Zeger 1986). One mean
+/// over the directions of the translation and one over those of the rotation: for single directions about ten parts
+/// would give an accuracy of a factor of two only.
 struct Inflation {
   double translation = 1.0, rotation = 1.0;
 };
 
-Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
-                    double scale2, const Matrix7d& H) {
+Inflation inflation(const StereoCamera& camera, const std::vector<PointMeasurement>& measurements,
+                    const std::vector<Reduced>& reduced, double scale2, const Matrix7d& H) {
   std::array<Vector7d, 2 * kPartsAcross * kPartsDown> scores;
   std::array<bool, 2 * kPartsAcross * kPartsDown> used{};
   scores.fill(Vector7d::Zero());
-  for (std::size_t i = 0; i < sights.size(); ++i) {
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
     if (!reduced[i].visible) continue;
-    const Eigen::Vector3d& ray = sights[i].ray;
+    const Eigen::Vector3d& ray = measurements[i].ray;
     const double u = (camera.left.fx * ray.x() + camera.left.cx) / camera.left.width,
                  v = (camera.left.fy * ray.y() + camera.left.cy) / camera.left.height;
     const int column = std::clamp(static_cast<int>(u * kPartsAcross), 0, kPartsAcross - 1),
               row = std::clamp(static_cast<int>(v * kPartsDown), 0, kPartsDown - 1);
-    const auto part = static_cast<std::size_t>(((sights[i].of_a ? 0 : kPartsDown) + row) * kPartsAcross + column);
+    const auto part = static_cast<std::size_t>(((measurements[i].of_a ? 0 : kPartsDown) + row) * kPartsAcross + column);
     scores[part] += computeWeight(reduced[i].chi2, scale2) / scale2 * reduced[i].b;
     used[part] = true;
   }
@@ -137,7 +139,7 @@ Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights
   return {mean(0), mean(3)};
 }
 
-/// With errors of all sights in common: as if the other camera were turned, and as if it stood elsewhere.
+/// Adds errors common to all measurements: apparent rotation and displacement of the other camera.
 Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const EstimateOptions& options,
                          const Matrix6d& information) {
   Matrix6d spread = Matrix6d::Zero();
@@ -146,45 +148,45 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   // (C + spread spread^T)^-1, without inverting the information, which may be singular
   const Matrix6d seen = information * spread;
   const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
-  // Eigen solves a transposed right side by rows, in another order of sums than solveByLdlt.
-  const Matrix6d made = information - seen * inner.ldlt().solve(seen.transpose());
-  return 0.5 * (made + made.transpose());
+  // Eigen solves a transposed right side by rows, with another order of summation than solveByLdlt.
+  const Matrix6d result = information - seen * inner.ldlt().solve(seen.transpose());
+  return 0.5 * (result + result.transpose());
 }
 
-/// Sets the outcome of each sight, the number of inliers and their mean residual.
-void judgeSights(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, double scale2,
-                 const EstimateOptions& options, Estimate& made) {
-  made.sights.resize(sights.size());
+/// Sets the outcome of each measurement, the number of inliers and their mean residual.
+void classifyMeasurements(const std::vector<PointMeasurement>& measurements, const std::vector<Reduced>& reduced,
+                          double scale2, const EstimateOptions& options, Estimate& result) {
+  result.measurements.resize(measurements.size());
   double total = 0.0;
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    SightOutcome& outcome = made.sights[i];
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    MeasurementOutcome& outcome = result.measurements[i];
     if (!reduced[i].visible) continue;
     outcome.chi2 = reduced[i].chi2;
     outcome.residual_px = reduced[i].residual_px;
-    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? kGateThree : kGateTwo) &&
+    outcome.inlier = outcome.chi2 < scale2 * (measurements[i].coordinates() == 3 ? kGateThree : kGateTwo) &&
                      outcome.residual_px <= options.largest_residual_px;
     if (!outcome.inlier) continue;
-    ++made.inliers;
+    ++result.inliers;
     total += outcome.residual_px;
   }
-  made.reprojection_px = made.inliers > 0 ? total / made.inliers : 0.0;
+  result.reprojection_px = result.inliers > 0 ? total / result.inliers : 0.0;
 }
 
 }  // namespace
 
-Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, const Pose& start,
+Estimate estimate(const StereoCamera& camera, const std::vector<PointMeasurement>& measurements, const Pose& start,
                   const EstimateOptions& options) {
-  Estimate made;
-  made.T_a_b = start;
-  std::vector<double> rho(sights.size()), ratios;
-  for (std::size_t i = 0; i < sights.size(); ++i) rho[i] = inverseDepth(sights[i], camera);
-  std::vector<Reduced> reduced(sights.size());
+  Estimate result;
+  result.T_a_b = start;
+  std::vector<double> rho(measurements.size()), ratios;
+  for (std::size_t i = 0; i < measurements.size(); ++i) rho[i] = inverseDepth(measurements[i], camera);
+  std::vector<Reduced> reduced(measurements.size());
   const double offset_weight =
       options.sigma_offset > 0.0 ? 1.0 / (options.sigma_offset * options.sigma_offset) : kExactOffset * kExactOffset;
   const auto linearise = [&] {
-    for (std::size_t i = 0; i < sights.size(); ++i)
-      reduced[i] = reduce(sights[i], camera, made.T_a_b, made.offset, rho[i]);
-    return options.scaled ? estimateScale(sights, reduced, ratios) : 1.0;
+    for (std::size_t i = 0; i < measurements.size(); ++i)
+      reduced[i] = reduce(measurements[i], camera, result.T_a_b, result.offset, rho[i]);
+    return options.scaled ? estimateScale(measurements, reduced, ratios) : 1.0;
   };
   const auto sum = [&](double scale2, Matrix7d& H, Vector7d& b) {
     H.setZero();
@@ -196,7 +198,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
       b += weight * r.b;
     }
     H(kOfOffset, kOfOffset) += offset_weight;
-    b[kOfOffset] -= offset_weight * made.offset;
+    b[kOfOffset] -= offset_weight * result.offset;
   };
   Matrix7d H;
   Vector7d b;
@@ -206,27 +208,27 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
     sum(scale2, H, b);
     H.diagonal().array() += kAnchor;
     const Vector7d d = urban_nav_core::solveByLdlt<7, 1>(H, b);
-    if (!d.allFinite()) return made;
-    made.T_a_b = urban_nav_core::boxPlus(made.T_a_b, d.head<6>());
-    made.offset += d[kOfOffset];
+    if (!d.allFinite()) return result;
+    result.T_a_b = urban_nav_core::boxPlus(result.T_a_b, d.head<6>());
+    result.offset += d[kOfOffset];
     if (d.head<3>().norm() < kSettledM && d.segment<3>(3).norm() < kSettledRad) break;
   }
   scale2 = linearise();
   sum(scale2, H, b);
   if (options.scaled) {
-    const Inflation larger = inflation(camera, sights, reduced, scale2, H);
+    const Inflation larger = inflation(camera, measurements, reduced, scale2, H);
     Vector7d by = Vector7d::Ones();
     by.head<3>().setConstant(1.0 / std::sqrt(larger.translation));
     by.segment<3>(3).setConstant(1.0 / std::sqrt(larger.rotation));
     H = (by.asDiagonal() * H * by.asDiagonal()).eval();
   }
-  made.noise_factor = std::sqrt(scale2);
+  result.noise_factor = std::sqrt(scale2);
   const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, kOfOffset);
-  made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
-  made.information = withCommonError(camera, made.T_a_b, options, made.information);
-  judgeSights(sights, reduced, scale2, options, made);
-  made.found = made.inliers >= 3 && made.T_a_b.isFinite() && made.information.allFinite();
-  return made;
+  result.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(kOfOffset, kOfOffset);
+  result.information = withCommonError(camera, result.T_a_b, options, result.information);
+  classifyMeasurements(measurements, reduced, scale2, options, result);
+  result.found = result.inliers >= 3 && result.T_a_b.isFinite() && result.information.allFinite();
+  return result;
 }
 
 }  // namespace urban_nav_registration

@@ -20,25 +20,26 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double kLeastViewCorrelation = 0.8;  // as swf_vo's
+constexpr double kLeastViewCorrelation = 0.8;  // as in swf_vo
 constexpr double kLeastGain = 0.2, kLargestGain = 5.0;
-constexpr double kSmallestScale = 0.3, kLargestScale = 3.5;  // of a patch from view to view: beyond, nothing is alike
-constexpr double kMostStretch = 2.5;                         // of one axis over the other: a wall seen edge-on
+constexpr double kSmallestScale = 0.3, kLargestScale = 3.5;  // scale of a patch between views: beyond, patches are not
+                                                             // similar
+constexpr double kMostStretch = 2.5;                         // ratio of the axes: a wall at a grazing angle
 constexpr int kViewMargin = urban_nav_core::kPatchRadius + 3;
-constexpr double kSamePointPx = 3.0;  // of the level: a corner that the other view chose as well
-constexpr double kOwnWindowPx = 6.0;  // of the level: nearer patches share their pixels
+constexpr double kSamePointPx = 3.0;  // px of the level: a corner that was also detected in the other view
+constexpr double kOwnWindowPx = 6.0;  // px of the level: nearer patches share pixels
 constexpr double kLeastDepthShare =
-    0.02;  // of the inverse depth: what one sight's disparity does not know of the other's
+    0.02;  // of the inverse depth: uncertainty of the disparity of one measurement with respect to the other
 constexpr std::size_t kPatchGrain = 32;
 
 struct Found {
   bool visible = false, found = false;
   double likeness = 0.0;
-  double size = 1.0;  // px of level 0 in one of the level it was found at
-  Sight sight;
+  double size = 1.0;  // px of level 0 per pixel of the level of the measurement
+  PointMeasurement measurement;
 };
 
-/// Where a point lies and how it looks from the other view.
+/// Projection of a point into the other view, with the warp of its patch.
 struct PointView {
   PatchWarp warp;
   Eigen::Vector2d pixel;
@@ -55,7 +56,7 @@ std::optional<PointView> findPlace(const StereoCamera& camera, const Eigen::Vect
                    {camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy}};
 }
 
-/// By how much a warp enlarges; empty where it does so too much or too unevenly.
+/// Returns the scale of a warp; nullopt if it is too large, too small or too uneven.
 std::optional<double> enlargement(const Eigen::Matrix2d& A) {
   const double area = A.determinant();
   if (!(area > kSmallestScale * kSmallestScale && area < kLargestScale * kLargestScale)) return std::nullopt;
@@ -66,70 +67,70 @@ std::optional<double> enlargement(const Eigen::Matrix2d& A) {
   return std::sqrt(area);
 }
 
-Found look(const StereoCamera& camera, const View& from, const View& to, const ViewPoint& point, const Pose& T_to_from,
-           double offset, const AligningOptions& options) {
-  Found made;
+Found alignPoint(const StereoCamera& camera, const View& from, const View& to, const ViewPoint& point,
+                 const Pose& T_to_from, double offset, const AligningOptions& options) {
+  Found result;
   const double rho =
       std::max(0.0, (point.disparity - camera.disparity_offset - offset) / (camera.left.fx * camera.baseline));
   const Eigen::Vector3d plane = urban_nav_core::surfaceAt(point.plane, point.ray, rho);
   const auto place = findPlace(camera, plane, point.ray, T_to_from);
-  if (!place) return made;
+  if (!place) return result;
   const auto scale = enlargement(place->warp.A);
-  if (!scale) return made;
-  // Both patches about equally large: from level f to level t.
+  if (!scale) return result;
+  // Levels f and t at which the patches have similar size.
   int f = point.level + options.coarser;
   int t = f + static_cast<int>(std::lround(std::log2(*scale)));
   if (t < 0) {
     f -= t;
     t = 0;
   }
-  if (f >= from.pyramid.levels() || t >= to.pyramid.levels()) return made;
+  if (f >= from.pyramid.levels() || t >= to.pyramid.levels()) return result;
   const double from_scale = Pyramid::scale(f), to_scale = Pyramid::scale(t);
-  // The template's middle is a whole pixel of its level, which need not be the point.
+  // The centre of the template is a whole pixel of its level, not the point itself.
   const int u = static_cast<int>(std::lround(point.pixel.x() * from_scale)),
             v = static_cast<int>(std::lround(point.pixel.y() * from_scale));
   const auto source = urban_nav_core::cutSource(from.pyramid.level(f), u, v);
-  if (!source) return made;
+  if (!source) return result;
   const Eigen::Vector2d middle = Eigen::Vector2d(u, v) / from_scale;
   const Eigen::Vector3d ray = camera.left.ray(middle);
   const auto of_middle = findPlace(camera, plane, ray, T_to_from);
-  if (!of_middle) return made;
+  if (!of_middle) return result;
   const auto& image = to.pyramid.level(t);
   const Eigen::Vector2d start = of_middle->pixel * to_scale;
   if (!(start.x() >= kViewMargin && start.y() >= kViewMargin && start.x() < image.width - kViewMargin &&
         start.y() < image.height - kViewMargin))
-    return made;
+    return result;
   PatchWarp warp(of_middle->warp.A * (to_scale / from_scale), of_middle->warp.bend / from_scale);
   warp.bend *= std::min(1.0, urban_nav_core::kLargestBend / std::max(warp.bend.norm(), 1e-9));
   PatchTemplate patch;
-  if (!urban_nav_core::warpTemplate(*source, warp, patch)) return made;
-  made.visible = true;
-  made.likeness = urban_nav_core::correlationAt(image, patch, start);
+  if (!urban_nav_core::warpTemplate(*source, warp, patch)) return result;
+  result.visible = true;
+  result.likeness = urban_nav_core::correlationAt(image, patch, start);
   const auto aligned = urban_nav_core::alignPatch(image, patch, start, options.reach);
   if (!aligned.converged || aligned.correlation < kLeastViewCorrelation || aligned.gain < kLeastGain ||
       aligned.gain > kLargestGain || !aligned.covariance.allFinite())
-    return made;
-  made.found = true;
-  made.size = 1.0 / to_scale;
-  Sight& sight = made.sight;
-  sight.size = made.size;
-  sight.ray = ray;
-  // the surface goes on to the template's middle
-  sight.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
-  sight.sigma_disparity = point.sigma_disparity;
-  sight.pixel = aligned.position * made.size;
-  // Both images have noise; the alignment knows of one.
-  sight.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
-  sight.covariance *= made.size * made.size;
-  return made;
+    return result;
+  result.found = true;
+  result.size = 1.0 / to_scale;
+  PointMeasurement& measurement = result.measurement;
+  measurement.size = result.size;
+  measurement.ray = ray;
+  // disparity along the surface at the centre of the template
+  measurement.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
+  measurement.sigma_disparity = point.sigma_disparity;
+  measurement.pixel = aligned.position * result.size;
+  // Both images have noise; the alignment models that of one.
+  measurement.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
+  measurement.covariance *= result.size * result.size;
+  return result;
 }
 
-std::vector<Found> lookForAll(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
-                              double offset, const AligningOptions& options) {
+std::vector<Found> alignAllPoints(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
+                                  double offset, const AligningOptions& options) {
   std::vector<Found> found(from.points.size());
   urban_nav_core::forEach(from.points.size(), kPatchGrain, [&](std::size_t i) {
-    found[i] = look(camera, from, to, from.points[i], T_to_from, offset, options);
-    found[i].sight.point = static_cast<int>(i);
+    found[i] = alignPoint(camera, from, to, from.points[i], T_to_from, offset, options);
+    found[i].measurement.point = static_cast<int>(i);
   });
   return found;
 }
@@ -138,24 +139,24 @@ std::vector<Found> lookForAll(const StereoCamera& camera, const View& from, cons
 
 Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, const Pose& T_a_b, double offset,
                    const AligningOptions& options) {
-  Aligned made;
-  std::vector<Found> of_a = lookForAll(camera, a, b, T_a_b.inverse(), offset, options);
-  const std::vector<Found> of_b = lookForAll(camera, b, a, T_a_b, offset, options);
-  const auto see = [&made](const Found& found) {
+  Aligned result;
+  std::vector<Found> of_a = alignAllPoints(camera, a, b, T_a_b.inverse(), offset, options);
+  const std::vector<Found> of_b = alignAllPoints(camera, b, a, T_a_b, offset, options);
+  const auto see = [&result](const Found& found) {
     if (!found.visible) return;
-    ++made.visible;
-    made.likeness += found.likeness;
+    ++result.visible;
+    result.likeness += found.likeness;
   };
   std::vector<bool> taken(b.points.size(), false);
   for (Found& found : of_a) {
     see(found);
     if (!found.found) continue;
-    Sight& sight = found.sight;
+    PointMeasurement& measurement = found.measurement;
     double nearest = kSamePointPx * kSamePointPx;
     const ViewPoint* partner = nullptr;
     for (std::size_t j = 0; j < b.points.size(); ++j) {
       const double size = std::max(found.size, b.points[j].size());
-      const double square = (b.points[j].pixel - sight.pixel).squaredNorm() / (size * size);
+      const double square = (b.points[j].pixel - measurement.pixel).squaredNorm() / (size * size);
       if (square < kOwnWindowPx * kOwnWindowPx) taken[j] = true;
       if (square >= nearest) continue;
       nearest = square;
@@ -163,22 +164,22 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
     }
     if (partner != nullptr) {
       const double per_depth = camera.left.fx * camera.baseline;
-      const double slope = partner->plane.dot(camera.left.ray(sight.pixel)) - partner->plane.dot(partner->ray);
-      sight.other_disparity = partner->disparity + per_depth * slope;
-      sight.other_sigma =
-          std::hypot(partner->sigma_disparity, per_depth * slope, kLeastDepthShare * sight.other_disparity);
+      const double slope = partner->plane.dot(camera.left.ray(measurement.pixel)) - partner->plane.dot(partner->ray);
+      measurement.other_disparity = partner->disparity + per_depth * slope;
+      measurement.other_sigma =
+          std::hypot(partner->sigma_disparity, per_depth * slope, kLeastDepthShare * measurement.other_disparity);
     }
-    made.sights.push_back(sight);
+    result.measurements.push_back(measurement);
   }
   for (std::size_t j = 0; j < of_b.size(); ++j) {
     if (taken[j]) continue;
     see(of_b[j]);
     if (!of_b[j].found) continue;
-    made.sights.push_back(of_b[j].sight);
-    made.sights.back().of_a = false;
+    result.measurements.push_back(of_b[j].measurement);
+    result.measurements.back().of_a = false;
   }
-  if (made.visible > 0) made.likeness /= made.visible;
-  return made;
+  if (result.visible > 0) result.likeness /= result.visible;
+  return result;
 }
 
 }  // namespace urban_nav_registration

@@ -11,21 +11,21 @@
 namespace urban_nav_registration {
 
 struct AligningOptions {
-  int coarser = 0;         ///< levels further up the pyramid than the points' own
-  double reach = 2.0;      ///< px of the level: how far from its place a patch may be found
-  double floor_px = 0.03;  ///< added to the standard deviation of each coordinate, of the level
+  int coarser = 0;         ///< pyramid levels above those of the points
+  double reach = 2.0;      ///< px of the level: search radius around the predicted position
+  double floor_px = 0.03;  ///< px of the level, added to the standard deviation of each coordinate
 };
 
 struct Aligned {
-  std::vector<Sight> sights;
-  int visible = 0;        ///< points that the other view should show, and large enough
-  double likeness = 0.0;  ///< mean correlation of their patches with what it shows there
+  std::vector<PointMeasurement> measurements;
+  int visible = 0;        ///< points that should be visible in the other view, and large enough
+  double likeness = 0.0;  ///< mean correlation of their patches with the other view
 };
 
-/// Looks for every point of one view in the other, at its place by T_a_b: the patch is warped by its surface and
-/// aligned at the pyramid level where both views show it about equally large. First those of a in b, then those of b in
-/// a of which a shows nothing yet: a corner that both views have chosen is measured once, and what b says of its
-/// disparity is the measurement's third coordinate.
+/// Aligns every point of one view to the other, at its position by T_a_b: the patch is warped by its surface and
+/// aligned at the pyramid level at which its size is similar in both views. Points of a in b first, then those points
+/// of b in a that are not near a measured point of a: a corner detected in both views is measured once, with the
+/// disparity from b as third coordinate of the measurement.
 Aligned alignViews(const urban_nav_core::StereoCamera& camera, const View& a, const View& b,
                    const urban_nav_core::Pose& T_a_b, double offset, const AligningOptions& options);
 

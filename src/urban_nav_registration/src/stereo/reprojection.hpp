@@ -9,37 +9,38 @@
 
 namespace urban_nav_registration {
 
-/// A point of one view that is seen in the other.
-struct Sight {
-  bool of_a = true;                                 ///< a point of a that is seen in b; else of b, seen in a
-  int point = 0;                                    ///< in its own view
-  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< in its own view, where it is exact by definition; z = 1
-  double disparity = 0.0, sigma_disparity = 1.0;    ///< there, px
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< in the other view
+/// A point of one view measured in the other.
+struct PointMeasurement {
+  bool of_a = true;                                          ///< a point of a measured in b; false: of b, measured in a
+  int point = 0;                                             ///< index in its own view
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();            ///< in its own view, exact by definition; z = 1
+  double disparity = 0.0, sigma_disparity = 1.0;             ///< in its own view, px
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();           ///< in the other view
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< px^2
-  double size = 1.0;  ///< px of level 0 in one of the pyramid level where it was measured
-  /// What the other view says of the disparity there; no measurement where sigma is zero.
+  double size = 1.0;  ///< px of level 0 per pixel of the pyramid level of the measurement
+  /// Disparity measured in the other view; none if sigma is zero.
   double other_disparity = 0.0, other_sigma = 0.0;
 
-  int coordinates() const { return other_sigma > 0.0 ? 3 : 2; }  ///< beyond the one that its depth takes
+  int coordinates() const { return other_sigma > 0.0 ? 3 : 2; }  ///< besides the one that determines its depth
 };
 
-/// Perturbations: of T_a_b as boxPlus, of the error of all disparities (px), of this point's inverse depth (1/m).
+/// Indices of perturbations: T_a_b as boxPlus (0...5), error common to all disparities (px), inverse depth of this
+/// point (1/m).
 inline constexpr int kOfOffset = 6, kOfDepth = 7;
 
-/// Residuals of one sight, measured minus predicted: its own disparity, (u, v) in the other view, disparity there (zero
-/// without one). Negative derivatives are left to who uses them: `J` is that of the prediction.
-struct SightResidual {
+/// Residuals of one measurement, measured minus predicted: its own disparity, (u, v) in the other view, disparity there
+/// (zero without a measurement). `J` is the derivative of the prediction, without the negative sign.
+struct MeasurementResidual {
   Eigen::Vector4d e = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 4, 8> J = Eigen::Matrix<double, 4, 8>::Zero();
-  bool visible = false;  ///< in front of the other camera; else nothing else is of use
+  bool visible = false;  ///< in front of the other camera; false: the other members are undefined
 };
 
-/// Of a point at `inverse_depth` in its own view.
-SightResidual computeResidual(const Sight& sight, const urban_nav_core::StereoCamera& camera,
-                              const urban_nav_core::Pose& T_a_b, double offset, double inverse_depth);
+/// Computes the residual for an inverse depth `inverse_depth` in its own view.
+MeasurementResidual computeResidual(const PointMeasurement& measurement, const urban_nav_core::StereoCamera& camera,
+                                    const urban_nav_core::Pose& T_a_b, double offset, double inverse_depth);
 
-/// 1/z by the sight's own disparity.
-double inverseDepth(const Sight& sight, const urban_nav_core::StereoCamera& camera);
+/// Returns 1/z from the measurement's own disparity.
+double inverseDepth(const PointMeasurement& measurement, const urban_nav_core::StereoCamera& camera);
 
 }  // namespace urban_nav_registration

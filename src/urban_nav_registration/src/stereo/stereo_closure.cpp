@@ -25,23 +25,24 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr int kFewestAgreeing = 8;  // pairs; false pairs have fewer as a rule, and the others fail at the patches
+constexpr int kFewestAgreeing = 8;  // pairs; false motions usually have fewer inliers, and the others are rejected by
+                                    // the patches
 constexpr std::size_t kMostMotions = 4;
 constexpr double kConvincingLikeness =
-    0.65;                              // bench, pairs: no wrong motion had it in the end; no other is looked for then
-constexpr double kMatchGate = 1.75;    // times the mean error that is allowed: what is further off is no match
-constexpr std::size_t kKeptViews = 8;  // some 1 MB each at 512x384
-constexpr int kLeastPoints = 20;       // with depth, in either view
-// A transform that is known to a metre and half a degree at the worst: what is worse pinches nothing.
+    0.65;                              // bench, pairs: never reached by a wrong motion; ends the search for motions
+constexpr double kMatchGate = 1.75;    // times the allowed mean error; larger residuals are outliers
+constexpr std::size_t kKeptViews = 8;  // about 1 MB each at 512x384
+constexpr int kLeastPoints = 20;       // with depth, in each view
+// Limits for a transform; less accurate ones do not improve the graph.
 constexpr double kLargestSigmaM = 1.0, kLargestSigmaRad = 0.1;
 
-// Light moves all edges alike: shadows under ledges by millimetres, what a camera blurs by some hundredths of a pixel.
-// Bench, pairs, between days: in the mean of a hundred pairs poses are off by 0.03...0.09 px and 1...2 mm, in
-// directions that are the same for all pairs.
+// Light displaces all edges consistently: shadows below ledges by millimetres, blur of the camera by some hundredths of
+// a pixel. Bench pairs between days: the mean error of a hundred pairs is 0.03...0.09 px and 1...2 mm, in directions
+// common to all pairs.
 constexpr double kCommonPx = 0.06, kCommonM = 0.0015;
 
 constexpr std::size_t kCoarseRounds = 2;
-/// From where consensus is good to some pixels to where patches say it best.
+/// From the accuracy of the consensus, some pixels, to that of the patches.
 constexpr std::array<AligningOptions, 4> kRounds = {AligningOptions{2, 3.0, 0.1}, AligningOptions{1, 3.0, 0.1},
                                                     AligningOptions{0, 2.0, 0.0}, AligningOptions{0, 1.5, 0.0}};
 
@@ -51,7 +52,7 @@ std::string stereoReason(const char* format, double value, double threshold) {
   return text.data();
 }
 
-/// The largest standard deviations of the translation (m) and of the rotation (rad); infinite where nothing is known.
+/// Returns the largest standard deviations of translation (m) and rotation (rad); infinite if undetermined.
 std::array<double, 2> largestSigmas(const Matrix6d& information) {
   constexpr double kNothing = std::numeric_limits<double>::infinity();
   const auto covariance = urban_nav_core::invertPositiveDefinite(information);
@@ -82,15 +83,15 @@ const char* toString(StereoReason reason) {
 
 Constraint betweenBases(const Constraint& lefts, const Pose& T_base_left) {
   // T_basea_baseb = X T X^-1: with box perturbations phi' = Rx phi, rho' = Rx rho + [R' tx] phi'
-  Constraint made;
-  made.T_a_b = T_base_left * lefts.T_a_b * T_base_left.inverse();
+  Constraint result;
+  result.T_a_b = T_base_left * lefts.T_a_b * T_base_left.inverse();
   const Matrix3d Rx = T_base_left.R();
   Matrix6d left_by_base = Matrix6d::Zero();
   left_by_base.topLeftCorner<3, 3>() = left_by_base.bottomRightCorner<3, 3>() = Rx.transpose();
-  left_by_base.topRightCorner<3, 3>() = -Rx.transpose() * urban_nav_core::skew(made.T_a_b.q() * T_base_left.t());
-  made.information = left_by_base.transpose() * lefts.information * left_by_base;
-  made.information = (0.5 * (made.information + made.information.transpose())).eval();
-  return made;
+  left_by_base.topRightCorner<3, 3>() = -Rx.transpose() * urban_nav_core::skew(result.T_a_b.q() * T_base_left.t());
+  result.information = left_by_base.transpose() * lefts.information * left_by_base;
+  result.information = (0.5 * (result.information + result.information.transpose())).eval();
+  return result;
 }
 
 class StereoMatcher::Implementation {
@@ -104,18 +105,18 @@ class StereoMatcher::Implementation {
     closure.points_b = static_cast<int>(b->points.size());
     if (!a->isReadable() || !b->isReadable())
       return refused(closure, StereoReason::NoImage,
-                     std::string("the image of ") + (a->isReadable() ? "the later" : "the earlier") +
+                     std::string("image of ") + (a->isReadable() ? "the later" : "the earlier") +
                          " view is missing, unreadable or of another size");
     if (!test(closure, "points", std::min(closure.points_a, closure.points_b), kLeastPoints, true))
       return refused(closure, StereoReason::TooFewPoints,
-                     stereoReason("%.0f points with depth in one of the views, %.0f wanted", closure.tests.back().value,
-                                  kLeastPoints));
+                     stereoReason("too few points with depth in a view: %.0f, at least %.0f required",
+                                  closure.tests.back().value, kLeastPoints));
     const std::vector<DescriptorMatch> pairs = mutualNearest(a->descriptors, b->descriptors);
     closure.putative = static_cast<int>(pairs.size());
     Refined best = findMotion(*a, *b, pairs, closure);
     if (!test(closure, "consensus", closure.consensus, kFewestAgreeing, true) || !best.found.found)
       return refused(closure, StereoReason::NoConsensus,
-                     stereoReason("no motion explains more than %.0f of %.0f pairs of points", closure.consensus,
+                     stereoReason("no consistent motion: at most %.0f of %.0f matches are inliers", closure.consensus,
                                   closure.putative));
     return refine(*a, *b, std::move(best), closure);
   }
@@ -154,22 +155,22 @@ class StereoMatcher::Implementation {
     double worth() const { return found.inliers * aligned.likeness; }
   };
 
-  /// One look for all points, and what motion they say; left as it was where that is none.
-  void look(const View& a, const View& b, AligningOptions round, Refined& refined) const {
+  /// Aligns all points and updates the motion; leaves it unchanged without a solution.
+  void alignAndEstimate(const View& a, const View& b, AligningOptions round, Refined& refined) const {
     if (round.floor_px == 0.0) round.floor_px = parameters_.pixel_noise_floor;
     Aligned aligned = alignViews(camera_, a, b, refined.T_a_b, refined.found.offset, round);
-    if (aligned.sights.size() < 6) return;
+    if (aligned.measurements.size() < 6) return;
     EstimateOptions options;
     options.sigma_offset = parameters_.disparity_offset;
     options.common_px = kCommonPx;
     options.common_m = kCommonM;
     options.largest_residual_px = kMatchGate * parameters_.max_reprojection_error;
-    Estimate next = estimate(camera_, aligned.sights, refined.T_a_b, options);
+    Estimate next = estimate(camera_, aligned.measurements, refined.T_a_b, options);
     if (!next.found) return;
     refined = {next.T_a_b, std::move(next), std::move(aligned)};
   }
 
-  /// Several are tried where facades repeat themselves: which is meant, patches decide.
+  /// Tests several motions, since facades may be repetitive; the patches decide.
   Refined findMotion(const View& a, const View& b, std::vector<DescriptorMatch> pairs, StereoClosure& closure) const {
     Refined best;
     for (std::size_t tried = 0; tried < kMostMotions; ++tried) {
@@ -178,7 +179,7 @@ class StereoMatcher::Implementation {
       if (!motion.found) break;
       Refined its;
       its.T_a_b = motion.T_a_b;
-      for (std::size_t round = 0; round < kCoarseRounds; ++round) look(a, b, kRounds[round], its);
+      for (std::size_t round = 0; round < kCoarseRounds; ++round) alignAndEstimate(a, b, kRounds[round], its);
       if (its.worth() > best.worth()) {
         best = std::move(its);
         closure.consensus = motion.inliers;
@@ -190,7 +191,8 @@ class StereoMatcher::Implementation {
   }
 
   StereoClosure refine(const View& a, const View& b, Refined refined, StereoClosure& closure) const {
-    for (std::size_t round = kCoarseRounds; round < kRounds.size(); ++round) look(a, b, kRounds[round], refined);
+    for (std::size_t round = kCoarseRounds; round < kRounds.size(); ++round)
+      alignAndEstimate(a, b, kRounds[round], refined);
     const Estimate& found = refined.found;
     const Aligned& aligned = refined.aligned;
     closure.visible = aligned.visible;
@@ -199,12 +201,12 @@ class StereoMatcher::Implementation {
     closure.reprojection_px = found.reprojection_px;
     closure.noise_factor = found.noise_factor;
     closure.lefts.T_a_b = refined.T_a_b;
-    for (std::size_t i = 0; i < found.sights.size(); ++i) {
-      const Sight& sight = aligned.sights[i];
-      const Eigen::Vector2d own(camera_.left.fx * sight.ray.x() + camera_.left.cx,
-                                camera_.left.fy * sight.ray.y() + camera_.left.cy);
-      closure.pixels.push_back({sight.of_a ? own : sight.pixel, sight.of_a ? sight.pixel : own,
-                                found.sights[i].residual_px, found.sights[i].inlier});
+    for (std::size_t i = 0; i < found.measurements.size(); ++i) {
+      const PointMeasurement& measurement = aligned.measurements[i];
+      const Eigen::Vector2d own(camera_.left.fx * measurement.ray.x() + camera_.left.cx,
+                                camera_.left.fy * measurement.ray.y() + camera_.left.cy);
+      closure.pixels.push_back({measurement.of_a ? own : measurement.pixel, measurement.of_a ? measurement.pixel : own,
+                                found.measurements[i].residual_px, found.measurements[i].inlier});
     }
     return judge(found, closure);
   }
@@ -218,21 +220,21 @@ class StereoMatcher::Implementation {
     const bool firm = test(closure, "sigma_m", sigma_m, kLargestSigmaM, false);
     const bool turned = test(closure, "sigma_rad", sigma_rad, kLargestSigmaRad, false);
     if (!enough)
-      return refused(closure, StereoReason::TooFewMatches,
-                     stereoReason("%.0f points of one view are where the other puts them, %.0f wanted", closure.matches,
-                                  parameters_.min_matches));
+      return refused(
+          closure, StereoReason::TooFewMatches,
+          stereoReason("too few matches: %.0f, at least %.0f required", closure.matches, parameters_.min_matches));
     if (!small)
       return refused(closure, StereoReason::LargeError,
-                     stereoReason("a mean reprojection error of %.2f px, at most %.2f allowed", closure.reprojection_px,
-                                  parameters_.max_reprojection_error));
+                     stereoReason("mean reprojection error too large: %.2f px, at most %.2f px allowed",
+                                  closure.reprojection_px, parameters_.max_reprojection_error));
     if (!alike)
       return refused(
           closure, StereoReason::Unlike,
-          stereoReason("where points should be the other view looks otherwise: a mean correlation of %.2f, %.2f wanted",
+          stereoReason("patches differ at the predicted positions: mean correlation %.2f, at least %.2f required",
                        closure.likeness, parameters_.min_patch_correlation));
     if (!firm || !turned)
       return refused(closure, StereoReason::NotDetermined,
-                     stereoReason("the matches leave it open by %.2f m or %.3f rad", sigma_m, sigma_rad));
+                     stereoReason("the transform is uncertain by %.2f m or %.3f rad", sigma_m, sigma_rad));
     closure.verdict = ClosureVerdict::Accepted;
     closure.reason = StereoReason::None;
     closure.sentence = stereoReason("%.0f matches with a mean reprojection error of %.3f px", closure.matches,
@@ -243,7 +245,7 @@ class StereoMatcher::Implementation {
 
   StereoCamera camera_;
   Parameters parameters_;
-  std::list<std::shared_ptr<const View>> views_;  // the one used last comes first
+  std::list<std::shared_ptr<const View>> views_;  // most recently used first
 };
 
 StereoMatcher::StereoMatcher(const StereoCamera& camera, const Parameters& parameters)

@@ -41,9 +41,11 @@ void DepthMap::add(const ImagePoint& at, double edge) {
 
 bool DepthMap::isOnPlane(const ImagePoint& at, const ViewedPoint& surface, int u, int v, double front) const {
   if (surface.normal.squaredNorm() < 0.5) return false;
-  const Eigen::Vector2d away(kReduction * (u + 0.5) - at.u, kReduction * (v + 0.5) - at.v);  // px, to the cell's middle
+  const Eigen::Vector2d away(kReduction * (u + 0.5) - at.u, kReduction * (v + 0.5) - at.v);  // px, to the centre of the
+                                                                                             // cell
   const Vector3d ray = surface.p / surface.p.z() +
-                       Vector3d(away.x() / focal_.x(), away.y() / focal_.y(), 0.0);  // the lens bends neighbours alike
+                       Vector3d(away.x() / focal_.x(), away.y() / focal_.y(), 0.0);  // the distortion of neighbouring
+                                                                                     // pixels is similar
   const double within_cell = 0.5 * kReduction / focal_.x() * front;
   return std::abs(surface.normal.dot(front * ray.normalized() - surface.p)) < kPlaneUnevenness + within_cell;
 }

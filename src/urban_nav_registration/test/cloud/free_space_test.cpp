@@ -15,8 +15,8 @@ using Eigen::Vector3f;
 using urban_nav_core::PointCloud;
 using urban_nav_core::testing::Dice;
 
-/// A robot that drives 8 m along x in a corridor of walls at y = -5 and 5, with a pillar of half a metre at x = 4, y
-/// = 2. Beyond the pillar and the walls nothing is seen.
+/// A robot that drives 8 m along x in a corridor with walls at y = -5 and 5, with a pillar of half a metre at x = 4, y
+/// = 2. The space beyond pillar and walls is unobserved.
 PointCloud corridor() {
   PointCloud cloud;
   for (int scan = 0; scan < 160; ++scan) {

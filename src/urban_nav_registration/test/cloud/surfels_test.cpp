@@ -25,7 +25,7 @@ Key keyAt(const Eigen::Vector3f& point) {
   return {cell.x, cell.y, cell.z};
 }
 
-/// A hilly ground on both sides of the origin, points close enough for cubes of one voxel.
+/// Hilly ground on both sides of the origin, with points dense enough for cubes of one voxel.
 PointCloud hills() {
   Dice dice(5);
   PointCloud cloud;
@@ -60,7 +60,7 @@ TEST(Surfels, NormalsAreThoseOfThe27CubesEachOfEqualWeight) {
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(outer / count - sum * sum.transpose() / count / count);
     const Eigen::Vector3d variance = eigen.eigenvalues();
-    if (count < 3.0 || variance[1] < 0.05 * 0.0625) continue;  // these are of larger cubes
+    if (count < 3.0 || variance[1] < 0.05 * 0.0625) continue;  // normals of these come from larger cubes
     EXPECT_GT(std::abs(surfel.normal.cast<double>().dot(eigen.eigenvectors().col(0))), 0.9999);
     EXPECT_NEAR(static_cast<double>(surfel.planarity), 1.0 - variance[0] / variance[1], 1e-3);
     EXPECT_LE(surfel.normal.dot(surfel.mean), 0.0F);

@@ -35,7 +35,8 @@ void expectFinite(const Alignment& alignment) {
   for (const auto& test : alignment.tests) EXPECT_TRUE(std::isfinite(test.value)) << test.name;
 }
 
-/// The error where there is information, in squared deviations: six would be usual for six held directions.
+/// Returns the squared Mahalanobis distance of the error in directions with information; expected 6 for six constrained
+/// directions.
 double squaredDeviations(const Alignment& alignment, const Pose& truth) {
   const Vector6d d = boxMinus(truth, alignment.T_target_source);
   return d.dot(alignment.information * d);
@@ -79,7 +80,7 @@ TEST(Align, NeedsNoGuessWhateverTheHeading) {
 }
 
 TEST(Align, WhatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
-  // A closed box looks the same both ways.
+  // A closed box is symmetric.
   World box;
   for (int side = 0; side < 4; ++side) {
     const double heading = 0.5 * M_PI * side, away = side % 2 == 0 ? 8.0 : 12.0;
@@ -114,8 +115,8 @@ TEST(Align, WhatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
   EXPECT_GT(asked, 0);
 }
 
-/// A court of 24 m by 20 m whose fronts have panels that stand out by up to half a metre: a court of another seed
-/// differs in those alone.
+/// A court of 24 m by 20 m whose fronts have panels of up to half a metre depth: courts of different seeds differ only
+/// in these panels.
 World panelledCourt(std::uint64_t seed, double nearer = 0.0) {
   Dice dice(seed);
   World court;
@@ -126,7 +127,7 @@ World panelledCourt(std::uint64_t seed, double nearer = 0.0) {
                               along * std::sin(heading) + out * std::cos(heading), length, 2.0, 0.0, top, heading});
     };
     front(0.0, away + 1.0, side % 2 == 0 ? 24.0 : 20.0, 6.0);
-    if (side < 2) front(side == 0 ? 7.0 : -5.0, away - 1.5, 5.0, 6.0);  // so that it looks the same from no two sides
+    if (side < 2) front(side == 0 ? 7.0 : -5.0, away - 1.5, 5.0, 6.0);  // breaks the symmetry of the sides
     for (double along = -9.0, step = 0.0; along < 9.0; along += step) {
       step = dice.uniform(1.0, 2.5);
       front(along + 0.5 * step, away + 1.0 - dice.uniform(0.05, 0.5), step, dice.uniform(5.0, 6.0));
@@ -135,7 +136,7 @@ World panelledCourt(std::uint64_t seed, double nearer = 0.0) {
   return court;
 }
 
-/// As makePair, with the origins of the beams: the sensor.
+/// As makePair, with the sensor as origin of the beams.
 Pair gatheredPair(const World& source, const World& target, std::uint64_t seed) {
   Pair pair = makePair(source, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed);
   pair.target = makePair(target, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed).target;
@@ -179,7 +180,7 @@ TEST(Align, WhatBeamsWentThroughIsNoWall) {
   }
 }
 
-/// What is seen by a sensor that looks ahead alone, to `half_deg` on both sides.
+/// Returns the part of a cloud visible to a sensor with a field of view of `half_deg` to both sides.
 PointCloud ahead(const PointCloud& cloud, double half_deg) {
   PointCloud kept;
   for (const Eigen::Vector3f& point : cloud.points)
@@ -242,7 +243,7 @@ TEST(Align, NeverTakesOnePlaceForAnother) {
   }
 }
 
-/// A laser that looks around level.
+/// A planar laser with a horizontal scan.
 PointCloud scanLevel(const World& world, const Pose& T_world_sensor, std::uint64_t seed) {
   Scanner scanner;
   scanner.rings = 1;

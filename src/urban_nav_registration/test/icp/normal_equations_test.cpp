@@ -58,7 +58,7 @@ TEST(NormalEquations, TheSumsAreTheOnesWrittenOut) {
   EXPECT_LT((sums.b - b).norm(), 1e-10 * b.norm());
 }
 
-/// The gradient of the robust cost is what the normal equations' right-hand side says.
+/// The right-hand side of the normal equations corresponds to the gradient of the robust cost.
 TEST(NormalEquations, TheRightHandSideIsHalfTheGradientOfTheCost) {
   const std::vector<Match> matches = randomMatches(50);
   const double sigma = 0.05;

@@ -34,7 +34,7 @@ TEST(OffsetFrames, CovarianceFollowsTheTangent) {
   alignment.information = alignment.covariance.inverse();
   alignment.free_directions = {Vector6d::Unit(5)};
   const Alignment moved = toFileFrames(alignment, offsets);
-  urban_nav_core::Matrix6d J;  // of the tangent (rho, phi) of the file's pose by that of the near one
+  urban_nav_core::Matrix6d J;  // tangent (rho, phi) of the file's pose by that of the pose near the origin
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 6; ++i) {
     const Vector6d d = kStep * Vector6d::Unit(i);

@@ -48,7 +48,8 @@ TEST(Jpeg, WhatIsNoneIsNone) {
   std::vector<std::uint8_t> bytes = somePicture();
   for (const std::size_t length : {std::size_t{10}, std::size_t{100}, bytes.size() / 2}) {
     bytes.resize(length);
-    const cv::Mat pixels = decodeJpeg(bytes, {64, 48});  // half a picture may come, with what is missing in grey
+    const cv::Mat pixels = decodeJpeg(bytes, {64, 48});  // a partial picture may be decoded, with grey for the missing
+                                                         // part
     EXPECT_TRUE(pixels.empty() || (pixels.cols == 64 && pixels.rows == 48)) << length;
   }
 }
@@ -61,7 +62,7 @@ TEST(Jpeg, Fuzzed) {
         const std::vector<std::uint8_t> damaged(text.begin(), text.end());
         const auto size = sizeOfJpeg(damaged);
         EXPECT_TRUE(!size || std::min(size->width, size->height) > 0);
-        if (++decoded > 300) return;  // libjpeg prints what it thinks of each
+        if (++decoded > 300) return;  // libjpeg prints a warning for each
         const cv::Mat pixels = decodeJpeg(damaged, {64, 48});
         EXPECT_TRUE(pixels.empty() || (pixels.cols == 64 && pixels.rows == 48));
       });

@@ -14,7 +14,7 @@ using urban_nav_core::StampedPose;
 using urban_nav_core::StampNs;
 using urban_nav_core::StereoPairWithMotion;
 
-/// A drive along x with a pair each 0.6 m; keyframes are selected each metre.
+/// A drive along x with a pair every 0.6 m; keyframes are selected every metre.
 class KeyframeBuilderTest : public ::testing::Test {
  protected:
   KeyframeBuilderTest() : builder_(Parameters()) { builder_.setCamera({photographer_.camera(), Pose()}); }
@@ -90,7 +90,7 @@ TEST_F(KeyframeBuilderTest, ARestartSelectsTheFirstPairAgain) {
   builder_.restart();
   addOdometry(1);
   addPair(1);
-  EXPECT_EQ(taken(), (std::vector<StampNs>{1})) << "the pair that waited is gone, the selection begins again";
+  EXPECT_EQ(taken(), (std::vector<StampNs>{1})) << "the waiting pair is dropped, the selection restarts";
 }
 
 TEST_F(KeyframeBuilderTest, ClearingTheCameraDropsItsPairs) {

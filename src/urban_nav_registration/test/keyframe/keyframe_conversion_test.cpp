@@ -19,7 +19,7 @@ using urban_nav_registration::testing::Photographer;
 
 constexpr double kDistanceDriven = 1.5;  // m
 
-/// Base poses of two days, and the transform between them that is measured with the cameras of both.
+/// Base poses of two days, and the transform between them measured with the cameras of both days.
 class TwoCameras : public ::testing::Test {
  protected:
   /// Returns T_base1_base2 as measured, with the keyframe of the first day converted.
@@ -79,10 +79,10 @@ TEST_F(TwoCameras, ConvertedPointsKeepTheirPlaces) {
   MountedCamera to = from;
   to.camera.left.fx *= 0.9, to.camera.left.fy *= 0.9, to.camera.baseline *= 2.0;
   const Keyframe old = street_.keyframe(T_world_base1_);
-  const Keyframe made = KeyframeConversion(from, to).convert(old);
-  ASSERT_EQ(made.points.size(), old.points.size());  // a wider view shows them all
-  for (std::size_t i = 0; i < made.points.size(); ++i) {
-    const KeyframePoint &before = old.points[i], &after = made.points[i];
+  const Keyframe result = KeyframeConversion(from, to).convert(old);
+  ASSERT_EQ(result.points.size(), old.points.size());  // a wider view shows them all
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const KeyframePoint &before = old.points[i], &after = result.points[i];
     const double z_before = from.camera.left.fx * from.camera.baseline / static_cast<double>(before.disparity);
     const double z_after = to.camera.left.fx * to.camera.baseline / static_cast<double>(after.disparity);
     EXPECT_NEAR(z_after / z_before, 1.0, 0.1) << "moved to a whole pixel along its surface";

@@ -15,10 +15,10 @@ Pose keyframePose(double x, double yaw = 0.0) {
 class Choice : public ::testing::Test {
  protected:
   static Parameters parameters() {
-    Parameters made;
-    made.keyframe_distance = 1.0;
-    made.keyframe_angle = 0.25;
-    return made;
+    Parameters result;
+    result.keyframe_distance = 1.0;
+    result.keyframe_angle = 0.25;
+    return result;
   }
   KeyframeSelector selector_{parameters()};
 };

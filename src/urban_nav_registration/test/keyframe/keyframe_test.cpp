@@ -76,13 +76,13 @@ TEST(KeyframeArchive, WhatNoMakerMakesIsRefused) {
   EXPECT_TRUE(isRefusedWith({100, 100, 0, 3.0F, 0.0F, 0.0F, 0.0F}));
 }
 
-// Damage under a checksum that is right: what is taken all the same is matched and drawn without harm.
+// Damage with a valid checksum: accepted keyframes can be matched and drawn.
 TEST(KeyframeArchive, Fuzzed) {
   Photographer photographer(texturedRoom());
   const Keyframe good = photographer.keyframe(lookingAlong({0.3, 0.0, 1.0}, 1.1), 1.0, 100);
   Keyframe seed = someKeyframe();
   const std::vector<std::uint8_t> image = seed.image;
-  seed.image.clear();  // the points' bytes, not those of the picture
+  seed.image.clear();  // fuzzes the bytes of the points, not those of the picture
   StereoMatcher matcher(photographer.camera(), {});
   int matched = 0;
   const auto result = urban_nav_core::testing::fuzzText({packed(seed)}, [&](const std::string& text) {

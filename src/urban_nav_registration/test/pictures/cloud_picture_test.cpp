@@ -47,9 +47,9 @@ PointCloud wall() {
 }
 
 PointCloud moved(const PointCloud& cloud, const Pose& T) {
-  PointCloud made;
-  for (const Eigen::Vector3f& point : cloud.points) made.points.push_back((T * point.cast<double>()).cast<float>());
-  return made;
+  PointCloud result;
+  for (const Eigen::Vector3f& point : cloud.points) result.points.push_back((T * point.cast<double>()).cast<float>());
+  return result;
 }
 
 Picture drawn(const PointCloud& source, const PointCloud& target, const Pose& guess, const Pose& T,
@@ -67,7 +67,7 @@ TEST(CloudPicture, PurpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
   EXPECT_GT(before.red, 100);
   EXPECT_GT(before.blue, 100);
   EXPECT_GT(above.purple, 100);
-  EXPECT_LT(above.red + above.blue, 200) << "the origins alone";
+  EXPECT_LT(above.red + above.blue, 200) << "the origins only";
   EXPECT_GT(side.purple, 3000) << "the wall's face";
 }
 

@@ -41,7 +41,7 @@ Keyframe someView(double heading) {
   return photographer.keyframe(lookingAlong({0.0, 0.0, 1.0}, heading), 1.0, 50);
 }
 
-/// A size without a picture.
+/// A keyframe with a size but without an image.
 Keyframe emptyView(int width, int height) {
   Keyframe keyframe;
   keyframe.width = width;

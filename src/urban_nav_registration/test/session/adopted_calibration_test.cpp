@@ -99,7 +99,7 @@ TEST_F(CalibratedSession, AdoptedMountingAndDelayAreThoseOfStoredLasersAndScans)
   EXPECT_TRUE(isApprox(stated[1].T_base_laser, mounting(), 0.0));
   EXPECT_EQ(panoramaCorrection(*store_, kCalibratedSession).delay, 20);
   EXPECT_TRUE(isApprox(panoramaCorrection(*store_, kCalibratedSession).T_correction, smallMotion(), 1e-12));
-  // Scans whose true times lie in the interval, at their true times.
+  // Scans whose true times are in the interval, with these times.
   const auto scans = scansOfLaser(1, kFirstScan, kFirstScan + 500'000'000);
   ASSERT_EQ(scans.size(), 5U);
   EXPECT_EQ(scans.front().stamp, kFirstScan + 100'000'000 - kLate);

@@ -12,7 +12,7 @@ namespace {
 
 using urban_nav_core::Pyramid;
 
-/// A picture of a function of place.
+/// An image of a function of position.
 Pyramid toPicture(const std::function<double(double, double)>& grey) {
   std::vector<std::uint8_t> pixels(200 * 160);
   for (int v = 0; v < 160; ++v)
@@ -67,7 +67,7 @@ TEST(MutualNearest, PairsEqualOnesAndLeavesDoubtfulOnes) {
   Descriptors a = Descriptors::Zero(kDescriptorSize, 4), b = Descriptors::Zero(kDescriptorSize, 4);
   a(0, 0) = a(1, 1) = a(2, 2) = a(3, 3) = 1.0F;
   b(2, 0) = b(0, 1) = 1.0F;
-  b(3, 2) = b(3, 3) = 1.0F;  // twice the same: either may be meant
+  b(3, 2) = b(3, 3) = 1.0F;  // two equal candidates: ambiguous
   const auto pairs = mutualNearest(a, b);
   ASSERT_EQ(pairs.size(), 2U);
   EXPECT_EQ(pairs[0].a, 0);

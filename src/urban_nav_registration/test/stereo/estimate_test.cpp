@@ -21,30 +21,31 @@ using urban_nav_core::testing::Dice;
 
 StereoCamera estimateCamera() { return {{390.0, 390.0, 255.0, 195.0, 512, 384}, 0.12}; }
 
-/// Points from 3 to 60 m, seen in both views with noise; the disparities have `offset` in common.
-std::vector<Sight> sights(const Pose& T_a_b, double noise, double offset, int count, Dice& dice) {
+/// Points from 3 to 60 m, measured in both views with noise; `offset` is common to all disparities.
+std::vector<PointMeasurement> measurements(const Pose& T_a_b, double noise, double offset, int count, Dice& dice) {
   const StereoCamera c = estimateCamera();
-  std::vector<Sight> made;
-  while (static_cast<int>(made.size()) < count) {
+  std::vector<PointMeasurement> result;
+  while (static_cast<int>(result.size()) < count) {
     const double z = std::exp(dice.uniform(std::log(3.0), std::log(60.0)));
     const Vector3d p = c.left.ray({dice.uniform(0.0, 511.0), dice.uniform(0.0, 383.0)}) * z;
     const bool of_a = dice.chance(0.7);
     const auto other = c.project((of_a ? T_a_b.inverse() : T_a_b) * p), own = c.project(p);
     if (!other || !own || !c.left.contains(other->head<2>())) continue;
-    Sight sight;
-    sight.of_a = of_a;
-    sight.ray = p / z;
-    sight.sigma_disparity = 0.1;
-    sight.disparity = (*own)[0] - (*own)[2] + offset + noise * sight.sigma_disparity * dice.normal();
-    sight.covariance = 0.01 * Eigen::Matrix2d::Identity();
-    sight.pixel = other->head<2>() + noise * 0.1 * dice.normals<2>();
+    PointMeasurement measurement;
+    measurement.of_a = of_a;
+    measurement.ray = p / z;
+    measurement.sigma_disparity = 0.1;
+    measurement.disparity = (*own)[0] - (*own)[2] + offset + noise * measurement.sigma_disparity * dice.normal();
+    measurement.covariance = 0.01 * Eigen::Matrix2d::Identity();
+    measurement.pixel = other->head<2>() + noise * 0.1 * dice.normals<2>();
     if (dice.chance(0.3)) {
-      sight.other_sigma = 0.12;
-      sight.other_disparity = (*other)[0] - (*other)[2] + offset + noise * sight.other_sigma * dice.normal();
+      measurement.other_sigma = 0.12;
+      measurement.other_disparity =
+          (*other)[0] - (*other)[2] + offset + noise * measurement.other_sigma * dice.normal();
     }
-    made.push_back(sight);
+    result.push_back(measurement);
   }
-  return made;
+  return result;
 }
 
 Pose motion(Dice& dice) {
@@ -56,7 +57,7 @@ TEST(Estimate, IsExactWithoutNoise) {
   const Pose T = motion(dice);
   EstimateOptions options;
   options.sigma_offset = 0.0;
-  const Estimate found = estimate(estimateCamera(), sights(T, 0.0, 0.0, 60, dice), Pose(), options);
+  const Estimate found = estimate(estimateCamera(), measurements(T, 0.0, 0.0, 60, dice), Pose(), options);
   ASSERT_TRUE(found.found);
   EXPECT_TRUE(urban_nav_core::isApprox(found.T_a_b, T, 1e-7)) << found.T_a_b;
   EXPECT_EQ(found.inliers, 60);
@@ -69,14 +70,14 @@ TEST(Estimate, InformationIsRightWithAnErrorOfAllDisparities) {
   Vector6d bias = Vector6d::Zero();
   for (int run = 0; run < runs; ++run) {
     const Pose T = motion(dice);
-    const auto seen = sights(T, 1.0, 0.1 * dice.normal(), 150, dice);
+    const auto seen = measurements(T, 1.0, 0.1 * dice.normal(), 150, dice);
     const Estimate found = estimate(estimateCamera(), seen, Pose(), {});
     ASSERT_TRUE(found.found);
     const Vector6d d = urban_nav_core::boxMinus(T, found.T_a_b);
     mean += d.dot(found.information * d) / runs;
     bias += d / runs;
   }
-  // It allows for errors that neighbours share, which these sights do not have: on the safe side, not beyond use.
+  // The covariance includes correlated errors, which these measurements do not have: conservative within limits.
   EXPECT_LT(mean, 6.8);
   EXPECT_GT(mean, 2.0);
 }
@@ -84,21 +85,21 @@ TEST(Estimate, InformationIsRightWithAnErrorOfAllDisparities) {
 TEST(Estimate, OutliersDoNotMoveIt) {
   Dice dice(3);
   const Pose T = motion(dice);
-  auto seen = sights(T, 1.0, 0.0, 200, dice);
+  auto seen = measurements(T, 1.0, 0.0, 200, dice);
   for (std::size_t i = 0; i < 60; ++i)
     seen[i].pixel += Eigen::Vector2d(dice.uniform(5.0, 40.0), dice.uniform(-30.0, 30.0));
   const Estimate found = estimate(estimateCamera(), seen, T, {});
   ASSERT_TRUE(found.found);
   EXPECT_LT(urban_nav_core::distanceBetween(found.T_a_b, T), 0.05);
-  for (std::size_t i = 0; i < 60; ++i) EXPECT_FALSE(found.sights[i].inlier) << i;
+  for (std::size_t i = 0; i < 60; ++i) EXPECT_FALSE(found.measurements[i].inlier) << i;
   EXPECT_GT(found.inliers, 130);
 }
 
 TEST(Estimate, NoiseThatIsLargerThanPromisedIsSeen) {
   Dice dice(4);
   const Pose T = motion(dice);
-  const Estimate as_promised = estimate(estimateCamera(), sights(T, 1.0, 0.0, 300, dice), T, {});
-  const Estimate larger = estimate(estimateCamera(), sights(T, 3.0, 0.0, 300, dice), T, {});
+  const Estimate as_promised = estimate(estimateCamera(), measurements(T, 1.0, 0.0, 300, dice), T, {});
+  const Estimate larger = estimate(estimateCamera(), measurements(T, 3.0, 0.0, 300, dice), T, {});
   EXPECT_NEAR(larger.noise_factor, 3.0, 0.4);
   EXPECT_LT(larger.information(1, 1), 0.3 * as_promised.information(1, 1));
 }
@@ -106,7 +107,7 @@ TEST(Estimate, NoiseThatIsLargerThanPromisedIsSeen) {
 TEST(Estimate, ErrorsInCommonAreAddedToTheCovariance) {
   Dice dice(7);
   const Pose T = motion(dice);
-  const auto seen = sights(T, 1.0, 0.0, 100, dice);
+  const auto seen = measurements(T, 1.0, 0.0, 100, dice);
   EstimateOptions options;
   const Estimate without = estimate(estimateCamera(), seen, T, options);
   options.common_px = 0.5;
@@ -120,10 +121,10 @@ TEST(Estimate, ErrorsInCommonAreAddedToTheCovariance) {
 
 TEST(Estimate, FarPointsAloneLeaveTheTranslationOpen) {
   Dice dice(5);
-  auto seen = sights(Pose(), 0.0, 0.0, 100, dice);
-  for (Sight& sight : seen) {
-    sight.disparity = 0.02;  // 2 km
-    sight.other_sigma = 0.0;
+  auto seen = measurements(Pose(), 0.0, 0.0, 100, dice);
+  for (PointMeasurement& measurement : seen) {
+    measurement.disparity = 0.02;  // 2 km
+    measurement.other_sigma = 0.0;
   }
   const Estimate found = estimate(estimateCamera(), seen, Pose(), {});
   ASSERT_TRUE(found.information.allFinite());
@@ -135,7 +136,7 @@ TEST(Estimate, FarPointsAloneLeaveTheTranslationOpen) {
 TEST(Estimate, NothingOrNonsenseIsNotFound) {
   EXPECT_FALSE(estimate(estimateCamera(), {}, Pose(), {}).found);
   Dice dice(6);
-  auto seen = sights(Pose(), 1.0, 0.0, 2, dice);
+  auto seen = measurements(Pose(), 1.0, 0.0, 2, dice);
   const Estimate of_two = estimate(estimateCamera(), seen, Pose(), {});
   EXPECT_FALSE(of_two.found);
   EXPECT_TRUE(of_two.T_a_b.isFinite());

@@ -12,31 +12,31 @@ using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::Vector6d;
 
-StereoCamera sightCamera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.12, 0.3}; }
+StereoCamera measurementCamera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.12, 0.3}; }
 
-Sight makeSight(bool of_a) {
-  Sight sight;
-  sight.of_a = of_a;
-  sight.ray = {0.2, -0.1, 1.0};
-  sight.disparity = 6.0;
-  sight.sigma_disparity = 0.1;
-  sight.pixel = {300.0, 150.0};
-  sight.other_disparity = 7.0;
-  sight.other_sigma = 0.2;
-  return sight;
+PointMeasurement makeMeasurement(bool of_a) {
+  PointMeasurement measurement;
+  measurement.of_a = of_a;
+  measurement.ray = {0.2, -0.1, 1.0};
+  measurement.disparity = 6.0;
+  measurement.sigma_disparity = 0.1;
+  measurement.pixel = {300.0, 150.0};
+  measurement.other_disparity = 7.0;
+  measurement.other_sigma = 0.2;
+  return measurement;
 }
 
-TEST(Sight, JacobianIsThatOfThePredictionAtLargeMotionsToo) {
+TEST(PointMeasurement, JacobianIsThatOfThePredictionAtLargeMotionsToo) {
   for (const bool of_a : {true, false})
     for (const double size : {0.0, 0.5, 1.0}) {
-      const Sight sight = makeSight(of_a);
+      const PointMeasurement measurement = makeMeasurement(of_a);
       const Pose T(urban_nav_core::expSo3(size * urban_nav_core::Vector3d(0.2, -0.5, 0.3)),
                    size * urban_nav_core::Vector3d(0.5, -0.3, 0.8));
       const double offset = 0.2, rho = 0.11;
-      const SightResidual r = computeResidual(sight, sightCamera(), T, offset, rho);
+      const MeasurementResidual r = computeResidual(measurement, measurementCamera(), T, offset, rho);
       ASSERT_TRUE(r.visible);
       const auto predicted = [&](const Pose& pose, double o, double depth) {
-        return Eigen::Vector4d(-computeResidual(sight, sightCamera(), pose, o, depth).e);
+        return Eigen::Vector4d(-computeResidual(measurement, measurementCamera(), pose, o, depth).e);
       };
       const Eigen::Matrix<double, 4, 6> by_pose = urban_nav_core::testing::numericJacobian<4, 6>(
           [&](const Pose& pose) { return predicted(pose, offset, rho); }, T);
@@ -50,25 +50,27 @@ TEST(Sight, JacobianIsThatOfThePredictionAtLargeMotionsToo) {
     }
 }
 
-TEST(Sight, AgreesWithTheCameraOnAPoint) {
-  const StereoCamera c = sightCamera();
+TEST(PointMeasurement, AgreesWithTheCameraOnAPoint) {
+  const StereoCamera c = measurementCamera();
   const Pose T_a_b(urban_nav_core::expSo3({0.05, 0.2, -0.1}), {0.4, 0.1, 1.0});
   const urban_nav_core::Vector3d p_a(1.0, -0.5, 8.0), p_b = T_a_b.inverse() * p_a;
   for (const bool of_a : {true, false}) {
     const auto own = *c.project(of_a ? p_a : p_b), other = *c.project(of_a ? p_b : p_a);
-    Sight sight = makeSight(of_a);
-    sight.ray = c.left.ray(own.head<2>());
-    sight.disparity = own[0] - own[2];
-    sight.pixel = other.head<2>();
-    sight.other_disparity = other[0] - other[2];
-    EXPECT_LT(computeResidual(sight, c, T_a_b, 0.0, inverseDepth(sight, c)).e.norm(), 1e-9);
+    PointMeasurement measurement = makeMeasurement(of_a);
+    measurement.ray = c.left.ray(own.head<2>());
+    measurement.disparity = own[0] - own[2];
+    measurement.pixel = other.head<2>();
+    measurement.other_disparity = other[0] - other[2];
+    EXPECT_LT(computeResidual(measurement, c, T_a_b, 0.0, inverseDepth(measurement, c)).e.norm(), 1e-9);
   }
 }
 
-TEST(Sight, WhatLiesBehindIsNotVisible) {
-  Sight sight = makeSight(true);
+TEST(PointMeasurement, WhatLiesBehindIsNotVisible) {
+  PointMeasurement measurement = makeMeasurement(true);
   const Pose beyond(urban_nav_core::Quaterniond::Identity(), {0.0, 0.0, 100.0});
-  EXPECT_FALSE(computeResidual(sight, sightCamera(), beyond, 0.0, inverseDepth(sight, sightCamera())).visible);
+  EXPECT_FALSE(
+      computeResidual(measurement, measurementCamera(), beyond, 0.0, inverseDepth(measurement, measurementCamera()))
+          .visible);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 constexpr double kEdge = 0.05;  // m
 
-/// A camera 1 m over the ground that looks along it.
+/// A camera 1 m above the ground with a horizontal axis.
 struct Lookout {
   urban_nav_core::Pinhole camera{300.0, 300.0, 200.0, 150.0, 400, 300};
   DepthMap map{camera};

@@ -9,15 +9,16 @@
 
 namespace urban_nav_registration {
 
-/// Space that the beams of a cloud passed through: cubes of a grid around its origin, 32 m to each side and 16 m up and
-/// down (occupancy grids: Moravec and Elfes 1985). Surfaces of another cloud in free space count against the pose that
-/// places them there; unobserved space is neutral. Immutable, so thread-safe.
+/// Free space observed by the beams of a cloud: cubes of a grid around its origin, 32 m to each side and 16 m up and
+/// down (occupancy grids: Moravec and Elfes 1985). Surfaces of another cloud in free space contradict its pose;
+/// unobserved space is neutral. Immutable, so thread-safe.
 class FreeSpace {
  public:
-  /// Requires a cloud with origins. `edge`: of the cubes, m; a beam frees the space up to two cubes before its end.
+  /// Requires a cloud with origins. `edge`: edge length of the cubes, m; a beam frees the space up to two cubes before
+  /// its end.
   FreeSpace(const urban_nav_core::PointCloud& cloud, float edge);
 
-  /// Returns true if beams passed through the cube of the point, and none ended in it or beside it.
+  /// Returns true if beams passed through the cube of the point, and no beam ended in it or in an adjacent cube.
   bool isFree(const Eigen::Vector3f& point) const;
 
  private:
@@ -27,8 +28,8 @@ class FreeSpace {
   void mark(std::size_t cube);
 
   float per_m_;
-  std::vector<std::uint8_t>
-      beams_;  ///< that went through each cube, at most `occupied` - 1; `occupied`: one ended there or beside it
+  std::vector<std::uint8_t> beams_;  ///< number of beams through each cube, at most `occupied` - 1; `occupied`: a beam
+                                     ///< ended there or in an adjacent cube
 };
 
 }  // namespace urban_nav_registration

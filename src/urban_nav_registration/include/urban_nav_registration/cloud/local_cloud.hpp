@@ -11,10 +11,11 @@
 
 namespace urban_nav_registration {
 
-/// Returns the first and the last frame of odometry within `way` m of travel before and after a stamp, at most 20 s
-/// from it.
+/// Returns the first and the last frame of odometry within a path of `half_length` (m) before and after a stamp, and
+/// within 20 s of it.
 std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs> stretchAround(const urban_nav_core::OdometryChain& odometry,
-                                                                          urban_nav_core::StampNs at, double way);
+                                                                          urban_nav_core::StampNs at,
+                                                                          double half_length);
 
 /// A laser with access to its scans.
 struct LaserScans {
@@ -25,14 +26,14 @@ struct LaserScans {
       forEach;
 };
 
-/// Returns the points of the lasers on the stretch around a stamp, rendered beam by beam along odometry, with the
+/// Returns the points of the lasers within that path of a stamp, computed beam by beam along odometry, with the
 /// origins of the beams, in base_link at the stamp (Newman et al. 2009, section 4.2). Empty if odometry does not cover
-/// the stamp. At most 400 000 points, evenly thinned.
+/// the stamp. Evenly thinned to at most 400 000 points.
 urban_nav_core::PointCloud localCloud(const urban_nav_core::OdometryChain& odometry, urban_nav_core::StampNs at,
-                                      double way, const std::vector<LaserScans>& lasers);
+                                      double half_length, const std::vector<LaserScans>& lasers);
 
 /// Returns the deformation of a local cloud by the drift of odometry: the standard deviation of its points relative to
 /// the others, m.
-double deformationSigma(const urban_nav_core::OdometryChain& odometry, urban_nav_core::StampNs at, double way);
+double deformationSigma(const urban_nav_core::OdometryChain& odometry, urban_nav_core::StampNs at, double half_length);
 
 }  // namespace urban_nav_registration

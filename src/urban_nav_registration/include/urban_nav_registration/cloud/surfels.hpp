@@ -10,22 +10,22 @@
 
 namespace urban_nav_registration {
 
-/// Surface element: the points of one cube of the grid, with the normal of its neighbourhood.
+/// Surface element: mean of the points in one cube of the grid, and normal of its neighbourhood.
 struct Surfel {
-  Eigen::Vector3f mean;    ///< of the points in the cube, m
-  Eigen::Vector3f normal;  ///< unit, towards the cloud's origin; of the 27 cubes around, each with equal weight
-  float planarity = 0.0F;  ///< 0...1: 1 - thickness / second extent, as variances; 0 where there is no surface (a line,
-                           ///< a bush, a lone point)
+  Eigen::Vector3f mean;    ///< mean of the points in the cube, m
+  Eigen::Vector3f normal;  ///< unit, towards the cloud's origin; from the 27 cubes around, equally weighted
+  float planarity = 0.0F;  ///< 0...1: 1 - thickness / second extent, as variances; 0 if there is no surface (a line, a
+                           ///< bush, an isolated point)
 };
 
 /// Cloud prepared for alignment.
 struct Surfels {
-  std::vector<Surfel> all;   ///< in the order in which the cloud came to their cubes
+  std::vector<Surfel> all;   ///< ordered by the first point of each cube
   float voxel = 0.0F;        ///< edge of the cubes, m
-  std::size_t points = 0;    ///< that were used
-  std::size_t left_out = 0;  ///< NaN, infinite, or beyond the grid
-  /// Unit normal of the plane in which all points lie, and the sensor with them: a scan of one plane. Normals of its
-  /// surfaces lie in the plane.
+  std::size_t points = 0;    ///< points used
+  std::size_t left_out = 0;  ///< points that are not finite, or beyond the grid
+  /// Unit normal of the plane if all points and the sensor lie in one plane (a planar scan). Normals of its surfaces
+  /// lie in the plane.
   std::optional<Eigen::Vector3f> scan_plane;
 };
 

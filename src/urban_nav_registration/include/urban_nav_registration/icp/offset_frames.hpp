@@ -5,8 +5,8 @@
 
 namespace urban_nav_registration {
 
-/// Origins of two clouds in the coordinates of their files, m: align() is exact near the origin only, files are not
-/// bound to it.
+/// Origins of two clouds in the coordinates of their files, m. align() is accurate near the origin only, and files may
+/// have large coordinates.
 struct CloudOffsets {
   urban_nav_core::Vector3d source = urban_nav_core::Vector3d::Zero(), target = urban_nav_core::Vector3d::Zero();
 };
@@ -14,9 +14,9 @@ struct CloudOffsets {
 /// Returns T_target_source of the clouds relative to their offsets, from that of their files.
 urban_nav_core::Pose relativeToOffsets(const urban_nav_core::Pose& T_target_source, const CloudOffsets& offsets);
 
-/// Returns the alignment of the files, from that of the clouds relative to their offsets: poses, information,
-/// covariance and free directions. A small rotation moves a far origin a long way: information and covariance follow
-/// it.
+/// Returns the alignment in the coordinates of the files, from that relative to the offsets: poses, information,
+/// covariance and free directions. A small rotation displaces a distant origin by a large amount, which is included in
+/// information and covariance.
 Alignment toFileFrames(Alignment alignment, const CloudOffsets& offsets);
 
 }  // namespace urban_nav_registration

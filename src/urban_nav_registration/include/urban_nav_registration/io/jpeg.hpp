@@ -14,11 +14,11 @@ struct ImageSize {
   int width = 0, height = 0;  ///< px
 };
 
-/// Returns the size that the headers of a JPEG state; nullopt if the bytes are none.
+/// Returns the size in the header of a JPEG; nullopt if the bytes are not a JPEG.
 std::optional<ImageSize> sizeOfJpeg(const std::vector<std::uint8_t>& bytes);
 
-/// Returns the grey image of a JPEG of this size; empty if the bytes are damaged, something else, or of another size:
-/// these are not decoded, so that a header that lies takes no memory.
+/// Decodes a grey JPEG of this size. Returns an empty image if the bytes are damaged or of another size; these are not
+/// decoded, so that a wrong header does not allocate memory.
 cv::Mat decodeJpeg(const std::vector<std::uint8_t>& bytes, ImageSize size);
 
 std::vector<std::uint8_t> encodeJpeg(const urban_nav_core::ImageView& image, int quality);

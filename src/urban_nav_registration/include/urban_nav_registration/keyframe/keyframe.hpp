@@ -13,7 +13,7 @@ namespace urban_nav_registration {
 /// Point of a keyframe: a corner at a whole pixel of one pyramid level of the left image, with its disparity.
 struct KeyframePoint {
   std::int16_t u = 0, v = 0;             ///< px of its level
-  std::uint8_t level = 0;                ///< of urban_nav_core::Pyramid
+  std::uint8_t level = 0;                ///< level of urban_nav_core::Pyramid
   float disparity = 0.0F;                ///< px of level 0
   float sigma_disparity = 1.0F;          ///< px of level 0
   float slope_u = 0.0F, slope_v = 0.0F;  ///< d(disparity)/d(u, v): slant of the surface
@@ -31,7 +31,7 @@ struct Keyframe {
   int width = 0, height = 0;        ///< px
   std::vector<KeyframePoint> points;
 };
-/// Serialises a keyframe. Throws DataError when reading something else; the image is decoded later, when it is used.
+/// Serialises a keyframe. Throws DataError when reading other data; the image is decoded later, when it is used.
 void archive(urban_nav_core::Archive& archive, Keyframe& keyframe);
 
 }  // namespace urban_nav_registration

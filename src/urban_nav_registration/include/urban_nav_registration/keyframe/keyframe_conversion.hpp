@@ -9,22 +9,21 @@
 
 namespace urban_nav_registration {
 
-/// Turns keyframes of one camera into those that another camera would have taken from the same point: a camera that was
-/// calibrated anew, or that of another robot. The left image is resampled along its rays, which rotate with the
-/// mounting; points keep their rays and depths. What the other camera would have seen beyond the image is black.
-/// Thread-safe.
+/// Converts keyframes of one camera to those of another camera at the same position: a recalibrated camera, or that of
+/// another robot. The left image is resampled along its rays, which rotate with the mounting; points keep their rays
+/// and depths. Pixels without data are black. Thread-safe.
 class KeyframeConversion {
  public:
   KeyframeConversion(const MountedCamera& from, const MountedCamera& to);
 
   Keyframe convert(const Keyframe& keyframe) const;
 
-  /// Returns T_base_virtual: the base_link of a robot that carries the other camera where this one was. Converted
-  /// keyframes belong to it. A translation, since the rotation is in the images.
+  /// Returns T_base_virtual: base_link of a robot that carries the other camera at the position of this one. Converted
+  /// keyframes refer to it. A pure translation, since the rotation is in the images.
   const urban_nav_core::Pose& T_base_virtual() const { return T_base_virtual_; }
 
  private:
-  bool convertPoint(const KeyframePoint& point, KeyframePoint& made) const;
+  bool convertPoint(const KeyframePoint& point, KeyframePoint& result) const;
 
   urban_nav_core::StereoCamera from_, to_;
   urban_nav_core::Matrix3d R_to_from_;

@@ -7,12 +7,12 @@
 
 namespace urban_nav_registration {
 
-/// Extracts keyframes from stereo pairs. Corners are chosen as those that swf_vo tracks (Newman et al. 2009,
-/// section 2.4 (i) and (v)): the best first by Harris score, as far as the quadtree has room, each with its disparity.
-/// Equal pairs give equal bytes, whatever came before. Thread-safe.
+/// Extracts keyframes from stereo pairs. Corners are chosen as in swf_vo (Newman et al. 2009, section 2.4 (i) and (v)):
+/// the best by Harris score first, as far as the quadtree has room, each with its disparity. Stateless: equal pairs
+/// give equal bytes. Thread-safe.
 class KeyframeExtractor {
  public:
-  /// `points`: largest number of points of a keyframe.
+  /// `points`: maximum number of points of a keyframe.
   KeyframeExtractor(const urban_nav_core::StereoCamera& camera, int points);
 
   /// Returns a keyframe without points if an image is missing or its size differs from that of the camera.

@@ -8,21 +8,21 @@
 
 namespace urban_nav_registration {
 
-/// Selects the keyframes of a session: the first frame, and each frame after the keyframe distance or angle, by
-/// odometry as it was at that time. Live and offline stages use it, so that a session and its recording have the same
+/// Selects the keyframes of a session: the first frame, and each frame at the keyframe distance or angle from the last
+/// one, by filtered odometry. Used by live and offline stages, so that a session and its recording have the same
 /// keyframes. Not thread-safe.
 class KeyframeSelector {
  public:
   explicit KeyframeSelector(const Parameters& parameters)
-      : way_(parameters.keyframe_distance), turn_(parameters.keyframe_angle) {}
+      : distance_(parameters.keyframe_distance), angle_(parameters.keyframe_angle) {}
 
-  /// Sets the pose of the last keyframe, from which the next ones are measured.
+  /// Sets the pose of the last keyframe, relative to which the next ones are selected.
   void keep(const urban_nav_core::Pose& T_odom_base) { last_ = T_odom_base; }
-  /// Returns true if the frame is a keyframe. To be called for each frame in order of time.
+  /// Returns true if the frame is a keyframe. Call for each frame in order of time.
   bool select(const urban_nav_core::Pose& T_odom_base);
 
  private:
-  double way_, turn_;
+  double distance_, angle_;
   std::optional<urban_nav_core::Pose> last_;  // T_odom_base of the last keyframe
 };
 

@@ -11,16 +11,16 @@
 namespace urban_nav_registration {
 
 struct CloudPictureOptions {
-  int panel = 400;  ///< px, width and height of each of the three
+  int panel = 400;  ///< px, width and height of each of the three panels
   std::vector<urban_nav_core::Vector6d>
-      free_directions;  ///< of the alignment: shown as lines through the source's origin
-  std::string caption;  ///< below, such as Alignment::sentence; ASCII
+      free_directions;  ///< free directions of the alignment, drawn as lines through the source's origin
+  std::string caption;  ///< text below the panels, such as Alignment::sentence; ASCII
 };
 
 /// Draws two clouds, the target in red, the source in blue, purple where both have points (Newman et al. 2009, Fig.
-/// 15): from above at `T_guess`, from above and from the side (x to the right, z up) at `T_target_source`, all at one
-/// scale with a scale bar. Axes are those of the target; dots mark the two origins. Points that are not finite are
-/// ignored; empty panels say so. Thread-safe.
+/// 15): from above at `T_guess`, from above and from the side (x to the right, z up) at `T_target_source`, all at the
+/// same scale with a scale bar. Axes of the target; dots mark the two origins. Ignores points that are not finite;
+/// empty panels are labelled. Thread-safe.
 Picture drawClouds(const urban_nav_core::PointCloud& source, const urban_nav_core::PointCloud& target,
                    const urban_nav_core::Pose& T_guess, const urban_nav_core::Pose& T_target_source,
                    const CloudPictureOptions& options = {});

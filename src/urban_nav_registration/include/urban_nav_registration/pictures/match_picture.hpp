@@ -11,18 +11,19 @@
 namespace urban_nav_registration {
 
 struct MatchPictureOptions {
-  bool stacked = false;          ///< b below a; else to its right
-  int widest = 640;              ///< px, of one view: a larger one is reduced
+  bool stacked = false;          ///< b below a; otherwise to its right
+  int widest = 640;              ///< px, of one view: larger ones are reduced
   double worst_px = 0.5;         ///< residual at the red end of the colours, px
-  int most_lines = 120;          ///< of either kind; ends are marked of all that agree
-  std::string title_a, title_b;  ///< in the corners of the views, such as session and time; ASCII
-  std::string caption;           ///< below, such as StereoClosure::sentence; ASCII
+  int most_lines = 120;          ///< maximum number of inlier lines and of other lines; the ends of all inliers are
+                                 ///< marked
+  std::string title_a, title_b;  ///< shown in the corners of the views, such as session and time; ASCII
+  std::string caption;           ///< shown below, such as StereoClosure::sentence; ASCII
 };
 
 /// Draws two keyframes with their matches (Newman et al. 2009, Figs. 12 and 13): inliers as lines from green (residual
-/// zero) over yellow to red (`worst_px` and more), others as thin grey lines below. `pixels`: from StereoMatcher; those
-/// that are not finite or outside their image are ignored. A missing or unreadable image is a grey panel that says so.
-/// Thread-safe.
+/// zero) over yellow to red (`worst_px` and more), others as thin grey lines underneath. `pixels`: from StereoMatcher;
+/// ignores those that are not finite or outside their image. A missing or unreadable image is shown as a labelled grey
+/// panel. Thread-safe.
 Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
                     const MatchPictureOptions& options = {});
 

@@ -16,8 +16,8 @@ struct Picture {
 /// Returns the JPEG of a picture; empty for an empty picture. `quality`: 1...100.
 std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality = 85);
 
-/// Returns the picture of a JPEG; an empty one if the bytes are damaged or something else, or if it is larger than 100
-/// million pixels. Thread-safe.
+/// Decodes a JPEG. Returns an empty picture if the bytes are damaged or not a JPEG, or if it is larger than 100 million
+/// pixels. Thread-safe.
 Picture decodePicture(std::string_view jpeg);
 
 }  // namespace urban_nav_registration

@@ -24,7 +24,7 @@ struct PanoramaKey {
   urban_nav_core::StampNs stamp = 0;
 };
 
-/// Reads and decodes an image; an empty picture if the store does not have it.
+/// Reads and decodes an image; returns an empty picture if it is not in the store.
 inline Picture loadPanorama(urban_nav_store::Store& store, const PanoramaKey& key) {
   using urban_nav_store::StoredPanorama;
   const auto row = urban_nav_store::TableStore<StoredPanorama>(store).get({key.session, key.camera, key.stamp, {}});

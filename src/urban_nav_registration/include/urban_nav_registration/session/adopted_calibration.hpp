@@ -11,38 +11,38 @@
 
 namespace urban_nav_registration {
 
-/// Correction of one device that all stages use in place of what the recording of a session states.
+/// Correction of one device that all stages apply to the calibration stated in the recording of a session.
 struct AdoptedCalibration {
-  std::string frame;                  ///< of a laser; kPanoramaDevice
-  urban_nav_core::StampNs delay = 0;  ///< its stamps are late by this
-  /// Of a laser: T_base_laser = T_base_stated * this. Of the panoramic head: T_base_camera = this * T_base_stated of
+  std::string frame;                  ///< frame of a laser, or kPanoramaDevice
+  urban_nav_core::StampNs delay = 0;  ///< delay of its stamps
+  /// For a laser: T_base_laser = T_base_stated * this. For the panoramic head: T_base_camera = this * T_base_stated for
   /// each of its cameras.
   urban_nav_core::Pose T_stated_adopted;
 };
 
-/// Stands for the panoramic head, whose cameras are fixed to each other.
+/// Identifies the panoramic head, whose cameras are rigidly connected.
 constexpr const char* kPanoramaDevice = "panorama";
 
 /// Key of the state in StageStates.
 constexpr const char* kCalibrationState = "laser_mapper.calibration";
 
 std::string packCalibration(std::vector<AdoptedCalibration> devices);
-/// Returns the corrections; throws DataError if the bytes are damaged or of another version.
+/// Unpacks the corrections. Throws DataError if the bytes are damaged or of another version.
 std::vector<AdoptedCalibration> unpackCalibration(std::string_view bytes);
 
-/// Returns the corrections of a session; empty: none was adopted. Throws DataError if the stored ones are damaged.
+/// Returns the corrections of a session; empty if none was adopted. Throws DataError if the stored ones are damaged.
 std::vector<AdoptedCalibration> readCalibration(urban_nav_store::Store& store,
                                                 const urban_nav_store::SessionId& session);
-/// Replaces the corrections of a session; none: everything is as stated.
+/// Replaces the corrections of a session; an empty list removes them.
 void writeCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                       std::vector<AdoptedCalibration> devices);
 
 /// Correction of the panoramas of a session.
 struct PanoramaCorrection {
-  urban_nav_core::StampNs delay = 0;  ///< their stamps are late by this
+  urban_nav_core::StampNs delay = 0;  ///< delay of their stamps
   urban_nav_core::Pose T_correction;  ///< T_base_camera = this * T_base_camera as stated
 };
-/// Returns what a session has adopted; nothing is corrected without it. Throws DataError if the stored calibration is
+/// Returns the adopted correction of a session; identity without one. Throws DataError if the stored calibration is
 /// damaged.
 PanoramaCorrection panoramaCorrection(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 

@@ -9,7 +9,7 @@
 
 namespace urban_nav_registration {
 
-/// Name under which the left camera's keyframes stand in a store.
+/// Name of the left camera for keyframes in a store.
 constexpr const char* kKeyframeCamera = urban_nav_core::frames::kStereoLeft;
 
 /// Converts a keyframe to its row in a store. The session is not part of the row.

@@ -14,15 +14,15 @@
 
 namespace urban_nav_registration {
 
-/// Reason why two keyframes gave no transform. Numbers are stored: new ones are appended.
+/// Reason for a rejected stereo closure. Values are stored: append new ones at the end.
 enum class StereoReason {
   None = 0,          ///< accepted
-  NoImage = 1,       ///< an image is missing, unreadable, or of another size than the camera's
+  NoImage = 1,       ///< image missing, unreadable, or of another size than the camera's
   TooFewPoints = 2,  ///< too few corners with depth in an image
-  NoConsensus = 3,   ///< no motion through three matches explains enough of the others
+  NoConsensus = 3,   ///< no motion through three matches has enough inliers
   TooFewMatches = 4,
-  LargeError = 5,     ///< mean reprojection error
-  Unlike = 6,         ///< the other image differs where points should be: places that are similar in parts
+  LargeError = 5,     ///< mean reprojection error too large
+  Unlike = 6,         ///< patches differ at the predicted positions: places are similar only in parts
   NotDetermined = 7,  ///< matches leave a direction undetermined
 };
 /// "none", "no_image", "too_few_points", "no_consensus", "too_few_matches", "large_error", "unlike", "not_determined".
@@ -45,37 +45,37 @@ struct MatchedPixels {
 
 /// Result of matching two keyframes.
 struct StereoClosure {
-  /// T_lefta_leftb: from the left optical frame of b to that of a. Information zero where the verdict is no.
+  /// T_lefta_leftb: from the left optical frame of b to that of a. Zero information if rejected.
   urban_nav_core::Constraint lefts;
   urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Rejected;
   StereoReason reason = StereoReason::NoImage;
   std::string sentence;  ///< explanation for the user
 
   int points_a = 0, points_b = 0;
-  int putative = 0;              ///< pairs by descriptor
-  int consensus = 0;             ///< of these, inliers of the best motion
-  int visible = 0;               ///< points that the other image should show, by the transform
-  int matches = 0;               ///< of these, found by patch alignment and consistent
-  double likeness = 0.0;         ///< mean correlation of visible points' patches with what the other view shows there
+  int putative = 0;              ///< matches by descriptor
+  int consensus = 0;             ///< inliers of the best motion among these
+  int visible = 0;               ///< points that should be visible in the other image, by the transform
+  int matches = 0;               ///< points found by patch alignment and consistent, of these
+  double likeness = 0.0;         ///< mean correlation of patches with the other image at the predicted positions
   double reprojection_px = 0.0;  ///< mean over the matches
   double noise_factor = 1.0;     ///< ratio of observed to predicted measurement error
   std::vector<ClosureTest> tests;
   std::vector<MatchedPixels> pixels;
 };
 
-/// Converts a constraint between left cameras to one between base_links, for cameras at T_base_left, which is taken as
-/// exact.
+/// Converts a constraint between left cameras to one between base_links, for cameras at T_base_left, which is assumed
+/// to be exact.
 urban_nav_core::Constraint betweenBases(const urban_nav_core::Constraint& lefts,
                                         const urban_nav_core::Pose& T_base_left);
 
 /// Relative pose of two stereo keyframes (Newman et al. 2009, section 4.1): SIFT descriptors at a scale from the depth,
-/// matched n to n; RANSAC on triples of 3D points; Gauss-Newton with a Huber kernel; then every point is searched for
-/// in the other image, its patch warped by its surface and aligned to a fraction of a pixel, and the motion is
-/// estimated again. Nothing is assumed of the motion.
+/// matched exhaustively; RANSAC on triples of 3D points; Gauss-Newton with a Huber kernel; then every point is searched
+/// for in the other image, its patch warped by its surface and aligned with subpixel accuracy, and the motion is
+/// estimated again. No prior on the motion.
 ///
 /// The information comes from the matches with their measured residuals and one error common to all disparities
-/// (Parameters). Equal keyframes give equal bits, whatever came before. Not thread-safe: caches the features of recent
-/// keyframes by their PoseRef.
+/// (Parameters). Equal keyframes give bit-identical results. Not thread-safe: caches the features of recent keyframes
+/// by their PoseRef.
 class StereoMatcher {
  public:
   StereoMatcher(const urban_nav_core::StereoCamera& camera, const Parameters& parameters);

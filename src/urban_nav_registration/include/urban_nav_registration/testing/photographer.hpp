@@ -19,11 +19,11 @@ class Photographer {
     options_.noise = noise;
   }
 
-  /// Changes the camera of the pairs that follow.
+  /// Sets the camera of the following pairs.
   void setCamera(const urban_nav_core::testing::RenderCamera& camera) { options_.camera = camera; }
 
   urban_nav_core::StereoCamera camera() const { return makeCamera(options_.camera); }
-  /// `gain`: of the exposure. Each pair has different noise.
+  /// `gain`: of the exposure. The noise differs between pairs.
   urban_nav_core::testing::StereoFrame take(const Pose& T_world_left, double gain = 1.0) {
     options_.seed = ++taken_;
     options_.gain = [gain](double) { return gain; };

@@ -8,7 +8,7 @@
 
 namespace urban_nav_registration {
 
-/// A place in an image.
+/// A position in an image, with depth.
 struct ImagePoint {
   double u = 0.0, v = 0.0;  ///< px
   double depth = 0.0;       ///< m, along the line of sight
@@ -19,21 +19,21 @@ struct ViewedPoint {
   Eigen::Vector3d p, normal;
 };
 
-/// How much nearer than a point something must be to hide it: a surface does not hide itself.
+/// Minimum depth difference at which a point occludes another, so that a surface does not occlude itself.
 struct DepthTolerance {
-  float ahead = 0.1F, beside = 0.3F;  ///< m, on the line of sight, and in the cells beside it
-  float share = 0.03F;                ///< of the distance, in addition
+  float ahead = 0.1F, beside = 0.3F;  ///< m, along the line of sight, and in adjacent cells
+  float share = 0.03F;                ///< additional, share of the distance
 };
 
-/// The distance of the nearest point along the lines of sight of an image, at a quarter of its resolution: which points
-/// an image shows. Not thread-safe while points are added; isVisible() is.
+/// Depth of the nearest point along the lines of sight of an image, at a quarter of its resolution, for visibility
+/// tests. Not thread-safe while points are added; isVisible() is.
 class DepthMap {
  public:
   explicit DepthMap(const urban_nav_core::Pinhole& camera, const DepthTolerance& tolerance = {});
-  /// Draws a point that is `edge` (m) wide.
+  /// Draws a point as a square with side `edge` (m).
   void add(const ImagePoint& at, double edge);
-  /// Returns whether nothing is in front of a point, nor beside its line of sight and much nearer. What lies on the
-  /// plane of the point, such as the ground before it, is not in front of it.
+  /// Returns whether a point is not occluded, neither along its line of sight nor by much nearer points in adjacent
+  /// cells. Points in the plane of the surface, such as the ground before it, do not occlude it.
   bool isVisible(const ImagePoint& at, const ViewedPoint& surface) const;
 
  private:
