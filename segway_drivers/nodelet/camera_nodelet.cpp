@@ -12,6 +12,7 @@
 #include "device_parameters.hpp"
 #include "live/simulated_session.hpp"
 #include "urban_nav_core/io/printable.hpp"
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -56,7 +57,7 @@ void CameraNodelet::onInit() {
   time_reference_ = getNodeHandle().advertise<sensor_msgs::TimeReference>(device() + "/time_reference", 100);
   diagnostics_.start(getNodeHandle(), getPrivateNodeHandle(), getName(), model() + " " + nodelet_.port, nodelet_.port,
                      [this](DeviceDiagnostics::Status& status) { addDiagnostics(status); });
-  if (source_) reader_ = std::thread([this] { run(); });
+  if (source_) reader_ = urban_nav_core::namedThread("camera_read", [this] { run(); });
 }
 
 std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {

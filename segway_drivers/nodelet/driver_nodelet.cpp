@@ -7,6 +7,7 @@
 
 #include "device_parameters.hpp"
 #include "urban_nav_core/io/printable.hpp"
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -45,8 +46,8 @@ void DriverNodelet::onInit() {
   diagnostics_.start(getNodeHandle(), getPrivateNodeHandle(), getName(), nodelet_.port, nodelet_.port,
                      [this](DeviceDiagnostics::Status& status) { addRows(status); });
   queue_.setCapacity(static_cast<std::size_t>(nodelet_.queue));
-  publisher_ = std::thread([this] { queue_.run(); });
-  reader_ = std::thread([this] { run(); });
+  publisher_ = urban_nav_core::namedThread("driver_publish", [this] { queue_.run(); });
+  reader_ = urban_nav_core::namedThread("driver_read", [this] { run(); });
 }
 
 void DriverNodelet::run() {

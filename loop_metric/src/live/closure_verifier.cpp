@@ -54,7 +54,7 @@ ClosureVerifier::ClosureVerifier(const Parameters& parameters, double timeout, u
   urban_nav_live::WorkerLoop<Input>::Steps steps;
   steps.handle = [this](Input& input) { handle(input); };
   steps.idle = [this] { return verifyNext(); };
-  loop_.start(std::move(steps));
+  loop_.start("closure_verify", std::move(steps));
 }
 
 ClosureVerifier::Counts ClosureVerifier::counts() const {

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -79,7 +80,7 @@ void GraphWorker::beginBatch() {
   batch_->begin = Clock::now();
   batch_->waiters = std::exchange(waiters_, {});
   batch_->work = graph_->beginBatch();
-  batch_->thread = std::thread([this, batch = batch_.get()] {
+  batch_->thread = urban_nav_core::namedThread("batch_relax", [this, batch = batch_.get()] {
     try {
       batch->work->run(batch->stop);
     } catch (const std::exception& error) {

@@ -116,7 +116,7 @@ class Worker {
       worker_->step();
       return false;
     };
-    loop_.start(steps);
+    loop_.start("test", steps);
   }
   ~Worker() {
     loop_.stop();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene_labeler/training/train.hpp"
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace scene_labeler {
@@ -69,7 +70,7 @@ void LiveTeaching::begin() {
   is_training_ = true;
   is_outdated_ = is_done_ = false;
   progress_ = 0.0;
-  thread_ = std::thread([this, all] { train(all); });
+  thread_ = urban_nav_core::namedThread("teaching", [this, all] { train(all); });
 }
 
 void LiveTeaching::train(const std::vector<ShownCorrection>& shown) {

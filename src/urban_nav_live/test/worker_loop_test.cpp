@@ -28,7 +28,7 @@ TEST(WorkerLoop, BeginsHandlesInputsInOrderAndEnds) {
   Loop::Steps steps = stepsWith([&](int& input) { events.push_back(std::to_string(input)); });
   steps.begin = [&] { events.push_back("begin"); };
   steps.end = [&] { events.push_back("end"); };
-  loop.start(steps);
+  loop.start("test", steps);
   loop.push(2);
   EXPECT_EQ(loop.ask([] { return 7; }, kLoopWait), 7);
   loop.stop();
@@ -39,13 +39,13 @@ TEST(WorkerLoop, AQuestionIsAnsweredAfterTheInputsBeforeIt) {
   int sum = 0;
   Loop loop(100);
   for (int i = 1; i <= 10; ++i) loop.push(i);
-  loop.start(stepsWith([&](int& input) { sum += input; }));
+  loop.start("test", stepsWith([&](int& input) { sum += input; }));
   EXPECT_EQ(loop.ask([&] { return sum; }, kLoopWait), 55);
 }
 
 TEST(WorkerLoop, AQuestionThrowsInTheCaller) {
   Loop loop(10);
-  loop.start(stepsWith([](int&) {}));
+  loop.start("test", stepsWith([](int&) {}));
   const auto question = []() -> int { throw std::runtime_error("no"); };
   EXPECT_THROW(loop.ask(question, kLoopWait), std::runtime_error);
   EXPECT_EQ(loop.ask([] { return 1; }, kLoopWait), 1);
@@ -54,10 +54,10 @@ TEST(WorkerLoop, AQuestionThrowsInTheCaller) {
 TEST(WorkerLoop, AQuestionThatIsDroppedHasNoAnswer) {
   std::atomic<bool> busy{false}, done{false};
   Loop loop(1, kLoopWait);
-  loop.start(stepsWith([&](int&) {
-    busy = true;
-    while (!done) std::this_thread::yield();
-  }));
+  loop.start("test", stepsWith([&](int&) {
+               busy = true;
+               while (!done) std::this_thread::yield();
+             }));
   loop.push(1);
   while (!busy) std::this_thread::yield();
   std::thread asker([&] {
@@ -73,7 +73,7 @@ TEST(WorkerLoop, AQuestionThatIsDroppedHasNoAnswer) {
 
 TEST(WorkerLoop, AQuestionAfterTheEndHasNoAnswer) {
   Loop loop(1);
-  loop.start(stepsWith([](int&) {}));
+  loop.start("test", stepsWith([](int&) {}));
   loop.stop();
   EXPECT_FALSE(loop.ask([] { return 1; }, kLoopWait).has_value());
 }
@@ -84,7 +84,7 @@ TEST(WorkerLoop, IdlesWithoutInputsAndAtOnceWhenWoken) {
   Loop::Steps steps = stepsWith([](int&) {});
   steps.idle = [&] { return ++idles < 3; };  // busy twice: these rounds do not wait
   loop.wake();
-  loop.start(steps);
+  loop.start("test", steps);
   while (idles < 3) std::this_thread::yield();
   loop.wake();
   while (idles < 4) std::this_thread::yield();
@@ -102,7 +102,7 @@ TEST(WorkerLoop, StopsAfterTheInputAtHand) {
   bool ended = false;
   steps.end = [&] { ended = true; };
   for (int i = 0; i < 5; ++i) loop.push(i);
-  loop.start(steps);
+  loop.start("test", steps);
   while (handled == 0) std::this_thread::yield();
   loop.stop();
   EXPECT_EQ(handled, 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/orderly_end.hpp"
+#include "urban_nav_core/parallel/named_thread.hpp"
 
 #include <ros/init.h>
 
@@ -25,7 +26,9 @@ OrderlyEnd& OrderlyEnd::ofProcess() {
   return end;
 }
 
-OrderlyEnd::OrderlyEnd() : watcher_([this] { watch(); }) { std::signal(SIGINT, &noteInterrupt); }
+OrderlyEnd::OrderlyEnd() : watcher_(urban_nav_core::namedThread("orderly_end", [this] { watch(); })) {
+  std::signal(SIGINT, &noteInterrupt);
+}
 
 OrderlyEnd::~OrderlyEnd() {
   ends_ = true;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "live/device_parameters.hpp"
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/parameters.hpp"
 #include "urban_nav_sim/ros/bag_readings.hpp"
@@ -45,7 +46,7 @@ void DeviceNodelet::onInit() {
     NODELET_FATAL("%s", error.what());
     throw;
   }
-  worker_ = std::thread([this] { work(); });
+  worker_ = urban_nav_core::namedThread("device", [this] { work(); });
 }
 
 void DeviceNodelet::work() try {

@@ -16,6 +16,7 @@
 #include "live/simulator_parameters.hpp"
 #include "topic_publisher.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/parameters.hpp"
@@ -96,7 +97,7 @@ void SimulatorNodelet::onInit() {
   advertiseServices();
   timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
                                            [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
-  worker_ = std::thread([this] { work(); });
+  worker_ = urban_nav_core::namedThread("simulator", [this] { work(); });
 }
 
 void SimulatorNodelet::readParameters() {

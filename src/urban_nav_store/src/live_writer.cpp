@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_store {
@@ -17,7 +18,7 @@ using urban_nav_core::DataError;
 class LiveWriter::Implementation {
  public:
   Implementation(Store store, const Options& options) : store_(std::move(store)), options_(options) {
-    thread_ = std::thread([this] { run(); });
+    thread_ = urban_nav_core::namedThread("store_writer", [this] { run(); });
   }
 
   ~Implementation() {

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <thread>
 
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 #ifdef URBAN_NAV_HTTPLIB
@@ -105,7 +106,7 @@ class HttpServer::Implementation {
       response.status = 500;
       response.set_content("", "text/plain");
     });
-    listener_ = std::thread([this] { server_.listen_after_bind(); });
+    listener_ = urban_nav_core::namedThread("http_server", [this] { server_.listen_after_bind(); });
     while (!server_.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_input/session/source.hpp"
 
 namespace urban_nav_input {
@@ -18,7 +19,7 @@ class ReadAhead : public Source {
       : source_(std::move(source)),
         info_(source_->info()),
         depth_(static_cast<std::size_t>(depth)),
-        thread_([this] { run(); }) {}
+        thread_(urban_nav_core::namedThread("read_ahead", [this] { run(); })) {}
 
   ~ReadAhead() override {
     {

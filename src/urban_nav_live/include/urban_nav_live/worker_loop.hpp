@@ -6,10 +6,12 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <variant>
 
+#include "urban_nav_core/parallel/named_thread.hpp"
 #include "urban_nav_live/bounded_queue.hpp"
 
 namespace urban_nav_live {
@@ -36,10 +38,11 @@ class WorkerLoop {
   WorkerLoop(const WorkerLoop&) = delete;
   WorkerLoop& operator=(const WorkerLoop&) = delete;
 
-  /// Starts the thread. Inputs that were pushed before are handled first. Requires that it has not been called before.
-  void start(Steps steps) {
+  /// Starts the thread, with this name. Inputs that were pushed before are handled first. Requires that it has not been
+  /// called before.
+  void start(const std::string& name, Steps steps) {
     steps_ = std::move(steps);
-    thread_ = std::thread([this] { run(); });
+    thread_ = urban_nav_core::namedThread(name, [this] { run(); });
   }
   /// Ends the thread after the input it is handling; inputs that still wait are dropped. Idempotent. Requires that the
   /// caller is not the worker.

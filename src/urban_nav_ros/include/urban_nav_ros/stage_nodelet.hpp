@@ -95,7 +95,7 @@ class StageNodelet : public nodelet::Nodelet {
     steps.handle = [this](typename Stage::Input& input) { stage_->handle(input); };
     steps.idle = [this] { return idle(); };
     steps.end = [this] { stage_->close(); };
-    node_->loop().start(std::move(steps));
+    node_->loop().start(Stage::name, std::move(steps));
   }
 
   bool idle() {
