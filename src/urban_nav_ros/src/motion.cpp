@@ -29,6 +29,14 @@ double statedNoise(const sensor_msgs::Imu& message) {
   return variance > kLeast * kLeast && variance < kMost * kMost ? std::sqrt(variance) : 0.0;
 }
 
+/// Returns the specific force in the axes of base_link, m/s^2; zero where the message has none.
+Vector3d toSpecificForce(const sensor_msgs::Imu& message, const urban_nav_core::Matrix3d& R_base_imu) {
+  const Vector3d force(message.linear_acceleration.x, message.linear_acceleration.y, message.linear_acceleration.z);
+  const bool absent = message.linear_acceleration_covariance[0] < 0.0;  // sensor_msgs/Imu: -1 without accelerometer
+  if (absent || !force.allFinite()) return Vector3d::Zero();
+  return R_base_imu * force;
+}
+
 }  // namespace
 
 std::optional<MotionInput> WheelMotion::add(const nav_msgs::Odometry& message) {
@@ -69,6 +77,7 @@ std::optional<MotionInput> GyroMotion::add(const sensor_msgs::Imu& message) {
   input.to = stamp;
   const double seconds = urban_nav_core::secondsBetween(input.from, input.to);
   input.T_from_to = Pose(urban_nav_core::expSo3(0.5 * seconds * (last->rate + rate)), Vector3d::Zero());
+  input.specific_force = toSpecificForce(message, R_base_imu_);
   const double noise = noise_ > 0.0 ? noise_ : statedNoise(message);
   if (noise > 0.0) input.information.diagonal().tail<3>().setConstant(toInformation(noise * seconds));
   return input;

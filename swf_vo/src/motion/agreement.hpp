@@ -57,7 +57,7 @@ class Agreement {
   // Exponentially weighted sums over blocks: squared motion, its product with the error, and the variance of that
   // product.
   double motion_ = 0.0, along_ = 0.0, along_variance_ = 0.0;
-  double compared_ = 0.0, wanted_ = 0.0;         // s since the last restart, and the required time
+  double compared_ = 0.0, wanted_ = 0.0;  // s since the last restart, and the required time
   int restarts_ = 0;
   std::vector<ComparedStep> steps_;
 };

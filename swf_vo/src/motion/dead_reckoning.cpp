@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "motion/dead_reckoning.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +26,8 @@ constexpr double kTilt = 0.05;
 constexpr double kPlay = 2e-3;
 // Change of the ground's slope per square root of a metre; height of bumps per metre.
 constexpr double kSlopeWalk = 0.01, kBumps = 0.02;
+// Slope of streets and paths, rad, and the least upward component of `odom`'s z axis for a slope to be defined.
+constexpr double kStreetSlope = 0.03, kLeastUp = 0.7;
 // Rate noise of the best sensors of this kind, rad/s/sqrt(Hz): lower limit of stated values.
 constexpr double kLeastRateNoise = 2e-5;
 
@@ -151,6 +154,18 @@ void GroundSlope::learn(const Vector3d& step, double variance) {
   const double of_innovation = step_in_plane.dot(gain) + variance + bumps * bumps;
   mean += gain * ((step.z() - mean.dot(step_in_plane)) / of_innovation);
   covariance -= gain * gain.transpose() / of_innovation;
+}
+
+GroundSlope GroundSlope::levelled(const Vector3d& up, double sigma) const {
+  if (!(up.z() > kLeastUp)) return *this;
+  const Eigen::Vector2d level(-up.x() / up.z(), -up.y() / up.z());
+  const Eigen::Matrix2d sum = covariance + (kStreetSlope * kStreetSlope + sigma * sigma) * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d gain = covariance * sum.inverse();
+  GroundSlope fused = *this;
+  fused.mean += gain * (level - mean);
+  fused.covariance -= gain * covariance;
+  fused.covariance = (0.5 * (fused.covariance + fused.covariance.transpose())).eval();
+  return fused;
 }
 
 StampNs delayed(StampNs stamp, double offset_s) { return stamp + toNs(offset_s); }

@@ -16,6 +16,9 @@ struct GroundSlope {
                                                                     ///< measurement
   /// Updates with a step of base_link in the axes of `odom` (m), whose height has this variance (m^2).
   void learn(const urban_nav_core::Vector3d& step, double variance);
+  /// Returns the slope with the prior that ground is level within some degrees. `up`: in `odom`, with the standard
+  /// deviation of each tilt (rad).
+  GroundSlope levelled(const urban_nav_core::Vector3d& up, double sigma) const;
   urban_nav_core::Vector3d normal() const { return urban_nav_core::Vector3d(-mean.x(), -mean.y(), 1.0).normalized(); }
   void archive(urban_nav_core::Archive& archive) { archive(mean, covariance); }
 };

@@ -16,12 +16,12 @@ using Kind = MotionFault::Kind;
 
 namespace {
 
-constexpr double kFrozen = 0.5;           // s
-constexpr double kGoodCorrelation = 0.8;  // correlation required for a diagnosis
-constexpr double kLinear = 0.95;          // correlation required for a scale
-constexpr double kAxesGain = 0.3;         // increase of correlation required for other axes
+constexpr double kFrozen = 0.5;            // s
+constexpr double kGoodCorrelation = 0.8;   // correlation required for a diagnosis
+constexpr double kLinear = 0.95;           // correlation required for a scale
+constexpr double kAxesGain = 0.3;          // increase of correlation required for other axes
 constexpr double kLeastScaleError = 0.08;  // relative
-constexpr double kLongestDelay = 2.0;     // s
+constexpr double kLongestDelay = 2.0;      // s
 constexpr std::size_t kFewestSteps = 8;
 constexpr double kLeastHistory = 4.0;  // s, required for axes and delays
 constexpr double kDegrees = 180.0 / M_PI;

@@ -103,6 +103,7 @@ void MotionSensors::add(const std::vector<MotionInput>& inputs) {
   for (const MotionInput& input : inputs) {
     if (input.source == MotionSource::Gyroscope) {
       gyroscope_.stream.add(input);
+      up_.add(input);
       q_base_imu_ = input.q_base_sensor;
     } else if (input.source == MotionSource::Wheels) {
       wheels_.stream.add(input);
@@ -116,7 +117,9 @@ std::optional<Reckoned> MotionSensors::reckonBy(bool gyroscope, bool wheels, Sta
   if (gyroscope && gyroscope_.mayPredict()) evidence.gyroscope = &gyroscope_.stream;
   if (wheels && wheels_.mayPredict()) evidence.wheels = &wheels_.stream;
   evidence.states = &calibration_.states();
-  evidence.ground = &ground_;
+  GroundSlope ground = ground_;
+  if (const auto up = up_.estimate()) ground = ground_.levelled(up->up, up->sigma);
+  evidence.ground = &ground;
   evidence.gyroscope_noise = calibration_.gyroscopeNoise();
   evidence.wheel_noise = calibration_.wheelNoise();
   evidence.since_measured = since_measured_;
@@ -194,6 +197,7 @@ void MotionSensors::learnStep(const Settled& settled) {
   const ImageStep images = toImageStep(step);
   if (!(images.seconds > 0.0)) return;
   calibration_.advance(images.seconds);
+  if (!gyroscope_.is_left_out) up_.addStep(step.from, step.to, step.T_from_to, settled.T_odom_base.pose.q(), follows_);
   std::optional<Compared> turned, moved;
   const std::optional<GyroscopeStep> gyroscope = compareGyroscope(settled, images, turned);
   const std::optional<WheelStep> wheels = compareWheels(settled, images, moved);
@@ -307,9 +311,8 @@ bool MotionSensors::isBiasBeyondPrior() const {
 void MotionSensors::decide(Sensor& sensor, bool is_wheels, StampNs stamp) {
   const MotionStates& states = calibration_.states();
   constexpr int kScale = MotionStates::kSpeedScale;
-  const bool beyond =
-      is_wheels ? isBeyondScales(states.mean[kScale], std::sqrt(states.covariance(kScale, kScale)))
-                : isBiasBeyondPrior();
+  const bool beyond = is_wheels ? isBeyondScales(states.mean[kScale], std::sqrt(states.covariance(kScale, kScale)))
+                                : isBiasBeyondPrior();
   const Agreement::Verdict verdict = sensor.agreement.verdict();
   if (verdict == Agreement::Verdict::Contradicts || beyond) {
     const bool was_used = sensor.is_used;
@@ -379,7 +382,7 @@ void MotionSensors::archive(urban_nav_core::Archive& archive) {
   Pose imu(q_base_imu_, Vector3d::Zero());
   archive(imu);
   q_base_imu_ = imu.q();
-  archive(gyroscope_, wheels_, calibration_, ground_, notes_, estimates_);
+  archive(gyroscope_, wheels_, calibration_, ground_, up_, notes_, estimates_);
   archive(since_measured_, any_settled_, follows_, start_is_sound_);
 }
 

@@ -10,6 +10,7 @@
 #include "motion/fault_diagnosis.hpp"
 #include "motion/motion_calibration.hpp"
 #include "motion/twist_stream.hpp"
+#include "motion/up_direction.hpp"
 #include "swf_vo/frame.hpp"
 #include "window/process_model.hpp"
 
@@ -80,6 +81,7 @@ class MotionSensors {
   Sensor gyroscope_, wheels_;
   MotionCalibration calibration_;
   GroundSlope ground_;
+  UpDirection up_;
   std::vector<FrameNote> notes_;  // frames of the window
   MotionEstimates estimates_;
   double since_measured_ = 0.0;  // s

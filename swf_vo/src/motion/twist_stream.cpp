@@ -68,9 +68,7 @@ void TwistStream::forget(StampNs before) {
   spans_.erase(spans_.begin(), first);
 }
 
-bool TwistStream::isStuck() const {
-  return repeated_ > kStuck && !spans_.empty() && !spans_.back().twist.isZero(0.0);
-}
+bool TwistStream::isStuck() const { return repeated_ > kStuck && !spans_.empty() && !spans_.back().twist.isZero(0.0); }
 
 const TwistSpan& TwistStream::at(StampNs stamp) const {
   const auto found =

@@ -13,7 +13,8 @@ MotionChoice toMotionChoice(const std::string& motion_input) {
 bool isApprox(const MotionInput& a, const MotionInput& b, double tolerance) {
   return a.source == b.source && a.q_base_sensor.angularDistance(b.q_base_sensor) <= tolerance && a.from == b.from &&
          a.to == b.to && isApprox(a.T_from_to, b.T_from_to, tolerance) &&
-         ((a.information - b.information).array().abs() <= tolerance).all();
+         ((a.information - b.information).array().abs() <= tolerance).all() &&
+         (a.specific_force - b.specific_force).norm() <= tolerance;
 }
 
 std::ostream& operator<<(std::ostream& out, const MotionInput& value) {
