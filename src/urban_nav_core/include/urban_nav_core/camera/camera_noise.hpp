@@ -6,8 +6,8 @@
 
 #include "urban_nav_core/parameters/table.hpp"
 
-/// Parameters that describe the stereo camera: each stage that measures with it has them, under the same names, and
-/// must be given the same values (differingValues in parameters/shared_settings.hpp).
+/// Parameters of the stereo camera. Every stage that measures with it has these rows under the same names and must be
+/// given the same values (differingValues() in parameters/shared_settings.hpp).
 namespace urban_nav_core {
 
 /// Returns the row of `P::disparity_offset`, px.

@@ -9,15 +9,15 @@
 
 namespace urban_nav_core {
 
-/// Which motion sensor accompanies the images, and its noise: parameters of readers and nodelets, which turn its
-/// messages into MotionInput. Base of their parameters; the rows are those of withMotionInput().
+/// Motion sensor that accompanies the images, and its noise: parameters of readers and nodelets that convert its
+/// messages to MotionInput. Base of their parameter structs; the rows are those of withMotionInput().
 struct MotionInputParameters {
   std::string motion_input;  // auto, none, wheels, gyroscope
   double wheel_noise;        // m/m and rad/rad
   double gyro_noise;         // rad/s
 };
 
-/// Returns `own` rows followed by those of MotionInputParameters.
+/// Returns the rows `own` followed by those of MotionInputParameters.
 template <typename P>
 std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
   const std::vector<Row<P>> rows = {{"motion_input",
