@@ -24,8 +24,8 @@ void toLittleEndian(char* bytes, std::size_t width, std::size_t size) {
 #endif
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll, Vo; RFC 9923): each step is a bijection of the state, so that no single changed
-/// byte goes unseen.
+/// FNV-1a of 64 bits (Fowler, Noll, Vo; RFC 9923): each step is a bijection of the state, so any single changed byte is
+/// detected.
 std::string checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;

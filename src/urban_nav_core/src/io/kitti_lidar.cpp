@@ -16,7 +16,7 @@ namespace {
 using RowMajor3x3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor3x4 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
-/// A row `KEY: NUMBER ...` of a calibration.
+/// Row `KEY: NUMBER ...` of a calibration file.
 struct CalibrationRow {
   std::string where;
   std::vector<double> numbers;

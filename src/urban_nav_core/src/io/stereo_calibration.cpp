@@ -17,7 +17,7 @@ namespace urban_nav_core {
 namespace {
 
 constexpr double kLargestSize = 100000.0;  // px a side
-constexpr double kSame = 1e-9;             // relative, of equal numbers
+constexpr double kSame = 1e-9;             // relative difference of equal numbers
 constexpr const char* kFormats =
     "KITTI's calib.txt, Kalibr's camchain.yaml, ost.txt with both cameras, or LEFT,RIGHT: two files of camera_info, "
     "EuRoC's sensor.yaml or ost.txt";
@@ -43,9 +43,9 @@ Pose toPose(const Eigen::Matrix4d& M, const std::string& what, const std::string
   return Pose(R, Vector3d(M.topRightCorner<3, 1>()));
 }
 
-// ---- Kalibr
+// Kalibr
 
-/// Returns a 4x4 matrix that is a list of four rows; nullopt without the key.
+/// Returns a 4x4 matrix given as a list of four rows; nullopt without the key.
 std::optional<Pose> findTransform(const YamlNode& camera, const char* key, const std::string& name) {
   const YamlNode* rows = camera.find(key);
   if (rows == nullptr) return std::nullopt;
@@ -86,9 +86,9 @@ CameraInfo readKalibrCamera(const YamlNode& camera, const std::string& name) {
   return info;
 }
 
-// ---- ost.txt
+// ost.txt
 
-/// Reads the lines of an ost.txt one after another; blank lines and comments are passed over.
+/// Reads the lines of an ost.txt in sequence; blank lines and comments are skipped.
 class OstLines {
  public:
   OstLines(std::string_view text, std::string name) : name_(std::move(name)) {

@@ -20,8 +20,8 @@ class Converter {
  public:
   explicit Converter(std::string file) : file_(std::move(file)) {}
 
-  // An alias is a node that hangs in the tree more than once: both limits also end documents that multiply or contain
-  // themselves.
+  // An alias is a node that occurs several times in the tree: the limits also stop documents with exponential or
+  // recursive expansion.
   YamlNode convert(const YAML::Node& node, int depth) {
     YamlNode out;
     out.line = node.Mark().line + 1;
@@ -66,8 +66,7 @@ YamlNode readYaml(const std::string& path) { return parseYaml(readTextFile(path)
 
 YamlNode parseYaml(std::string_view text, const std::string& name) {
   std::string content(text);
-  // OpenCV's and EuRoC's files begin with %YAML:1.0, which is no directive of YAML. Blanks instead keep the lines'
-  // numbers.
+  // Files of OpenCV and EuRoC begin with %YAML:1.0, which is not a valid directive. Blanks preserve line numbers.
   if (content.rfind("%YAML", 0) == 0) std::fill_n(content.begin(), std::min(content.find('\n'), content.size()), ' ');
   try {
     return Converter(name).convert(YAML::Load(content), 0);

@@ -13,7 +13,7 @@
 namespace urban_nav_core {
 namespace {
 
-// Levenshtein's distance: insertions, deletions and substitutions between two names.
+// Returns the Levenshtein distance: insertions, deletions and substitutions between two names.
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -30,7 +30,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::string nearest(const std::string& wanted, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 100;  // the distance costs the product of the lengths
+  constexpr std::size_t kLongest = 100;  // longer names are not compared: the cost is the product of the lengths
   const std::string head = wanted.substr(0, kLongest);
   const auto closer = [&head](const std::string& a, const std::string& b) {
     return editDistance(head, a) < editDistance(head, b);
@@ -61,7 +61,7 @@ std::optional<ParameterValue> readText(const RowInfo& row, const std::string& te
   return std::nullopt;
 }
 
-// YAML readers, the parameter server's among them, take the words on and off for booleans.
+// YAML parsers, including that of the parameter server, convert the words on and off to booleans.
 ParameterValue wordForFlag(const RowInfo& row, const ParameterValue& value) {
   const auto* flag = std::get_if<bool>(&value.base());
   if (row.type != ParameterType::Word || flag == nullptr) return value;

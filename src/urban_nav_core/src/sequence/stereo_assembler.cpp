@@ -12,7 +12,7 @@ namespace urban_nav_core {
 
 namespace {
 
-/// Pixels without gaps between the rows, which the image then owns.
+/// Reads or writes the pixels without gaps between rows; the image then owns them.
 void archiveImage(Archive& archive, OwnedImage& image) {
   int width = image.view.width, height = image.view.height;
   auto pixels = std::make_shared<std::vector<std::uint8_t>>();

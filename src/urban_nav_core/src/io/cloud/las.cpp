@@ -14,7 +14,7 @@ constexpr std::size_t kOldHeader = 227;  // bytes, of version 1.2
 constexpr std::size_t kNewHeader = 375;  // of version 1.4
 constexpr std::size_t kLeastRecord = 20;
 
-/// What the points need of a public header block (ASPRS, LAS Specification 1.4 R15, section 2.4).
+/// Fields of the public header block that reading points requires (ASPRS, LAS Specification 1.4 R15, section 2.4).
 struct LasHeader {
   std::size_t points_at = 0, record = 0, points = 0;
   std::array<double, 3> scale{}, offset{};

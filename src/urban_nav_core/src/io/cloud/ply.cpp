@@ -15,7 +15,7 @@ namespace {
 struct Property {
   std::string name;
   BinaryNumber number;
-  std::optional<BinaryNumber> length;  // of a list: how its length is written
+  std::optional<BinaryNumber> length;  // of a list: type of its length
 };
 struct Element {
   std::string name;
@@ -81,7 +81,7 @@ PlyHeader readPlyHeader(HeaderLines& lines, const std::string& name) {
   throw UserError(name, "the header does not end", "a line end_header");
 }
 
-/// The columns of three properties; empty where one is missing or a list.
+/// Columns of three properties; empty if one is missing or a list.
 using Columns = std::array<std::size_t, 3>;
 std::optional<Columns> findColumns(const Element& vertex, const std::array<const char*, 3>& names) {
   Columns columns{};
@@ -94,7 +94,7 @@ std::optional<Columns> findColumns(const Element& vertex, const std::array<const
   return columns;
 }
 
-/// Where the numbers of a vertex stand.
+/// Columns of the properties of a vertex.
 struct Vertex {
   Columns point{};
   std::optional<Columns> origin;
@@ -111,7 +111,7 @@ UserError tooShort(const std::string& name, const Element& element) {
                    "a whole file");
 }
 
-/// The numbers of a file one after another, whatever its format.
+/// Reads the numbers of a binary file in sequence, in either byte order.
 class BinaryNumbers {
  public:
   BinaryNumbers(std::string_view bytes, bool swap) : bytes_(bytes), swap_(swap) {}
@@ -136,7 +136,7 @@ class BinaryNumbers {
   bool swap_;
 };
 
-/// Words between blanks and ends of lines, as the format allows them to be laid out.
+/// Reads words separated by blanks and line ends, which the format treats alike.
 class AsciiNumbers {
  public:
   AsciiNumbers(HeaderLines& lines, std::string name) : lines_(lines), name_(std::move(name)) {}
@@ -154,7 +154,7 @@ class AsciiNumbers {
     return count == 0;
   }
   std::size_t left() const { return words_.size() - at_ + lines_.rest().size(); }
-  /// A row with a number too many would displace all after it.
+  /// Rejects a row with too many numbers, which would shift all following ones.
   void expectEnd() {
     if (nextWord())
       throw UserError(atLine(name_, lines_.number()), "more numbers than the header announces", "as many");
@@ -177,7 +177,7 @@ class AsciiNumbers {
   std::size_t at_ = 0;
 };
 
-/// One row of an element: its numbers into `row`, 0 where a list is, which is skipped. Returns whether it is all there.
+/// Reads one row of an element into `row`; lists are skipped and yield 0. Returns whether the row is complete.
 template <class Numbers>
 bool readRow(const Element& element, Numbers& numbers, std::vector<double>& row) {
   row.clear();

@@ -26,7 +26,7 @@ std::string gunzip(std::string_view content, const std::string& name) {
   const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, &inflateEnd);
   std::string plain;
   std::size_t taken = 0;
-  while (taken < content.size()) {  // one member after another, as gzip allows
+  while (taken < content.size()) {  // a gzip file may have several members
     int status = Z_OK;
     while (status != Z_STREAM_END) {
       if (stream.avail_in == 0 && taken < content.size()) {
@@ -78,7 +78,7 @@ std::optional<std::string> decompressLzf(std::string_view packed, std::size_t si
     const std::size_t back = ((control & 31U) << 8U) + byte() + 1;
     length += 2;
     if (back > plain.size() || length > size - plain.size()) return std::nullopt;
-    for (std::size_t i = 0; i < length; ++i) plain.push_back(plain[plain.size() - back]);  // may overlap what it makes
+    for (std::size_t i = 0; i < length; ++i) plain.push_back(plain[plain.size() - back]);  // may overlap its own output
   }
   if (plain.size() != size) return std::nullopt;
   return plain;
