@@ -13,7 +13,7 @@ using urban_nav_core::SpecificForce;
 
 namespace {
 
-// Without tf: ten minutes at 100 Hz.
+// Capacity without tf: ten minutes at 100 Hz.
 constexpr std::size_t kMostWaiting = 60'000;
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 struct ColourLayout {
   const char* encoding;
   int type;
-  int to_bgr;  // code of cv::cvtColor; kSameOrder: none
+  int to_bgr;  // conversion code of cv::cvtColor; kSameOrder: none
 };
 
 constexpr int kSameOrder = -1;

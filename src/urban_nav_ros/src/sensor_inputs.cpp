@@ -11,7 +11,7 @@ namespace urban_nav_ros {
 
 namespace {
 
-/// Returns the laser of a topic, 0 left, 1 right; -1: of none.
+/// Returns the laser of a topic: 0 left, 1 right, -1 none.
 int findLaser(const std::string& topic) {
   if (topic == topics::kLaserLeft) return 0;
   return topic == topics::kLaserRight ? 1 : -1;

@@ -18,7 +18,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-/// The pixels that a view looks into, whoever they belong to.
+/// Owner of the pixels of a view.
 struct Pixels {
   sensor_msgs::ImageConstPtr message;  // mono8 is not copied
   cv::Mat grey;
@@ -72,8 +72,8 @@ void StereoFeed::widen(const Input& input) {
   if (packed != nullptr) range_.add(**packed);
 }
 
-/// The range of 16-bit pixels is one for both cameras: before an image is decoded, its partner is taken into account
-/// too.
+/// Adds the partner of an image to the range of 16-bit pixels before decoding, since the range is common to both
+/// cameras.
 void StereoFeed::widenByPair(StampNs stamp, const Input& input) {
   if (range_.isSettled()) return;
   widen(input);

@@ -87,7 +87,7 @@ void StereoSessions::handleInfo(const InfoInput& info) {
   sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
   if (known && isSameCalibration(*known, *info.message)) return;
   if (feed_) end("the calibration changed");
-  // A new left camera does not match the old right one: its camera_info must arrive again.
+  // A new left camera does not match the old right one: wait for the other camera_info.
   if (known) {
     (info.side == Side::Left ? right_info_ : left_info_).reset();
     judge_.reset();
@@ -126,8 +126,7 @@ void StereoSessions::handleSensor(const Message& message) {
   wait(message);
 }
 
-// Motion sensors are faster than cameras: images alone are counted, and what came before the oldest of them is of no
-// use.
+// Only images are counted, because motion sensors have higher rates; messages before the oldest image are dropped.
 void StereoSessions::wait(const Message& message) {
   constexpr std::size_t kMostPerImage = 50;
   const auto isImage = [](const Message& each) { return std::holds_alternative<ImageInput>(each); };
@@ -221,7 +220,7 @@ void StereoSessions::end(const std::string& why, bool deliver) {
     deliverPairs();
   }
   finished_ = counts();
-  finished_.dropped -= rounds_.dropped();  // which counts() adds
+  finished_.dropped -= rounds_.dropped();  // added by counts()
   feed_.reset();
   gaps_.restart();
   place_fault_.clear();

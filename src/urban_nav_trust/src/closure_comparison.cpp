@@ -14,8 +14,8 @@ using urban_nav_core::formatNumber;
 
 namespace {
 
-/// Squared Mahalanobis distance, with odometry's standard deviations `scale` times as large; nullopt if the covariance
-/// is not positive definite.
+/// Returns the squared Mahalanobis distance, with odometry's standard deviations multiplied by `scale`; nullopt if the
+/// covariance is not positive definite.
 std::optional<double> squaredDistance(const ClosureDifference& closure, double scale) {
   const Eigen::LLT<Eigen::MatrixXd> factor(scale * scale * closure.odometry + closure.closure);
   if (factor.info() != Eigen::Success) return std::nullopt;

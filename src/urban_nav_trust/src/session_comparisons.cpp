@@ -18,12 +18,12 @@ namespace {
 constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kPoseNumbers = 6.0;
 
-/// Probability that |x| exceeds that of a normal variable of as many standard deviations.
+/// Returns the probability that a normal variable exceeds this many standard deviations in magnitude.
 double twoSided(double deviations) { return std::erfc(std::abs(deviations) / std::sqrt(2.0)); }
 
 double chiSquareTail(double x, double dof) { return 1.0 - urban_nav_core::chiSquareProbability(x, dof); }
 
-/// Two unit vectors across an upward direction, as columns.
+/// Returns two unit vectors orthogonal to a vertical direction, as columns.
 Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& up) {
   Eigen::Matrix<double, 3, 2> axes;
   axes.col(0) = up.unitOrthogonal();
@@ -88,7 +88,7 @@ void testLidar(const std::optional<LidarComparison>& comparison, double rig_scal
   test.interval = comparison->contradictions > 0 ? comparison->worst : comparison->interval;
   test.statistic = comparison->spread;
   test.degrees_of_freedom = axes;
-  // All stretches together, and the worst one of them: the smaller of both counts twice (Bonferroni).
+  // All intervals together, and the worst of them: the smaller p-value is doubled (Bonferroni).
   const double of_all = probabilityUnderUnknownScale(axes * comparison->spread,
                                                      [&](double x) { return chiSquareTail(x, axes); }),
                of_worst = static_cast<double>(comparison->stretches) *
@@ -101,7 +101,7 @@ void testLidar(const std::optional<LidarComparison>& comparison, double rig_scal
                   std::to_string(comparison->contradictions) + " of them contradict each other.";
   test.remedy = "Compare --odometry stereo and --odometry laser, and check clocks and mounting.";
   results.tests.push_back(std::move(test));
-  // The covariance has been multiplied by the spread: what is left is as many numbers of mean square one.
+  // Covariances were multiplied by the spread: the normalised residuals have mean square one.
   ScaleWeights log_likelihoods{};
   for (std::size_t i = 0; i < kScaleCount; ++i) {
     const double variance = covarianceScales()[i] * covarianceScales()[i];

@@ -10,8 +10,8 @@
 
 namespace urban_nav_live {
 
-/// What a nodelet needs to receive a stereo camera: base of the parameters of each one that does. Its rows are
-/// stereoInputRows(); their defaults are set with those of the derived struct.
+/// Parameters for receiving a stereo camera, base of those of each nodelet that does. The rows are stereoInputRows();
+/// their defaults are set with those of the derived struct.
 struct StereoInputParameters {
   std::string base_frame;
   std::string image_type;  // auto, raw, rectified
@@ -23,7 +23,7 @@ struct StereoInputParameters {
   double drain_s;         // s
 };
 
-/// Returns `own` rows followed by those of StereoInputParameters. `queue_size`: default, messages.
+/// Returns the rows `own` followed by those of StereoInputParameters. `queue_size`: default, messages.
 template <typename P>
 std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::Row<P>> own, int queue_size) {
   const std::vector<urban_nav_core::Row<P>> rows = {

@@ -16,11 +16,11 @@
 
 namespace urban_nav_ros {
 
-/// Conventions of drivers that differ from the definitions of their messages: parameters `input.imu_delay` and so on of
-/// readers of recordings, `input/imu_delay` and so on of nodelets. Base of their parameters; the rows are those of
+/// Conventions of drivers that differ from the definitions of their messages: parameters `input.imu_delay` etc. of
+/// readers of recordings, `input/imu_delay` etc. of nodelets. Base of their parameter structs; the rows are those of
 /// withSensorCorrections().
 struct SensorCorrectionParameters {
-  std::string accelerometer_axes;                          // as parseAxisMap() reads
+  std::string accelerometer_axes;                          // in the format of parseAxisMap()
   double accelerometer_scale;                              // m/s2
   double gyroscope_scale;                                  // rad/s
   double wheels_scale;                                     // m
@@ -31,7 +31,7 @@ struct SensorCorrectionParameters {
   double laser_left_time_scale, laser_right_time_scale;    // s
 };
 
-/// Corrections by SensorCorrectionParameters.
+/// Corrections given by SensorCorrectionParameters.
 struct SensorCorrections {
   urban_nav_core::AccelerometerConvention accelerometer = {};
   double gyroscope_scale = 1.0, wheels_scale = 1.0;
@@ -42,39 +42,40 @@ struct SensorCorrections {
 /// Returns the corrections. Throws UserError for unknown axes and for a wheels_scale of zero.
 SensorCorrections toCorrections(const SensorCorrectionParameters& parameters);
 
-/// Takes a delay (ns) from a stamp. Returns false, and changes nothing, if nothing above zero remains.
+/// Subtracts a delay (ns) from a stamp. Returns false, without effect, if the result is not positive.
 bool correctStamp(urban_nav_core::StampNs delay, std_msgs::Header& header);
-/// Scales the rates of a message of an IMU, and the positions of one of wheel odometry.
+/// Scale the rates of an IMU message, and the positions of a wheel odometry message.
 void correctRates(double scale, sensor_msgs::Imu& imu);
 void correctPositions(double scale, nav_msgs::Odometry& wheels);
 
-/// Parameter of SensorCorrectionParameters and its value.
+/// Name and value of a parameter of SensorCorrectionParameters.
 struct CorrectionSetting {
   std::string name, value;
 };
-/// Returns what repairs an accelerometer whose messages are read by the convention `present`; empty: nothing does.
+/// Returns the settings that correct an accelerometer whose messages are read by the convention `present`; empty: none
+/// does.
 std::vector<CorrectionSetting> settingsFor(const urban_nav_core::AccelerometerVerdict& verdict,
                                            const urban_nav_core::AccelerometerConvention& present);
-/// Returns what repairs the scans of a laser. `role`: "laser_left" or "laser_right".
+/// Returns the settings that correct the scans of a laser. `role`: "laser_left" or "laser_right".
 std::vector<CorrectionSetting> settingsFor(const urban_nav_core::ScanVerdict& verdict, const std::string& role,
                                            const urban_nav_core::LaserConvention& present);
 
-/// Returns what is wrong with the units of scans, and the likely cause: "the median range is 4200 m: the ranges are in
-/// millimetres"; empty where nothing is.
+/// Returns the fault of the units of scans with its likely cause: "the median range is 4200 m: the ranges are in
+/// millimetres"; empty: no fault.
 std::string describeUnits(const urban_nav_core::ScanVerdict& verdict);
 
-/// Rows of SensorCorrectionParameters; each has its value in a finding of `doctor`.
+/// Returns the rows of SensorCorrectionParameters; `doctor` proposes a value for each in its findings.
 template <typename P>
 std::vector<urban_nav_core::Row<P>> sensorCorrectionRows();
 
-/// Returns `own` rows followed by those of SensorCorrectionParameters.
+/// Returns the rows `own` followed by those of SensorCorrectionParameters.
 template <typename P>
 std::vector<urban_nav_core::Row<P>> withSensorCorrections(std::vector<urban_nav_core::Row<P>> own) {
   for (auto& row : sensorCorrectionRows<P>()) own.push_back(std::move(row));
   return own;
 }
 
-constexpr double kLongestDelay = 1e13;  ///< ms: of a clock that was never set
+constexpr double kLongestDelay = 1e13;  ///< ms: that of a clock that was never set
 
 /// Returns the row of the delay of a sensor.
 template <typename P>
