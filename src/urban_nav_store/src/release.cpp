@@ -63,7 +63,7 @@ ReleaseHead freeze(const std::string& store, const SessionId& first, ReleaseHead
     opened.close();
   }
   urban_nav_core::PartialFile partial(resolved(path), ".freezing");
-  ::unlink(partial.path().c_str());  // of a process that was killed
+  ::unlink(partial.path().c_str());  // left by a killed process
   {
     Connection connection(store, Connection::Mode::Write);
     Statement copy = connection.prepare("VACUUM INTO ?");

@@ -39,9 +39,9 @@ std::string keyNames(const Table& table) {
   return text;
 }
 
-/// Triggers keep rows and the sum of checksums of each session, so that a page that was lost with its rows is missed.
-/// Wide rows are stored by row number with an index, narrow ones in the index itself: SQLite's own advice for tables
-/// without row numbers.
+/// Triggers maintain the number of rows and the sum of checksums of each session, so that a lost page is detected with
+/// its rows. Wide rows are stored by row number with an index, narrow ones in the index itself, as SQLite recommends
+/// for tables without row numbers.
 SqlObjects sqlObjects(const Table& table) {
   const std::string name = table.name, session = table.columns.front().name;
   std::string columns;
@@ -75,7 +75,7 @@ void createTable(Connection& connection, const Table& table) {
   for (const auto& [name, sql] : sqlObjects(table)) connection.execute(sql);
 }
 
-/// Writes the rows of a table anew, with the columns that it has not had so far.
+/// Rewrites the rows of a table with the added columns.
 void addColumns(Connection& connection, const Table& before, const Table& after) {
   const std::string name = before.name;
   verifyTally(connection, before);
