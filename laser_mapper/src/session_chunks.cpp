@@ -21,8 +21,8 @@ using urban_nav_store::NearPoints;
 namespace {
 
 constexpr std::size_t kBatch = 8;                           // chunks read before they are rendered, on all threads
-constexpr std::size_t kBatchBytes = std::size_t{96} << 20;  // of their sweeps
-constexpr double kLongestPause = 0.5;                       // s between scans of a laser that runs
+constexpr std::size_t kBatchBytes = std::size_t{96} << 20;  // bytes of their sweeps
+constexpr double kLongestPause = 0.5;                       // s between scans of a running laser
 
 }  // namespace
 
