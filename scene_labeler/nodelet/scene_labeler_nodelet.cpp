@@ -35,10 +35,10 @@ namespace scene_labeler {
 
 namespace {
 
-constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic head, left and right
+constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // cameras of the panoramic head on the left and right side
 constexpr double kCameraTimeout = 5.0;                       // s
 constexpr std::chrono::milliseconds kTrainingPoll{20};
-// Scans and images that arrive after the poses of their time are labelled with the next pose, or after this time.
+// Scans and images that arrive after the poses of their time are labelled with the next pose, or after this delay.
 constexpr std::chrono::milliseconds kPosePatience{500};
 
 struct CameraImage {
@@ -74,7 +74,7 @@ sensor_msgs::PointCloud2 toMessage(const std::vector<DriveReturn>& returns, cons
 
 }  // namespace
 
-/// Labels on topics: lasers, side cameras and odometry in, labels/image and labels/cloud out.
+/// Publishes labels/image and labels/cloud from lasers, side cameras and odometry.
 class SceneLabelerStage {
  public:
   static constexpr const char* name = "scene_labeler";
@@ -284,7 +284,7 @@ bool SceneLabelerStage::idle() {
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, labels_->newest());
   if (!labels_->teaching().isTraining()) return false;
-  std::this_thread::sleep_for(kTrainingPoll);  // progress and the taught model do not wait for the next input
+  std::this_thread::sleep_for(kTrainingPoll);  // polls progress and the retrained model without waiting for an input
   return true;
 }
 

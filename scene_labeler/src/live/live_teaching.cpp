@@ -11,9 +11,9 @@ namespace scene_labeler {
 namespace {
 
 constexpr std::size_t kMostScenes = 24;
-constexpr float kFarthestReturn = 0.3F;  // m, from the place that was clicked
+constexpr float kFarthestReturn = 0.3F;  // m, from the clicked position
 
-/// Returns the labelled point nearest to a place; nullopt beyond kFarthestReturn.
+/// Returns the labelled point nearest to a position; nullopt beyond kFarthestReturn.
 std::optional<std::size_t> nearestPoint(const DriveScene& drive, const Eigen::Vector3f& place) {
   const Eigen::Vector3f local = place - drive.origin;
   float nearest = kFarthestReturn * kFarthestReturn;

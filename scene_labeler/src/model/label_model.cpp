@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kModelName = "model of scene_labeler";
 constexpr std::uint32_t kOldestVersion = 2;  // without samples
 constexpr std::uint32_t kModelVersion = 3;
-constexpr float kLeastShare = 1e-3F;  // of a forest's votes, before the logarithm
+constexpr float kLeastShare = 1e-3F;  // of a forest's votes, lower bound before the logarithm
 constexpr std::size_t kMostFeatures = 255;
 
 }  // namespace

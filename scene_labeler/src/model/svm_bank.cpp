@@ -13,7 +13,7 @@ constexpr std::size_t kMomentCount = 8;  // two groups, mean and deviation of tw
 
 double logSigmoid(double x) { return x < -30.0 ? x : -std::log1p(std::exp(-x)); }
 
-/// Log density of height over ground and normal; a missing one does not decide.
+/// Returns the log density of height above ground and normal; a missing value is neutral.
 double logDensity(const float* row, const std::vector<std::uint8_t>& columns, const float* moments) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
