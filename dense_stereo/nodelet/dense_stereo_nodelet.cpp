@@ -20,7 +20,7 @@ constexpr double kImageTimeout = 1.0;  // s
 
 }  // namespace
 
-/// Dense stereo on topics.
+/// Publishes dense stereo.
 class DenseStereoStage {
  public:
   static constexpr const char* name = "dense_stereo";
@@ -75,7 +75,7 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   options.queue = nodelet_.queue_size;
   subscribeStereo(node, options, nodelet_.compressed, urban_nav_core::MotionChoice());
   if (!nodelet_.gravity) return;
-  urban_nav_ros::TopicOptions unmonitored;  // an IMU need not be there
+  urban_nav_ros::TopicOptions unmonitored;  // an IMU is optional
   unmonitored.is_monitored = false;
   node.subscribeInput<sensor_msgs::Imu>(urban_nav_ros::topics::kImu, unmonitored,
                                         [](const auto& message) { return Input(message); });
