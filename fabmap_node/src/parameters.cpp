@@ -10,7 +10,7 @@ using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<Parameters>& table() {
   using P = Parameters;

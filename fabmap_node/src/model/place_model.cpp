@@ -20,7 +20,7 @@ using urban_nav_core::DataError;
 
 namespace {
 
-// 1: without sequences. 3: with features of OpenCV, which no describer extracts.
+// 1: without sequences. 3: with OpenCV's features, which are no longer supported.
 constexpr std::uint32_t kOldestVersion = 1, kModelVersion = 2, kOpencvVersion = 3;
 constexpr char kModelName[] = "places model";
 constexpr std::size_t kMostWords = 1'000'000;

@@ -10,7 +10,7 @@
 namespace fabmap_node {
 namespace {
 
-// Of a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
+// For a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
 constexpr float kLevelsPerUnit = 40.0F;
 constexpr int kHighestLevel = 15;
 constexpr float kHighestCoordinate = 65535.0F;
