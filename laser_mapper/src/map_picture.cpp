@@ -153,7 +153,7 @@ void MapPicture::drawPath(const std::vector<Vector3d>& path) {
   }
 }
 
-/// Darkens pixels behind a depth edge (eye-dome lighting, Boucheny 2009), which shows shape without colour.
+/// Darkens the far side of depth edges (eye-dome lighting, Boucheny 2009), which shows shape without colour.
 void MapPicture::shadeEdges(std::vector<Pixel>& pixels) const {
   const std::vector<Pixel> before = pixels;
   for (int v = 1; v + 1 < view_.height; ++v)

@@ -57,7 +57,7 @@ void PlaceRecogniser::followLook(const std::string& look) {
 }
 
 /// The sequence is used for places of other sessions only. Within a session, a repetitive facade is matched at a
-/// constant distance behind the robot, which is as consistent as a revisit.
+/// constant distance from the robot, which is as consistent as a revisit.
 void PlaceRecogniser::judge(const std::vector<PlaceMatch>& matches, int cameras, PlaceRecognition& result) {
   const PlaceCalibration& alone = model_.calibration(cameras);
   const std::optional<PlaceCalibration>& sequence = model_.sequenceCalibration(cameras);

@@ -28,7 +28,7 @@ class StereoRectifyStage {
   bool idle() { return false; }
   std::string reset() {
     rectifier_->reset();
-    return "images that waited are dropped";
+    return "waiting images were dropped";
   }
   void close() {}
   urban_nav_live::StageReport report() const { return rectifier_->report(); }

@@ -28,7 +28,7 @@ void archiveMessage(urban_nav_core::Archive& archive, boost::shared_ptr<const Me
     wire::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
     wire::deserialize(stream, *read);
   } catch (const ros::Exception&) {
-    archive.require(false, "a message ends too early");
+    archive.require(false, "a message is truncated");
   }
   message = read;
 }

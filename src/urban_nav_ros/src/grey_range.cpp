@@ -75,7 +75,8 @@ void GreyRange::add(const cv::Mat& grey) {
 
 void GreyRange::archive(urban_nav_core::Archive& archive) {
   archive(scale_.offset, scale_.step, is_settled_);
-  archive.require(std::isfinite(scale_.offset) && scale_.step > 0.0 && std::isfinite(scale_.step), "no grey scale");
+  archive.require(std::isfinite(scale_.offset) && scale_.step > 0.0 && std::isfinite(scale_.step),
+                  "a grey scale is invalid");
   if (archive.isReading()) is_settled_ = true;
 }
 

@@ -78,7 +78,7 @@ std::string knownEncodings() {
 /// Returns the message's bytes as a matrix without a copy; empty with a fault if they contradict the header.
 GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
   layout = findLayout(message.encoding);
-  if (layout == nullptr) return {{}, "encoding " + message.encoding + ": known are " + knownEncodings()};
+  if (layout == nullptr) return {{}, "encoding " + message.encoding + ": supported: " + knownEncodings()};
   if (message.width == 0 || message.height == 0) return {{}, "no pixels"};
   if (message.width > 65535 || message.height > 65535) return {{}, "larger than 65535 pixels"};
   const std::size_t row = message.width * static_cast<std::size_t>(CV_ELEM_SIZE(layout->type));
@@ -86,7 +86,7 @@ GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
     return {{}, "step " + std::to_string(message.step) + " is shorter than a row of " + std::to_string(row) + " bytes"};
   const std::size_t needed = static_cast<std::size_t>(message.step) * (message.height - 1) + row;
   if (message.data.size() < needed) {
-    return {{}, std::to_string(message.data.size()) + " bytes where " + std::to_string(needed) + " are needed"};
+    return {{}, std::to_string(message.data.size()) + " bytes, expected " + std::to_string(needed)};
   }
   auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; it is only read
   cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), layout->type, bytes, message.step);
@@ -123,9 +123,8 @@ GreyImage decode(const sensor_msgs::CompressedImage& message) {
   try {
     cv::Mat decoded = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (decoded.empty())
-      return {
-          {},
-          "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode"};
+      return {{},
+              "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes cannot be decoded"};
     return {decoded, {}};
   } catch (const cv::Exception& error) {
     return {{}, "format \"" + message.format + "\": " + error.err};
@@ -195,7 +194,7 @@ GreyImage toDeepGrey(const cv::Mat& pixels) {
   } else if (pixels.channels() == 4) {
     cv::cvtColor(pixels, grey, cv::COLOR_BGRA2GRAY);
   } else if (pixels.channels() != 1) {
-    return {{}, std::to_string(pixels.channels()) + " channels: 1, 3 or 4 are known"};
+    return {{}, std::to_string(pixels.channels()) + " channels: supported: 1, 3 or 4"};
   }
   return {grey, {}};
 }

@@ -42,8 +42,8 @@ std::string RectificationChoice::contradiction(bool as_named) const {
   if (isRectified(as_named) == as_named) return "";
   return std::string(is_rectified ? "images are rectified already, although their calibration has a distortion"
                                   : "images are raw, although their topic is named as rectified") +
-         ": rows differ by " + toPixels(as_they_are_px) + " as they are, by " + toPixels(rectified_px) +
-         " once rectified";
+         ": rows differ by " + toPixels(as_they_are_px) + " without and by " + toPixels(rectified_px) +
+         " with rectification";
 }
 
 RectificationChoice chooseRectification(const std::vector<ImagePair>& pairs, const StereoCalibration& rectifying) {

@@ -56,9 +56,9 @@ void StageNode::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const 
   const urban_nav_live::InputGate::Counts counts = gate_.counts();
   std::vector<urban_nav_live::StageReport::FaultCount> faults = report_.fault_counts;
   faults.push_back({"inputs were dropped", dropped_, pushed_,
-                    "this stage is slower than they come; lower their rate, or give it a processor"});
+                    "the stage is slower than its inputs; lower their rate, or free processor time"});
   faults.push_back({"messages were damaged", counts.invalid, counts.received,
-                    "they are not finite or of an unknown kind; the log names the topic"});
+                    "they are not finite or have an unknown enumerator; the log names the topic"});
   rates_.add(faults);
   const auto [rate_level, rate_sentence] = rates_.summary();
   const urban_nav_live::TopicMonitor::Fault topics = monitor_.worstFault();

@@ -147,7 +147,7 @@ void StereoFeed::archive(urban_nav_core::Archive& archive) {
   queue_.archive(archive, [](urban_nav_core::Archive& items, Input& input) {
     std::size_t kind = input.index();
     items(kind);
-    items.require(kind < std::variant_size_v<Input>, "no such message");
+    items.require(kind < std::variant_size_v<Input>, "a kind of message is unknown");
     if (items.isReading() && kind == 1) input = sensor_msgs::CompressedImageConstPtr();
     if (items.isReading() && kind == 2) input = MotionInput();
     if (auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) archiveMessage(items, *raw);

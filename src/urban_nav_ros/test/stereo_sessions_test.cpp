@@ -115,7 +115,7 @@ TEST(StereoSessions, AMountingThatComesLateOrChangesBeginsTheNextSession) {
   kept.show(kSessionStart);
   EXPECT_NE(kept.sessions->placeFault().find("no static tf from base_link to left"), std::string::npos);
   kept.sessions->handle(mountingAt(1.5));
-  EXPECT_EQ(kept.ends, std::vector<std::string>{"the place of the camera is known now"});
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"the mounting of the camera was received"});
   kept.show(kSessionStart + 50 * kSessionMs);
   ASSERT_EQ(kept.cameras.size(), 2U);
   EXPECT_TRUE(kept.cameras[1].is_mounting_known);
@@ -124,7 +124,7 @@ TEST(StereoSessions, AMountingThatComesLateOrChangesBeginsTheNextSession) {
   kept.sessions->handle(mountingAt(1.5));
   EXPECT_EQ(kept.ends.size(), 1U) << "the same";
   kept.sessions->handle(mountingAt(1.6));
-  EXPECT_EQ(kept.ends.back(), "the camera is mounted elsewhere");
+  EXPECT_EQ(kept.ends.back(), "the mounting of the camera changed");
   kept.show(kSessionStart + 100 * kSessionMs);
   EXPECT_EQ(kept.cameras.back().T_base_left.t().z(), 1.6);
   EXPECT_EQ(kept.stamps.size(), 3U) << "no pair is lost";

@@ -41,7 +41,7 @@ ReleaseHead readReleaseHead(Store& release) {
       }
     }
   if (head.digest.empty() || head.version < 1)
-    throw urban_nav_core::DataError(release.path(), "is damaged: it does not state which release it is",
+    throw urban_nav_core::DataError(release.path(), "is damaged: it has no head of a release",
                                     "a release of urban_nav release");
   return head;
 }

@@ -81,7 +81,7 @@ TEST(Store, ReadingChangesNoByte) {
   {
     Store store(path, Access::Read);
     dump(store);
-    expectError([&] { fill(store, 2, 3); }, path, "was opened for reading alone");
+    expectError([&] { fill(store, 2, 3); }, path, "was opened for reading only");
     EXPECT_EQ(folder.files(), 1U);
   }
   EXPECT_EQ(readFile(path), bytes);
@@ -143,12 +143,12 @@ TEST(Store, LeavesOtherFilesAlone) {
   }
   for (const Access access : {Access::Read, Access::Write}) {
     for (const auto& [path, words] :
-         {std::pair{text, "is no session store"}, {other, "is another program's"}, {newer, "newer urban_nav"}}) {
+         {std::pair{text, "is not a session store"}, {other, "is another program's"}, {newer, "newer urban_nav"}}) {
       const std::string bytes = readFile(path);
       expectError([&, path = path] { Store(path, access); }, path, words);
       EXPECT_EQ(readFile(path), bytes);
     }
-    expectError([&] { Store(folder.file(""), access); }, folder.file(""), "is no session store");
+    expectError([&] { Store(folder.file(""), access); }, folder.file(""), "is not a session store");
   }
   for (const std::string& path : {text, other}) expectError([&] { removeStore(path); }, path, "left as it is");
   EXPECT_TRUE(isStore(newer));

@@ -68,9 +68,10 @@ void testKind(const std::vector<ClosureDifference>& closures, bool by_laser, Tes
   test.sentence = std::to_string(compared.size()) + (by_laser ? " closures by lasers" : " closures by stereo") +
                   " differ from odometry by up to " + formatNumber(worst.closure->distance_m) + " m and " +
                   formatNumber(worst.closure->angle_rad * 180.0 / M_PI) + " deg, " +
-                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times what both state.";
+                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times their stated standard deviation.";
   test.remedy =
-      "Odometry drifts more than it states, or a closure is false: check the calibration of the stereo pair, and the "
+      "Odometry drifts more than its covariance states, or a closure is false: check the calibration of the stereo "
+      "pair and the "
       "closure with `why`.";
   results.tests.push_back(std::move(test));
 }

@@ -69,10 +69,10 @@ void testGravity(const std::optional<UpEstimate>& by_ground, const std::optional
   test.p_value = std::exp(-0.5 * test.statistic);
   const double angle =
       std::atan2(by_ground->up.cross(by_accelerometer->up).norm(), by_ground->up.dot(by_accelerometer->up));
-  test.sentence = "The ground that stereo sees is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
+  test.sentence = "The ground measured by stereo is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
                   formatNumber(kDegrees * std::sqrt(0.5 * covariance.trace()), 2) +
                   ") against the accelerometer's gravity, on average.";
-  test.remedy = "The stereo head or the IMU is mounted otherwise than /tf_static states: measure its roll and pitch.";
+  test.remedy = "The mounting of the stereo head or the IMU differs from /tf_static: measure its roll and pitch.";
   results.tests.push_back(std::move(test));
 }
 
@@ -97,7 +97,7 @@ void testLidar(const std::optional<LidarComparison>& comparison, double rig_scal
   test.p_value = std::min(1.0, 2.0 * std::min(of_all, of_worst));
   test.sentence = "In " + std::to_string(comparison->stretches) +
                   " stretches of 1 s stereo and LiDAR odometry differ by " +
-                  formatNumber(std::sqrt(comparison->spread), 3) + " times what both state, and " +
+                  formatNumber(std::sqrt(comparison->spread), 3) + " times their stated standard deviation, and " +
                   std::to_string(comparison->contradictions) + " of them contradict each other.";
   test.remedy = "Compare --odometry stereo and --odometry laser, and check clocks and mounting.";
   results.tests.push_back(std::move(test));

@@ -106,7 +106,7 @@ class StepFusion {
 Status fusedStatus(const Status& stereo, StepSource source) {
   if (source != StepSource::Laser) return stereo;
   return {Health::Degraded, stereo.reason,
-          "by LiDAR odometry alone" + (stereo.sentence.empty() ? "" : ": " + stereo.sentence)};
+          "by LiDAR odometry only" + (stereo.sentence.empty() ? "" : ": " + stereo.sentence)};
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ KittiMatrix parseLine(const std::vector<std::string_view>& words, const std::str
     if (!number) throw UserError(where, "`" + std::string(word) + "`", "a finite number");
     M(i / 4, i % 4) = *number;
   }
-  if (!isRotation(M.leftCols<3>())) throw UserError(where, "a matrix that is no rotation to 0.001", "");
+  if (!isRotation(M.leftCols<3>())) throw UserError(where, "matrix is not a rotation (tolerance 0.001)", "");
   return M;
 }
 

@@ -39,7 +39,7 @@ Pose toPose(const Eigen::Matrix4d& M, const std::string& what, const std::string
   const Matrix3d R = M.topLeftCorner<3, 3>();
   const bool rotates =
       ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
-  if (!rotates) throw UserError(where, what + " is no rigid transform", "a rotation and a translation");
+  if (!rotates) throw UserError(where, what + " is not a rigid transform", "a rotation and a translation");
   return Pose(R, Vector3d(M.topRightCorner<3, 1>()));
 }
 
@@ -50,7 +50,7 @@ std::optional<Pose> findTransform(const YamlNode& camera, const char* key, const
   const YamlNode* rows = camera.find(key);
   if (rows == nullptr) return std::nullopt;
   const std::string where = atLine(name, rows->line);
-  if (rows->list.size() != 4) throw UserError(where, std::string(key) + " has no four rows", "a 4x4 matrix");
+  if (rows->list.size() != 4) throw UserError(where, std::string(key) + " does not have four rows", "a 4x4 matrix");
   Eigen::Matrix4d M;
   for (std::size_t i = 0; i < 4; ++i) {
     const YamlNode& row = rows->list[i];
@@ -160,16 +160,17 @@ CameraPair parseStereoCalibration(const std::vector<std::string>& texts, const s
       throw UserError(names.front(), std::to_string(cameras.size()) + " camera", "two, or LEFT,RIGHT: a file for each");
     return {cameras[0], cameras[1]};
   }
-  if (texts.size() != 2) throw UserError(names.front(), "is one file of one camera, or of an unknown kind", kFormats);
+  if (texts.size() != 2)
+    throw UserError(names.front(), "is a file of a single camera, or of an unknown format", kFormats);
   const CalibrationKind other = calibrationKind(texts.back());
-  if (kind != other) throw UserError(names.back(), "is of another kind than " + names.front(), kFormats);
+  if (kind != other) throw UserError(names.back(), "has another format than " + names.front(), kFormats);
   if (kind == CalibrationKind::Euroc) {
     const EurocCamera left = parseEurocCamera(texts.front(), names.front()),
                       right = parseEurocCamera(texts.back(), names.back());
     return rectifiedPair(left.info, right.info, right.T_body_camera.inverse() * left.T_body_camera, names.back());
   }
   if (kind == CalibrationKind::Camchain || kind == CalibrationKind::Other)
-    throw UserError(names.front(), "is no file of one camera that is known", kFormats);
+    throw UserError(names.front(), "is not a known calibration file of one camera", kFormats);
   return {readOne(texts.front(), names.front(), kind), readOne(texts.back(), names.back(), kind)};
 }
 
@@ -181,7 +182,7 @@ std::vector<CameraInfo> parseOst(std::string_view text, const std::string& name)
     const std::string_view key = lines.take();
     if (key == "width" || key == "height") {
       const std::vector<double> value = lines.takeNumbers();
-      if (value.size() != 1) throw UserError(lines.where(), "no number", "the " + std::string(key) + " in px");
+      if (value.size() != 1) throw UserError(lines.where(), "not a number", "the " + std::string(key) + " in px");
       (key == "width" ? width : height) = toSize(value.front(), std::string(key), lines.where());
     } else if (key == "camera matrix") {
       cameras.emplace_back();

@@ -91,7 +91,7 @@ class RowSplitter {
       if (line[at] == '"') ++at;
       changed_ += line[at];
     }
-    if (at >= line.size()) return "a quote that does not end";
+    if (at >= line.size()) return "unterminated quote";
     for (++at; at < line.size() && !endsCell(line[at]); ++at)
       if (!isCellBlank(line[at])) return "text after a quote";
     add(std::string_view(changed_).substr(begin), cells);

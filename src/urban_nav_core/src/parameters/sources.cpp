@@ -84,7 +84,7 @@ void append(std::vector<Assignment>& assignments, const std::string& stage, cons
     const std::string full = fullName(stage, key);
     if (node.kind != YamlNode::Kind::Scalar)
       throw UserError(where, full + " is not a single value", "one value after the colon");
-    if (!seen.insert(key).second) throw UserError(where, full + " stands twice", "");
+    if (!seen.insert(key).second) throw UserError(where, "duplicate key " + full, "");
     assignments.push_back({stage, key, node.scalar, true, where});
   }
 }
@@ -97,7 +97,7 @@ std::vector<Assignment> fromYaml(const YamlNode& root, const std::string& file) 
   YamlNode without_stage;
   std::set<std::string> seen;
   for (const auto& [stage, node] : root.map) {
-    if (!seen.insert(stage).second) throw UserError(atLine(file, node.line), stage + " stands twice", "");
+    if (!seen.insert(stage).second) throw UserError(atLine(file, node.line), "duplicate key " + stage, "");
     if (node.kind == YamlNode::Kind::Map) {
       append(assignments, stage, node, file);
     } else if (node.kind != YamlNode::Kind::Null) {
@@ -145,7 +145,7 @@ std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo
     if (row == rows.end()) {
       const std::string full_name = fullName(stage, assignment.name), replacement = findReplacement(full_name);
       if (!replacement.empty()) throw UserError(assignment.where, full_name + " was removed: " + replacement, "");
-      throw UserError(assignment.where, full_name + " is no parameter",
+      throw UserError(assignment.where, full_name + " is not a parameter",
                       "the parameters that --help-all lists; "
                       "nearest: " +
                           fullName(stage, nearest(assignment.name, listNames(rows))));
@@ -164,7 +164,7 @@ void refuseUnknownStages(const std::vector<Assignment>& assignments, const std::
     for (const std::string& stage : stages)
       known += (known.empty() ? "" : ", ") + (stage.empty() ? std::string("none") : stage);
     const std::string found =
-        assignment.stage.empty() ? assignment.name + " has no stage in front" : assignment.stage + " is no stage";
+        assignment.stage.empty() ? assignment.name + " has no stage prefix" : assignment.stage + " is not a stage";
     throw UserError(assignment.where, found, known + "; nearest: " + nearest(assignment.stage, stages));
   }
 }

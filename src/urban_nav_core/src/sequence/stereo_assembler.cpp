@@ -21,7 +21,7 @@ void archiveImage(Archive& archive, OwnedImage& image) {
   archive(image.stamp, width, height, *pixels);
   archive.require(
       width >= 0 && height >= 0 && pixels->size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-      "an image is of another size");
+      "an image has another size");
   if (!archive.isReading()) return;
   image.view = pixels->empty() ? ImageView{} : ImageView{pixels->data(), width, height, width};
   image.owner = pixels;

@@ -96,23 +96,20 @@ TEST(Archive, IsLittleEndian) {
 
 TEST(Archive, NamesWhatIsWrong) {
   const std::string bytes = written(someThing());
-  const std::string right = ": allowed the bytes as they were written";
   EXPECT_EQ(catchError([&] { read(bytes.substr(0, bytes.size() - 1)); }),
-            "state of a thing: is damaged: there are fewer things than it says" + right);
-  EXPECT_EQ(catchError([&] { read(bytes.substr(0, 20)); }), "state of a thing: is damaged: it ends too early" + right);
-  EXPECT_EQ(catchError([&] { read(bytes + "x"); }), "state of a thing: is damaged: more than was written" + right);
+            "state of a thing: is damaged: it has fewer elements than its count");
+  EXPECT_EQ(catchError([&] { read(bytes.substr(0, 20)); }), "state of a thing: is damaged: it is truncated");
+  EXPECT_EQ(catchError([&] { read(bytes + "x"); }), "state of a thing: is damaged: it has trailing bytes");
   std::string other = bytes;
   other[0] = 2;
-  EXPECT_EQ(catchError([&] { read(other); }),
-            "state of a thing: is damaged: a whole number is out of its range" + right);
+  EXPECT_EQ(catchError([&] { read(other); }), "state of a thing: is damaged: an integer is out of range");
   Thing thing;
   thing.small = std::numeric_limits<int>::max();
-  EXPECT_EQ(catchError([&] { read(written(thing)); }),
-            "state of a thing: is damaged: a whole number is out of its range" + right);
+  EXPECT_EQ(catchError([&] { read(written(thing)); }), "state of a thing: is damaged: an integer is out of range");
   other = bytes;
   other[5 * 8 + 6] = other[5 * 8 + 7] = '\x7f';
   other[5 * 8 + 6] = '\xf0';
-  EXPECT_EQ(catchError([&] { read(other); }), "state of a thing: is damaged: a number is not finite" + right);
+  EXPECT_EQ(catchError([&] { read(other); }), "state of a thing: is damaged: a number is not finite");
 }
 
 TEST(Archive, SealsAgainstDamage) {
@@ -121,8 +118,7 @@ TEST(Archive, SealsAgainstDamage) {
   EXPECT_EQ(catchError([&] { unseal("thing", 4, sealed); }), "state of thing: is of version 3: allowed version 4");
   EXPECT_EQ(catchError([&] { unseal("other", 3, sealed); }),
             "state of other: is the state of thing: allowed one of other");
-  EXPECT_EQ(catchError([&] { unseal("thing", 3, "{}"); }),
-            "state of thing: these bytes are no state: allowed the bytes as they were written");
+  EXPECT_EQ(catchError([&] { unseal("thing", 3, "{}"); }), "state of thing: is not a saved state");
   for (std::size_t i = 0; i < sealed.size(); ++i) {
     std::string damaged = sealed;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x10);

@@ -94,7 +94,7 @@ TEST(Calibration, CameraInfoNamesWhatIsWrong) {
   EXPECT_EQ(with("image_width: 512", "image_wide: 512"), "left.yaml:1: no key `image_width`");
   EXPECT_EQ(with("[390, 0,", "[390,"), "left.yaml:7: data has 8 elements: allowed 9 numbers in a list");
   EXPECT_NE(with("[390, 0,", "[-390, 0,"), "");
-  EXPECT_EQ(with("data: [1, 0, 0, 0, 1", "data: [1, 0, 0, 0, 7"), "left.yaml: rectification_matrix is no rotation");
+  EXPECT_EQ(with("data: [1, 0, 0, 0, 1", "data: [1, 0, 0, 0, 7"), "left.yaml: rectification_matrix is not a rotation");
   EXPECT_NE(with("plumb_bob", "fish"), "");
 }
 
@@ -114,7 +114,7 @@ TEST(Calibration, EurocGivesCameraAndExtrinsics) {
 TEST(Calibration, EurocNamesWhatIsWrong) {
   std::string text = kEuroc;
   text.replace(text.find("0.999660727178"), 14, "0.099660727178");
-  EXPECT_EQ(catchError([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is no rotation");
+  EXPECT_EQ(catchError([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is not a rotation");
   text = kImu;
   text.replace(text.find("1.6968e-04"), 10, "-1");
   EXPECT_EQ(catchError([&] { parseEurocImu(text, "sensor.yaml"); }),

@@ -49,9 +49,9 @@ TEST(Kitti, ChecksTheNumberOfColumnsAndTheRotation) {
   EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 inf\n", "p.txt"); }),
             "p.txt:1: `inf`: allowed a finite number");
   EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 -1 0\n", "p.txt"); }),
-            "p.txt:1: a matrix that is no rotation to 0.001");
+            "p.txt:1: matrix is not a rotation (tolerance 0.001)");
   EXPECT_EQ(catchError([] { parseKitti("2 0 0 0 0 1 0 0 0 0 1 0\n", "p.txt"); }),
-            "p.txt:1: a matrix that is no rotation to 0.001");
+            "p.txt:1: matrix is not a rotation (tolerance 0.001)");
   EXPECT_NE(catchError([] { parseKitti("1e200 0 0 0 0 1e200 0 0 0 0 1e200 0\n", "p.txt"); }), "");
 }
 

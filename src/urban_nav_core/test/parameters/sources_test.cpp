@@ -64,14 +64,14 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(catchError([] { loadText("stage:\n  forget: keep\n"); }),
             "config.yaml:2: stage.forget = keep: allowed schur, delete");
   EXPECT_EQ(catchError([] { loadText("stage:\n  windw: 3\n"); }),
-            "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help-all lists; nearest: "
+            "config.yaml:2: stage.windw is not a parameter: allowed the parameters that --help-all lists; nearest: "
             "stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
             "config.yaml:2: stage.window is not a single value: allowed one value after the colon");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
-            "config.yaml:3: stage.window stands twice");
+            "config.yaml:3: duplicate key stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),
-            "config.yaml:3: stage stands twice");
+            "config.yaml:3: duplicate key stage");
   EXPECT_EQ(catchError([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: allowed lines such as `swf_vo:`");
   EXPECT_NE(catchError([] { loadText("stage: [\n"); }).find("config.yaml:"), std::string::npos);
   EXPECT_EQ(catchError([] { load(exampleTable(), {parseSetting("stage.window=x")}); }),
@@ -101,11 +101,11 @@ TEST(Sources, UnknownStagesAreRefused) {
   EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "others", ""});
             }),
-            "config.yaml:8: other is no stage: allowed stage, others, none; nearest: others");
+            "config.yaml:8: other is not a stage: allowed stage, others, none; nearest: others");
   EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "other"});
             }),
-            "config.yaml:9: memory_mb has no stage in front: allowed stage, other; nearest: stage");
+            "config.yaml:9: memory_mb has no stage prefix: allowed stage, other; nearest: stage");
   EXPECT_EQ(catchError([&] { refuseUnknownStages(assignments, {"stage", "other", ""}); }), "");
 }
 

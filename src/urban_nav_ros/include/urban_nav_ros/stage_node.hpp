@@ -160,7 +160,7 @@ class StageNodeWith : public StageNode {
   auto ask(const Question& question, std::chrono::milliseconds timeout = std::chrono::seconds(30))
       -> decltype(question()) {
     auto answer = loop_.ask(question, timeout);
-    if (!answer) throw urban_nav_core::UserError("", "still at work on what came before; ask again", "");
+    if (!answer) throw urban_nav_core::UserError("", "busy with earlier inputs; try again", "");
     return std::move(*answer);
   }
   urban_nav_live::WorkerLoop<Input>& loop() { return loop_; }
@@ -224,7 +224,7 @@ void StageNodeWith<Input>::subscribeInput(const std::string& topic, const TopicO
   subscribe<Message>(topic, options, [this, topic, convert](const boost::shared_ptr<const Message>& message) {
     if (std::optional<Input> input = toInput(convert(message))) return push(std::move(*input));
     gate().countInvalid();
-    logWarning(topic, topic + ": an invalid message: not finite, no pose, or an unknown kind");
+    logWarning(topic, topic + ": invalid message: not finite, an invalid pose, or an unknown enumerator");
   });
 }
 

@@ -139,7 +139,7 @@ class StageNodelet : public nodelet::Nodelet {
           return true;
         },
         left + kLeastDrain);
-    if (!done) node_->logError("not all that waited was decided within drain_s; it is given up");
+    if (!done) node_->logError("pending inputs were not decided within drain_s and are dropped");
   }
   void finish(long) {}
 

@@ -73,7 +73,7 @@ void refuseOtherFiles(const std::string& path, Releases releases) {
                       "a session store of urban_nav, or a name where there is no file yet");
     case FileKind::Other: break;
   }
-  throw UserError(path, "is no session store, or its beginning is damaged; it was left as it is",
+  throw UserError(path, "is not a session store, or its header is damaged; it was left as it is",
                   "a session store of urban_nav, or a name where there is no file yet");
 }
 

@@ -152,13 +152,14 @@ void check(Connection& connection, const Tables& tables) {
         connection.name(),
         "was written by a newer urban_nav (schema " + std::to_string(found_version) + "), and was left as it is",
         "schema " + std::to_string(latest) + " or older; or a newer urban_nav");
-  if (found_version < 1) connection.damaged("schema " + std::to_string(found_version) + " has never been written");
+  if (found_version < 1) connection.damaged("schema " + std::to_string(found_version) + " does not exist");
   std::map<std::string, std::string> found;
   Statement statement = connection.prepare("SELECT name,sql FROM sqlite_master WHERE sql IS NOT NULL");
   while (statement.step()) found[std::string(statement.text(0))] = statement.text(1);
   for (const auto& [name, text] : sqlObjects(tables, found_version)) {
     const auto object = found.find(name);
-    if (object == found.end() || object->second != text) connection.damaged("table " + name + " is not as it was made");
+    if (object == found.end() || object->second != text)
+      connection.damaged("table " + name + " differs from its declaration");
   }
 }
 

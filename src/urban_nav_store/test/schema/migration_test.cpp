@@ -200,7 +200,7 @@ TEST_F(Migration, HappensAsAWholeOrNotAtAll) {
   {
     Connection connection(path, Connection::Mode::Write);
     connection.execute("CREATE TABLE landmark(a)");
-    expectError([&] { schema::migrate(connection, laterTables()); }, path, "SQLite says");
+    expectError([&] { schema::migrate(connection, laterTables()); }, path, "SQLite error");
     EXPECT_LT(schema::version(connection), kLater);
     connection.execute("DROP TABLE landmark");
   }

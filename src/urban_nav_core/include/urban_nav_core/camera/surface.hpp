@@ -23,7 +23,7 @@ Eigen::Vector3d leaning(const StereoCamera& camera, const Eigen::Vector3d& ray, 
                         const Eigen::Vector2d& slant);
 
 /// Returns the plane scaled to another inverse depth of its point on the ray. Where the inverse depth grows fourfold or
-/// more, or the plane is behind the camera, returns the fronto-parallel plane at that inverse depth.
+/// more, or the ray does not intersect the plane, returns the fronto-parallel plane at that inverse depth.
 Eigen::Vector3d surfaceAt(const Eigen::Vector3d& plane, const Eigen::Vector3d& ray, double inverse_depth);
 
 /// Returns the warp of the pixels around the pixel of `ray` into the view of a camera at T_to_from, by the homography

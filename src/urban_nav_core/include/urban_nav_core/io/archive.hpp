@@ -52,7 +52,7 @@ class Archive {
     if (reading_ && !holds) refuse(found);
   }
   /// Reading: throws DataError if bytes are left over.
-  void finish() const { require(left_.empty(), "more than was written"); }
+  void finish() const { require(left_.empty(), "it has trailing bytes"); }
 
   /// Reads or writes an element count; each element takes at least `least` bytes.
   void count(std::size_t& value, std::size_t least = 1);

@@ -124,13 +124,14 @@ class TimeOrderedQueue {
       Entry& entry = waiting_[i];
       archive(entry.stamp, entry.stream);
       item(archive, entry.item);
-      archive.require(entry.stream >= 0 && static_cast<std::size_t>(entry.stream) < counts_.size(), "no such stream");
+      archive.require(entry.stream >= 0 && static_cast<std::size_t>(entry.stream) < counts_.size(),
+                      "a stream is unknown");
       archive.require(i == 0 || findPlace(waiting_[i - 1]) < findPlace(entry), "inputs are out of order");
     }
     for (TimeOrderedQueueCounts& counts : counts_) archive(counts.received, counts.late, counts.duplicate);
     for (std::optional<StampNs>& reached : reached_) archive(reached);
     archive(newest_, handed_on_, finished_);
-    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "nothing has come");
+    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "it has inputs without a newest stamp");
   }
 
  private:

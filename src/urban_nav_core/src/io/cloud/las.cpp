@@ -41,7 +41,7 @@ LasHeader readLasHeader(std::string_view bytes, const std::string& name) {
     header.scale[axis] = at(131 + 8 * axis, kF64);
     header.offset[axis] = at(155 + 8 * axis, kF64);
     if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 || !std::isfinite(header.offset[axis]))
-      throw UserError(name, "a scale or an offset of the coordinates that is no number, or zero", "finite numbers");
+      throw UserError(name, "invalid scale or offset of the coordinates", "finite numbers");
   }
   return header;
 }

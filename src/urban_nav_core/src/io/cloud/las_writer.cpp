@@ -111,7 +111,7 @@ void LasWriter::append(const LasPoint& point, std::string_view attributes) {
     const auto i = static_cast<std::size_t>(axis);
     const double steps = std::round((point.p(axis) - offset_(axis)) / kLasScale);
     if (!(std::abs(steps) < std::numeric_limits<std::int32_t>::max()))
-      throw DataError(path_, "a point lies over 200 km away from the first one, or is not finite", "");
+      throw DataError(path_, "a point is more than 200 km from the first one, or not finite", "");
     const auto stored = static_cast<std::int32_t>(steps);
     appendLittleEndian(record_, stored);
     low_[i] = points() == 0 ? stored : std::min(low_[i], stored);

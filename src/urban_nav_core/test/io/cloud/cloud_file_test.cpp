@@ -258,8 +258,9 @@ TEST(CloudFile, MistakesAreNamedWithTheirLine) {
             "c:4: property type real: allowed a type of PLY, such as float");
   EXPECT_EQ(refusal(plyAscii().substr(0, plyAscii().size() - 12)),
             "c: ends before its 4 of element vertex: allowed a whole file");
-  EXPECT_EQ(refusal(plyAscii() + "1 2\n"), "c:12: more numbers than the header announces: allowed as many");
-  EXPECT_EQ(refusal("5\n1 2 3\n"), "c: ends after 1 points, and announces 5: allowed a whole file");
+  EXPECT_EQ(refusal(plyAscii() + "1 2\n"),
+            "c:12: more numbers than the header declares: allowed one for each property");
+  EXPECT_EQ(refusal("5\n1 2 3\n"), "c: ends after 1 points, declares 5: allowed a whole file");
   EXPECT_EQ(refusal(plyBinary(false).substr(0, 300)), "c: ends before its 4 of element vertex: allowed a whole file");
   EXPECT_EQ(refusal(pcdBinary().substr(0, pcdBinary().size() - 1)),
             "c: ends before its 4 points: allowed a whole file");
@@ -268,7 +269,7 @@ TEST(CloudFile, MistakesAreNamedWithTheirLine) {
     EXPECT_EQ(refusal(gzipped("x,y,z\n" + std::string(std::size_t{1} << 20U, '\n'))),
               "c: more than 1 MB when unpacked: allowed an eighth of memory_mb = 8; or the unpacked file");
   }
-  EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream ends too early: allowed a whole file");
+  EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream is truncated: allowed a whole file");
   EXPECT_EQ(refusal("VERSION 0.7\nFIELDS x y\nSIZE 4 4 4\n"),
             "c:3: 3 words for 2 fields: allowed one for each, after the line FIELDS");
   EXPECT_EQ(refusal(withSizes("\xff\xff", 64)), "c: the compressed points are damaged: allowed a whole file");
