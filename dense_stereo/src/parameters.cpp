@@ -32,14 +32,13 @@ const Table<Parameters>& table() {
            "dense_stereo/bench, accuracy", {}, Audience::Experts},
           {"max_range", &P::max_range, "m", 5.0, 0.5, 100.0, {},
            "Points farther from the camera than this are used neither for the ground nor for obstacles and maps. "
-           "Cameras "
-           "of a long baseline: up to the range where 0.1 px of disparity are 5 cm of depth.",
+           "Cameras of a long baseline: up to the range where 0.1 px of disparity are 5 cm of depth.",
            "section 6.2"},
           {"obstacle_height", &P::obstacle_height, "m", 0.1, 0.02, 2.0, {},
-           "What stands at least this high above the ground, or lies as deep below it, is an obstacle.",
+           "Least height above the ground, or depth below it, of obstacles.",
            "wheels of 24 cm radius"},
           {"clearance", &P::clearance, "m", 2.0, 0.1, 10.0, {},
-           "What hangs higher above the ground than this is no obstacle.", "height of the robot"},
+           "Points higher above the ground are not obstacles.", "height of the robot"},
           {"point_spacing", &P::point_spacing, "m", 0.1, 0.01, 1.0, {},
            "Of the points in a cube of this size, a map by planar lasers keeps the most certain one of each keyframe.",
            "size of the store"},

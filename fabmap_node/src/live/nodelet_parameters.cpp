@@ -23,7 +23,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.",
            "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{100}, std::int64_t{5}, std::int64_t{10000}, {},
-           "Images and poses that may wait; when the queue is full, the oldest is dropped and counted.",
+           "Largest number of waiting images and poses; beyond it the oldest is dropped and counted.",
            "docs/architecture.md"},
           {"max_lateness", &P::max_lateness, "s", 0.2, 0.0, 10.0, {},
            "Time by stamps that a panorama waits for missing images.", "docs/architecture.md"},
