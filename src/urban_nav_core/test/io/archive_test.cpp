@@ -18,7 +18,7 @@ struct Inner {
   void archive(Archive& archive) { archive(samples, information); }
 };
 
-/// One of everything.
+/// Members of all supported types.
 struct Thing {
   bool yes = false;
   int small = 0;
@@ -64,7 +64,7 @@ std::string written(Thing thing) {
 }
 
 Thing read(std::string_view bytes) {
-  Thing thing = someThing();  // what is there before leaves no trace
+  Thing thing = someThing();  // previous content must not matter
   Archive archive(bytes, "state of a thing");
   archive(thing);
   archive.finish();

@@ -143,7 +143,7 @@ TEST(G2o, UnknownTagsAreCounted) {
 
 TEST(G2o, InformationMovesToTheConventionOfStages) {
   const Pose Z(expSo3({0.3, -1.1, 0.8}), {2.0, -1.0, 0.5});
-  // g2o's error of a measurement that is moved by d in the box convention.
+  // Error of g2o for a measurement perturbed by d in the box convention.
   const auto error = [&Z](const Vector6d& d) -> Vector6d {
     const Pose E = Z.inverse() * boxPlus(Z, d);
     Vector6d e;

@@ -46,7 +46,7 @@ std::string plyAscii() {
          asText(" ");
 }
 
-/// With an element of lists before the points, one after, and other properties between.
+/// Binary PLY with a list element before the points, one after them, and other properties in between.
 std::string plyBinary(bool big) {
   std::string bytes =
       std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
@@ -97,7 +97,7 @@ std::string withSizes(const std::string& packed, std::size_t plain) {
   return bytes + packed;
 }
 
-/// Field by field; the rings, all zero, as one byte and a copy of itself.
+/// Structure of arrays; the rings, all zero, as one literal byte and a copy.
 std::string pcdCompressed() {
   std::string coordinates;
   for (int axis = 0; axis < 3; ++axis)
