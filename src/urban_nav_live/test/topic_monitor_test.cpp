@@ -8,7 +8,7 @@ namespace {
 
 constexpr urban_nav_core::StampNs kMs = 1'000'000;
 
-/// A monitor whose clock the test sets.
+/// Monitor with a clock set by the test.
 struct Monitored {
   TopicMonitor::Clock::time_point now{};
   TopicMonitor monitor{[this] { return now; }};

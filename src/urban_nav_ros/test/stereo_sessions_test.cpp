@@ -19,7 +19,7 @@ constexpr StampNs kSessionMs = 1'000'000, kSessionStart = 1'600'000'000'000'000'
 
 urban_nav_core::StereoCamera sessionCamera(double baseline = 0.12) {
   urban_nav_core::StereoCamera camera;
-  const double focal_length = 80.0 + baseline;  // in both camera_info, whereas the baseline is in the right one alone
+  const double focal_length = 80.0 + baseline;  // in both camera_info, whereas only the right one has the baseline
   camera.left = {focal_length, focal_length, 47.5, 35.5, 96, 72};
   camera.baseline = baseline;
   return camera;
@@ -44,7 +44,7 @@ tf2_msgs::TFMessageConstPtr mountingAt(double height) {
   return message;
 }
 
-/// Sessions that keep their events.
+/// Sessions that record their events.
 struct Kept {
   explicit Kept(double tf_timeout = 0.0, urban_nav_core::MotionChoice motion = {}) {
     options.tf_timeout = tf_timeout;
