@@ -37,7 +37,7 @@ class DenseStereoStage {
   }
   std::string reset() {
     sessions_->end("reset");
-    return "the session has ended, the next pair begins a new one";
+    return "the session was ended; the next pair begins a new one";
   }
   void close() {
     if (ros::ok()) sessions_->end("shutdown");

@@ -121,7 +121,7 @@ class DenseStereo::Implementation {
     }
     if (std::abs(result_.row_offset) < kLargestRowOffset) return;
     char text[100];
-    std::snprintf(text, sizeof text, "rows disagree: the right image shows everything %.1f px %s than the left one",
+    std::snprintf(text, sizeof text, "rows are misaligned: the right image is %.1f px %s than the left one",
                   std::abs(result_.row_offset), result_.row_offset > 0.0 ? "lower" : "higher");
     result_.status = {Health::Degraded, static_cast<int>(Reason::RowsDisagree), text};
   }

@@ -260,7 +260,7 @@ std::string FabmapStage::reset() {
   trail_.clear();
   startFeed();
   return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +
-         "are forgotten, the next panorama begins a new session";
+         "were removed; the next panorama begins a new session";
 }
 
 class FabmapNodelet : public urban_nav_ros::StageNodelet<FabmapStage> {};

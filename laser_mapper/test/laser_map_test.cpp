@@ -174,11 +174,11 @@ TEST_F(LaserMapTest, ALaserWithoutExtrinsicsAndAPauseAreReported) {
   RenderStatistics statistics;
   mapPoints(trajectory_, &statistics);
   ASSERT_EQ(statistics.warnings.size(), 1U);
-  EXPECT_EQ(statistics.warnings.front(), "scans of laser_right are left out: its pose on the robot is unknown");
+  EXPECT_EQ(statistics.warnings.front(), "scans of laser_right are ignored: its pose on the robot is unknown");
   store_->sessions().put(kRoomSession, urban_nav_store::Extrinsic{"laser_right", testing_room::roomLaser()});
   mapPoints(trajectory_, &statistics);
   ASSERT_EQ(statistics.warnings.size(), 1U);
-  EXPECT_EQ(statistics.warnings.front(), "laser_right sent nothing during 11 s of the rendered time");
+  EXPECT_EQ(statistics.warnings.front(), "laser_right has no scans during 11 s of the rendered time");
 }
 
 TEST_F(LaserMapTest, AStoredMapHasTheBytesOfTheRenderedOne) {

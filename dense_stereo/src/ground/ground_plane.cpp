@@ -239,7 +239,7 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   const auto [of_all, of_band] = search.findSupport(space);
   ground.support = of_band;
   if (of_all < kLeastSupport) {
-    ground.sentence = percent("the best plane holds ", of_all, " of the points within range");
+    ground.sentence = percent("the best plane contains ", of_all, " of the points within range");
     return ground;
   }
   ground.up = space.up;
@@ -247,7 +247,7 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   ground.covariance = search.computeCovariance(plane, information);
   const bool is_planar = of_band >= kLeastPlanarShare;
   ground.verdict = is_planar ? GroundVerdict::Found : GroundVerdict::NotPlanar;
-  ground.sentence = is_planar ? "" : percent("the ground is no plane: ", of_band, " of it lies on the best one");
+  ground.sentence = is_planar ? "" : percent("the ground is not planar: ", of_band, " of it is on the best plane");
   return ground;
 }
 

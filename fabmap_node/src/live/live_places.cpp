@@ -194,7 +194,7 @@ urban_nav_live::StageReport LivePlaces::report() const {
     degrade(PlacesReason::NoUsableImages, "NoUsableImages",
             std::string("images cannot be used: ") + toString(last_.observation));
   else if (counts_.incomplete > 0 && counts_.incomplete == counts_.observations)
-    degrade(PlacesReason::CameraMissing, "CameraMissing", "a camera of the panorama gives no images");
+    degrade(PlacesReason::CameraMissing, "CameraMissing", "a camera of the panorama sends no images");
   else if (const std::string fault = store_.state().fault; !fault.empty())
     degrade(PlacesReason::NotStored, "NotStored", "places are not stored: " + fault);
   else if (!unreadable_.empty()) degrade(PlacesReason::NotRead, "NotRead", "places cannot be compared: " + unreadable_);

@@ -121,8 +121,8 @@ bool isNewPlace(double share_unlike) { return 2.0 * share_unlike > kUsualShare +
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
   if (new_place_frames == 0 || 4 * new_place_frames < frames) return "";
   return std::to_string(new_place_frames) + " of " + std::to_string(frames) +
-         " frames show a kind of place that the model was not trained in: its answers there are unsure. "
-         "Corrections teach it (labels train --add)";
+         " frames show a kind of place that is not in the training data: labels there are unsure. Train the model with "
+         "corrections (labels train --add)";
 }
 
 void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {

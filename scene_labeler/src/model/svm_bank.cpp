@@ -67,7 +67,7 @@ void SvmBank::archive(urban_nav_core::Archive& archive, std::size_t features, st
   for (const KernelMachine& machine : machines)
     is_sound = is_sound && machine.vectors.size() == machine.weights.size() * features;
   for (std::size_t i = 1; is_sound && i < kMomentCount; i += 2) is_sound = ground_moments[i] > 0.0F;
-  archive.require(is_sound, "machines that do not fit features and classes");
+  archive.require(is_sound, "its machines do not match features and classes");
 }
 
 }  // namespace scene_labeler
