@@ -64,7 +64,7 @@ struct RelativeConstraint {
   PoseRef a, b;
   Constraint measured;  ///< origin ("laser_mapper")
   std::string kind;     ///< "plane", "asserted"
-  std::string source;   ///< who says so ("laser_mapper")
+  std::string source;   ///< stage or user that states it ("laser_mapper")
 };
 
 }  // namespace urban_nav_core
