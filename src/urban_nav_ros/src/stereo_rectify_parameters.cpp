@@ -17,8 +17,8 @@ const Table<StereoRectifyParameters>& stereoRectifyTable() {
       "",
       {
           {"image_type", &P::image_type, "", "auto", false, false, {"auto", "raw", "rectified"},
-           "Whether images are rectified by camera_info or were before they arrived; auto: the rows of the first pairs "
-           "decide, and where they do not, rectified if the topic's name contains `rect`.",
+           "Whether images are raw, to be rectified by camera_info, or rectified; auto: determined from the rows of "
+           "the first pairs, else rectified if the topic name contains `rect`.",
            "image_proc"},
           {"compressed", &P::compressed, "", false, false, true, {},
            "Whether the image topics are sensor_msgs/CompressedImage.", "docs/architecture.md"},

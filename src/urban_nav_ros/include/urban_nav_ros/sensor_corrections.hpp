@@ -86,7 +86,7 @@ urban_nav_core::Row<P> delayRow(const std::string& name, double P::*member, cons
           -kLongestDelay,
           kLongestDelay,
           {},
-          "How much later " + what + " are stamped than they were measured; it is taken from their stamps.",
+          "Delay of the stamps of " + what + " relative to the measurement; subtracted from them.",
           "docs/files.md",
           {},
           urban_nav_core::Audience::Experts};
@@ -109,12 +109,12 @@ std::vector<urban_nav_core::Row<P>> laserRows(const std::string& laser, double P
   };
   return {delayRow<P>(laser + "_delay", delay, "scans of " + laser),
           scale("_range_scale", range, "m", 1e-6,
-                "Range of 1 in the messages of " + laser + ": 0.001 where they state millimetres."),
+                "Range of one unit in the messages of " + laser + ": 0.001 for millimetres."),
           scale("_angle_scale", angle, "rad", 1e-6,
-                "Angle of 1 in the messages of " + laser + ": 0.0174532925 where they state degrees."),
+                "Angle of one unit in the messages of " + laser + ": 0.0174532925 for degrees."),
           scale("_time_scale", time, "s", 0.0,
-                "time_increment of 1 in the messages of " + laser +
-                    ": 0.001 where they state milliseconds; 0: all beams have the stamp of their scan.")};
+                "One unit of time_increment in the messages of " + laser +
+                    ": 0.001 for milliseconds; 0: all beams have the stamp of their scan.")};
 }
 
 }  // namespace detail
@@ -130,16 +130,16 @@ std::vector<urban_nav_core::Row<P>> sensorCorrectionRows() {
        false,
        false,
        {},
-       "Which axis of the messages of the IMU is x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x "
-       "for exchanged axes.",
+       "Axes of the IMU messages that are x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x for "
+       "exchanged axes.",
        "docs/files.md"},
       scaleRow<P>("accelerometer_scale", &P::accelerometer_scale, "m/s2", 1e-6,
-                  "Specific force of 1 in the messages of the IMU: 9.80665 where they state it in g."),
+                  "Specific force of one unit in the IMU messages: 9.80665 for g."),
       scaleRow<P>("gyroscope_scale", &P::gyroscope_scale, "rad/s", 1e-6,
-                  "Rate of 1 in the messages of the IMU: 0.0174532925 where they state deg/s."),
+                  "Rate of one unit in the IMU messages: 0.0174532925 for deg/s."),
       scaleRow<P>("wheels_scale", &P::wheels_scale, "m", -1e6,
-                  "Distance of 1 in the positions of wheel odometry: 0.001 where they state millimetres, -1 where "
-                  "forward is negative."),
+                  "Distance of one unit in the positions of wheel odometry: 0.001 for millimetres, -1 if forward is "
+                  "negative."),
       delayRow<P>("imu_delay", &P::imu_delay, "messages of the IMU"),
       delayRow<P>("wheels_delay", &P::wheels_delay, "messages of wheel odometry"),
       delayRow<P>("gps_delay", &P::gps_delay, "fixes of the GPS receiver")};
