@@ -74,12 +74,11 @@ std::string summaryLines(const std::vector<Command>& commands) {
 
 std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
-      "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
-      "trust both.\n\n"
+      "urban_nav: turns the camera and laser recordings of a robot into a trajectory, a map and a report on their "
+      "accuracy.\n\n"
       "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help for more; urban_nav --version)\n"
       "       urban_nav --python-path          (folder for PYTHONPATH with which `import urban_nav` works)\n\n";
-  return text + summaryLines(commands) +
-         "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
+  return text + summaryLines(commands) + "\nexit status: 0 success, 1 unsuitable data, 2 error in the call\n";
 }
 
 bool isHelpWord(const std::string& word) {
@@ -127,7 +126,7 @@ void checkNamed(const Command& command, const std::string& key, const std::vecto
   }
   const bool is_flag = option->value.empty() && !isPositional(*option);
   const bool has_value = !given.empty() && !(given.size() == 1 && given.front() == "true");
-  if (is_flag && has_value) throw UserError(where, key + " = " + given.front(), "on or off: it takes no value");
+  if (is_flag && has_value) throw UserError(where, key + " = " + given.front(), "no value: it is a switch");
   if (given.empty()) throw UserError(where, key + " has no value", option->value.empty() ? "a value" : option->value);
   if (given.size() > 1 && !option->repeatable)
     throw UserError(where, key + " has " + std::to_string(given.size()) + " values", "one");
@@ -200,7 +199,7 @@ int runAction(const Command& group, const ParameterTables& tables, int argc, con
   const std::string name = argc > 1 ? argv[1] : "";
   if (isHelpWord(name)) {
     console.print(group.summary + "\n\nusage: urban_nav " + group.name + " ACTION [options]      (urban_nav " +
-                  group.name + " ACTION --help says more)\n\n" + summaryLines(group.actions));
+                  group.name + " ACTION --help for more)\n\n" + summaryLines(group.actions));
     return 0;
   }
   Command action = findCommand(group.actions, name, "urban_nav " + group.name, "action");
@@ -274,7 +273,7 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
     const Command& command = findCommand(commands, name, "urban_nav", "command");
     const int status = command.actions.empty() ? runCommand(command, tables, argc - 1, argv + 1, console)
                                                : runAction(command, tables, argc - 1, argv + 1, console);
-    if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "a disk with room");
+    if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "free disk space");
     return status;
   } catch (const DataError& error) {
     console.error(error.what());
@@ -283,7 +282,7 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
     console.error(error.what());
     return 2;
   } catch (const std::exception& error) {
-    console.error(std::string("could not go on: ") + error.what());
+    console.error(std::string("aborted: ") + error.what());
     return 1;
   }
 }
@@ -304,15 +303,15 @@ int runCommandByName(const std::vector<Command>& commands, const ParameterTables
 }
 
 Option jsonOption() { return {"--json", "FILE", "a machine-readable summary", false, false, {}}; }
-Option setOption() { return {"--set", "STAGE.KEY=VALUE", "one parameter; stands above --config", false, true, {}}; }
+Option setOption() { return {"--set", "STAGE.KEY=VALUE", "one parameter; overrides --config", false, true, {}}; }
 Option configOption() { return {"--config", "FILE", "parameters as YAML: stage, then key: value", false, true, {}}; }
 Option threadsOption() {
-  return {"--threads", "N", "threads to use (default: one per core); the results are the same", false, false, {}};
+  return {"--threads", "N", "threads to use (default: one per core); without effect on the results", false, false, {}};
 }
 Option transformOption() {
   return {"--transform",
           "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW",
-          "place of a frame (m, quaternion), which takes precedence over the recording's tf; repeatable",
+          "pose of a frame (m, quaternion), overrides the tf of the recording; repeatable",
           false,
           true,
           {}};

@@ -118,7 +118,7 @@ std::string renderPage(const Page& page) {
   if (page.running) {
     const int percent = static_cast<int>(100.0 * page.progress);
     html += "<div class=\"running\"><div class=\"bar\" style=\"width:" + std::to_string(percent) +
-            "%\"></div><span>still at work" + (percent > 0 ? ", " + std::to_string(percent) + " %" : "") +
+            "%\"></div><span>in progress" + (percent > 0 ? ", " + std::to_string(percent) + " %" : "") +
             "; this page refreshes itself</span></div>\n";
   }
   html += "<nav>";

@@ -19,7 +19,7 @@ TimeQuery parseTimeQuery(const std::string& text, const std::string& what) {
   const std::string number = plus == std::string::npos ? text : text.substr(plus + 1);
   const std::optional<double> seconds = urban_nav_core::parseNumber(number);
   if (!seconds || std::abs(*seconds) > 9e9 || (plus == std::string::npos && *seconds < 0.0))
-    throw UserError(what, "\"" + text + "\" is no time",
+    throw UserError(what, "\"" + text + "\" is not a time",
                     "seconds since 1970 (1225719873.5), since the beginning of a session (+12.5, or NAME+12.5)");
   moment.seconds = *seconds;
   moment.since_begin = plus != std::string::npos;

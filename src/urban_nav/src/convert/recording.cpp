@@ -71,7 +71,7 @@ void checkTopics(const urban_nav_input::Recording& recording, const std::string&
     if (present.count(topic) > 0) continue;
     std::string names;
     for (const auto& [name, type] : present) names += (names.empty() ? "" : ", ") + name;
-    throw UserError("--topics " + topic, "is no topic of " + input, names);
+    throw UserError("--topics " + topic, "is not a topic of " + input, names);
   }
 }
 
@@ -103,7 +103,7 @@ class LeftOut {
 Converted convertRecording(const std::string& input, const std::string& output, const RecordingPart& part,
                            Console& console) {
   std::error_code error;
-  if (fs::equivalent(input, output, error)) throw UserError(output, "is the recording that is read", "another file");
+  if (fs::equivalent(input, output, error)) throw UserError(output, "is also the input", "another file");
   urban_nav_input::Recording recording(input);
   checkTopics(recording, input, part.topics);
   OutputFiles files(output, part.split);

@@ -79,7 +79,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
   Converted converted;
   converted.notes = info.notes;
   if (shift != 0)
-    converted.notes.push_back("stamps count from the start: moved by 1000000000 s, since ROS has no time zero");
+    converted.notes.push_back("stamps begin at zero: shifted by 1000000000 s, since zero is not a valid ROS time");
 
   std::vector<sensor_msgs::Imu> imu;
   std::vector<geometry_msgs::TransformStamped> transforms = stereoTransforms(info.camera, info.T_base_camera);

@@ -72,7 +72,7 @@ class Words {
     const std::string text = arguments_.get(name);
     for (const std::string_view each : urban_nav_core::splitAt(text, ',')) {
       const std::optional<double> value = urban_nav_core::parseNumber(each);
-      if (!value) throw UserError("--" + name, "\"" + std::string(each) + "\" is no finite number", expected);
+      if (!value) throw UserError("--" + name, "\"" + std::string(each) + "\" is not a finite number", expected);
       result.push_back(*value);
     }
     if (result.size() != count)
@@ -101,10 +101,10 @@ std::string listNumbers(const std::vector<StoredClosure>& closures) {
 
 const StoredClosure& findClosure(const std::vector<StoredClosure>& closures, const std::string& text) {
   const std::optional<std::int64_t> id = urban_nav_core::parseInteger(text);
-  if (!id) throw UserError("ID", "\"" + text + "\" is no number", listNumbers(closures));
+  if (!id) throw UserError("ID", "\"" + text + "\" is not a number", listNumbers(closures));
   const auto found =
       std::find_if(closures.begin(), closures.end(), [&](const StoredClosure& closure) { return closure.id == *id; });
-  if (found == closures.end()) throw UserError("ID", text + ": no closure has it", listNumbers(closures));
+  if (found == closures.end()) throw UserError("ID", text + ": no such closure", listNumbers(closures));
   return *found;
 }
 
@@ -173,7 +173,7 @@ double positive(double value, const std::string& option, const std::string& expe
 void readMoments(const Words& words, const PreviousSessions& sessions, StoredEdit& edit) {
   edit.edge.a = findMoment(sessions, words[0], "T1");
   edit.edge.b = findMoment(sessions, words[1], "T2");
-  if (edit.edge.a == edit.edge.b) throw UserError("T2", words[1] + " is the pose of T1", "two different moments");
+  if (edit.edge.a == edit.edge.b) throw UserError("T2", words[1] + " has the same pose as T1", "two different moments");
   edit.session = edit.edge.b.session;
 }
 
@@ -219,7 +219,7 @@ Eigen::Vector3d placeByFixes(Store& store, const std::vector<urban_nav_store::St
 /// Returns the place of a pinned point in the map, m.
 Eigen::Vector3d readPlace(const Words& words, Store& store, const NodeRef& at) {
   if (words.has("at") == words.has("geodetic"))
-    throw UserError("pin", words.has("at") ? "--at and --geodetic" : "neither --at nor --geodetic", "one of them");
+    throw UserError("pin", words.has("at") ? "--at and --geodetic" : "neither --at nor --geodetic", "one of the two");
   if (words.has("at")) {
     const std::vector<double> v = words.numbers("at", 3, "three finite numbers X,Y,Z: m, in the frame map");
     return {v[0], v[1], v[2]};
@@ -273,7 +273,7 @@ EditRequest readCut(const Words& words, const PreviousSessions& sessions) {
   NodeRef last = findMoment(alone, words[1], "T");
   const std::vector<SmoothedFrame>& settled = sessions.runs[session].settled;
   if (settled.size() < 4) {
-    request.unchanged = "session " + sessions.names[session] + " has too few poses to be cut";
+    request.unchanged = "session " + sessions.names[session] + " has too few poses for a cut";
     return request;
   }
   // Two pieces of at least one step: a pose alone is no piece.
@@ -326,7 +326,7 @@ EditRequest readUndo(const std::string& action, const Words& words, Store& store
   EditRequest request{action, {}};
   if (words.size() == 1) {
     const std::optional<std::int64_t> count = urban_nav_core::parseInteger(words[0]);
-    if (!count || *count < 1) throw UserError("undo", "\"" + words[0] + "\"", "a number from 1");
+    if (!count || *count < 1) throw UserError("undo", "\"" + words[0] + "\"", "a number of at least 1");
     request.count = static_cast<std::size_t>(*count);
   }
   const std::vector<StoredEdit> all = urban_nav_store::EditJournal(store).all();

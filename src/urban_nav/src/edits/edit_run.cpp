@@ -115,7 +115,7 @@ EditOutcome makeEdit(Store& store, const StoredMeasurements& measurements, const
   const bool is_new = request.action != "undo" && request.action != "redo";  // these change the journal in any case
   if (is_new && !outcome.moved.any && verdicts_before == verdicts_after) {
     store.rollback();
-    outcome.reason = "the map does not change: without this edit, too, every pose and every verdict is the same";
+    outcome.reason = "the map does not change: each pose and each verdict is the same without this edit";
     return outcome;
   }
   outcome.changed = true;

@@ -65,8 +65,8 @@ std::string describe(const EditResult& result) {
   if (!outcome.changed) return "nothing changed: " + outcome.reason + "\n";
   std::string text = "edit " + std::to_string(*outcome.edit) +
                      (request.action == "undo"   ? " undone"
-                      : request.action == "redo" ? " done again"
-                                                 : " made") +
+                      : request.action == "redo" ? " redone"
+                                                 : " applied") +
                      "; poses moved by up to " + moveText(outcome.moved.largest) + ", rms " +
                      moveText(outcome.moved.rms) + "\n";
   if (outcome.edge) text += "closure " + std::to_string(*outcome.edge) + " added\n";

@@ -45,7 +45,7 @@ bool isSame(const Pose& a, const Pose& b) { return a.t() == b.t() && a.q().coeff
 StoredMeasurements readMeasurements(Store& store) {
   StoredMeasurements result;
   result.sessions = readPreviousSessions(store, {});
-  if (result.sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "holds no session with poses", "");
+  if (result.sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "has no session with poses", "");
   result.closures = closuresBetween(store, result.sessions.ids, result.sessions.names);
   result.parameters = storedParameters(store, result.sessions.ids.back());
   for (const SessionId& id : result.sessions.ids) {

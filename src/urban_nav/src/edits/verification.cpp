@@ -71,7 +71,7 @@ void comparePosesByMinute(const SessionClock& clock, const SessionId& id, const 
   }
   for (const auto& [minute, found] : by_minute)
     differences.push_back({"graph", clock.name(id), minute,
-                           countText(found.first, "pose") + " relaxed to another place, by up to " +
+                           countText(found.first, "pose") + " relaxed to another position, by up to " +
                                urban_nav_core::formatNumber(1e3 * found.second, 3) + " mm"});
 }
 

@@ -81,7 +81,7 @@ std::vector<urban_nav_store::SessionId> sessionsOfRecordings(Store& store, const
     }
     for (const urban_nav_store::SessionId& id : sessionIds(options, sessions)) {
       if (!store.sessions().find(id))
-        throw UserError(input, "is no recording of " + store.path(), "recordings that map made this store of");
+        throw UserError(input, "is not a recording of " + store.path(), "recordings that map made this store of");
       found.push_back(id);
     }
   }
@@ -144,10 +144,10 @@ int runVerify(const Arguments& arguments, const StageFactory& make_stages, Conso
 Command verifyCommand(StageFactory make_stages) {
   Command command;
   command.name = "verify";
-  command.summary = "Makes the map of a session store again with this program and lists what differs.";
+  command.summary = "Recomputes the map of a session store with this program and lists the differences.";
   command.options = {
       {"STORE", "", "session.db of a map; it is only read", true, false, {}},
-      {"BAG", "", "recordings of the store: all stages run on them again, not the relaxation alone", false, true, {}},
+      {"BAG", "", "recordings of the store: runs all stages on them again, not only the relaxation", false, true, {}},
       jsonOption(),
       configOption(),
       setOption(),

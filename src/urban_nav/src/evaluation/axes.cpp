@@ -106,16 +106,16 @@ std::string describe(const AxesMatch& match) {
   switch (match.axes) {
     case Axes::EstimateOptical:
       return "the estimate has the axes of a camera (z forward), the truth those of a body (x forward): the estimate "
-             "is turned";
+             "is rotated";
     case Axes::TruthOptical:
       return "the truth has the axes of a camera (z forward), the estimate those of a body (x forward): the truth is "
-             "turned";
+             "rotated";
     case Axes::NedEnu:
       return "one file is in NED (body: x forward, y right, z down), the other in ENU (x forward, y left, z up): the "
-             "estimate is turned by 180 deg about x";
+             "estimate is rotated by 180 deg about x";
     case Axes::Turned:
       return "the axes of the two files differ (the estimate's by the truth's: " + axesText(match.R_truth_estimate) +
-             "): the estimate is turned";
+             "): the estimate is rotated";
     case Axes::Same: break;
   }
   return "";

@@ -37,7 +37,7 @@ RunCovariances readRunCovariances(const TrajectoryFile& estimate) {
     return {{},
             "no NEES: the covariances of " + covariance + " are of base_link, the poses of " + estimate.path +
                 " of a camera" +
-                (fs::exists(base) ? " that moves otherwise, as it is mounted apart or tilted"
+                (fs::exists(base) ? " whose motion differs, since it is mounted off base_link or tilted"
                                   : ", and there is no trajectory.tum to show that the motion is the same") +
                 "; evaluate trajectory.tum with the truth of base_link, or give the camera's by --covariance"};
   } catch (const urban_nav_core::Error& error) {

@@ -62,7 +62,7 @@ void addOdometryGraphs(Store& store, const std::vector<SessionId>& ids, StoredRe
 
 StoredResults readResults(Store& store) {
   const PreviousSessions sessions = readPreviousSessions(store, {});
-  if (sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "holds no session with poses", "");
+  if (sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "has no session with poses", "");
   StoredResults results;
   std::vector<const SessionOdometry*> runs;
   for (const SessionOdometry& run : sessions.runs) runs.push_back(&run);

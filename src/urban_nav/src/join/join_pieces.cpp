@@ -93,9 +93,10 @@ void removeEarlierPlan(const std::string& folder) {
 void requireUnchanged(const std::vector<PlannedStore>& stores, const fs::path& folder) {
   for (const PlannedStore& store : stores) {
     const std::string path = (folder / store.path).lexically_normal().string();
-    if (!fs::exists(path)) throw UserError(path, "is not there", "the stores of the plan where they were, or with it");
+    if (!fs::exists(path))
+      throw UserError(path, "is missing", "the stores of the plan at their paths, or in its folder");
     if (digestOfFile(path) != store.digest)
-      throw UserError(path, "has changed since the plan was made", "urban_nav join --plan once more");
+      throw UserError(path, "has changed since the plan was made", "a new plan by urban_nav join --plan");
   }
 }
 
@@ -124,18 +125,18 @@ void writeConcurrently(const std::string& path, const std::string& bytes) {
 /// Returns the closures that a piece has measured.
 std::vector<MetricClosure> readResult(const std::string& path, const JoinPlan& plan) {
   if (!fs::exists(path + kDone))
-    throw DataError(path, "has no result: " + path + kDone + " is not there", "urban_nav join --piece " + path);
+    throw DataError(path, "has no result: " + path + kDone + " is missing", "a run of urban_nav join --piece " + path);
   const JoinPiece piece = readPiece(path);
   const std::string bytes = urban_nav_core::readBytes(path + kDone);
   urban_nav_store::ByteReader reader(bytes);
   const std::string_view format = reader.text(), of_plan = reader.text(), of_piece = reader.text();
   const auto closures = unpackClosures(reader.text());
-  const std::string again = "urban_nav join --piece " + path + " once more";
+  const std::string again = "a new run of urban_nav join --piece " + path;
   if (!reader.complete() || format != kResultFormat || !closures)
-    throw DataError(path + kDone, "is damaged, or no result of a piece", again);
+    throw DataError(path + kDone, "is damaged, or not the result of a piece", again);
   if (of_plan != plan.digest || piece.plan != plan.digest || of_piece != digestOfPiece(piece))
     throw UserError(path + kDone, "is the result of another plan or piece", again);
-  if (closures->size() != piece.candidates.size()) throw DataError(path + kDone, "is not complete", again);
+  if (closures->size() != piece.candidates.size()) throw DataError(path + kDone, "is incomplete", again);
   return *closures;
 }
 

@@ -48,7 +48,7 @@ class Addition {
                      {}, std::move(options.parameters), options.threads},
         context_(map_options_, console) {
     if (!urban_nav_store::isRelease(release))
-      throw urban_nav_core::UserError(release, "is no release", "what urban_nav release has written");
+      throw urban_nav_core::UserError(release, "is not a release", "a file written by urban_nav release");
     for (const std::string& store : sources_) requireFinished(store);
     for (const std::unique_ptr<Stage>& stage : stages_) stage->select(map_options_);  // reports bad files first
     collect();
@@ -114,7 +114,7 @@ class Addition {
       if (!poses.empty()) tie(store, ids[s]);
     }
     if (reference_.empty())
-      throw urban_nav_core::DataError(release_, "is damaged: it holds no poses", "a release of urban_nav release");
+      throw urban_nav_core::DataError(release_, "is damaged: it has no poses", "a file written by urban_nav release");
     context_.trajectories = odometryTrajectories(context_.runs(), 0);
   }
 
@@ -216,7 +216,7 @@ class Addition {
       added.places = kept.places.size();
       added.keyframes = kept.keyframes.size();
       if (added.kept) kept_.push_back(std::move(kept));
-      else added.reason = "it shows nothing that the release does not hold";
+      else added.reason = "it shows no place that is new to the release";
     }
   }
 

@@ -105,10 +105,10 @@ std::vector<StageResult> evaluationResults(const MapContext& context) {
 }
 
 Section methodSection(const MapState& state, const std::vector<StageResult>& results) {
-  Section how{"how", "How it was made",
+  Section how{"how", "Inputs and parameters",
               "",    {},
               {},    {inputsTable(state.context), parametersTable(state.context.options.parameters)}};
-  PageTable warnings{"Warnings", {"what was wrong with the data"}, {}, ""};
+  PageTable warnings{"Warnings", {"defects of the data"}, {}, ""};
   for (const StageResult& result : results)
     for (const std::string& fault : result.data_faults) warnings.rows.push_back({fault});
   if (!warnings.rows.empty()) how.tables.insert(how.tables.begin(), warnings);
@@ -119,7 +119,7 @@ std::string subtitle(const std::vector<StageResult>& results) {
   std::vector<std::string> methods;
   for (const StageResult& result : results)
     if (!result.method.empty()) methods.push_back(result.method);
-  return listText(methods) + ": where the robot went, and how far to trust it.";
+  return listText(methods) + ": the path of the robot and its accuracy.";
 }
 
 }  // namespace
@@ -154,10 +154,11 @@ Page mapPage(const MapState& state, const std::vector<StageResult>& results) {
   std::stable_sort(sections.begin(), sections.end(),
                    [](const PlacedSection& a, const PlacedSection& b) { return a.place < b.place; });
   for (PlacedSection& placed : sections) page.sections.push_back(std::move(placed.section));
-  page.footer = "urban_nav map, " + urban_nav_core::formatNumber(state.usage.wallSeconds(), 3) + " s of time, " +
-                urban_nav_core::formatNumber(state.usage.cpuSeconds(), 3) +
-                " s of processor. Poses and figures: trajectory.tum, covariance.csv and the tables of the stages in "
-                "the folder of this file.";
+  page.footer =
+      "urban_nav map, " + urban_nav_core::formatNumber(state.usage.wallSeconds(), 3) + " s wall time, " +
+      urban_nav_core::formatNumber(state.usage.cpuSeconds(), 3) +
+      " s processor time. Poses and tables: trajectory.tum, covariance.csv and the tables of the stages in the "
+      "folder of this file.";
   return page;
 }
 

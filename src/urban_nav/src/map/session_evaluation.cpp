@@ -60,7 +60,7 @@ std::vector<SessionEvaluations> evaluateSessions(const MapContext& context) {
       if (context.relaxed)
         result.odometry = compare(context, *session.odometry, *truth, smoothedTrajectory(*session.odometry), {});
       context.console.info("truth: " + truth->path +
-                           (context.options.truth.empty() ? " (found; it is used for the report alone)" : ""));
+                           (context.options.truth.empty() ? " (found; used for the report only)" : ""));
     } catch (const urban_nav_core::Error& error) {
       context.console.warn(std::string("the truth is left out of the report: ") + error.what());
     }

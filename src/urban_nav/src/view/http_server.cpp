@@ -86,7 +86,7 @@ class HttpServer::Implementation {
     if (port == 0) port_ = server_.bind_to_any_port(address);
     else if (server_.bind_to_port(address, port)) port_ = port;
     if (port_ <= 0)
-      throw UserError("port " + std::to_string(port) + " of " + address, "cannot be opened: it is in use, or reserved",
+      throw UserError("port " + std::to_string(port) + " of " + address, "cannot be opened: in use or reserved",
                       "--port with another number, or --port 0 for a free one; --address with one of this machine");
   }
   ~Implementation() { stop(); }
@@ -172,8 +172,7 @@ class HttpServer::Implementation {
 class HttpServer::Implementation {
  public:
   Implementation(const std::string&, int) {
-    throw UserError("urban_nav view", "this program was built without cpp-httplib",
-                    "a build where the package libcpp-httplib-dev is installed");
+    throw UserError("urban_nav view", "built without cpp-httplib", "a build with the package libcpp-httplib-dev");
   }
   void start(const Admission&, const Handler&) {}
   void stop() {}

@@ -165,7 +165,7 @@ const Page& StoredSource::explanation(std::int64_t closure) {
   const auto found = std::find_if(its.closures.begin(), its.closures.end(),
                                   [&](const StoredClosure& each) { return each.id == closure; });
   if (found == its.closures.end())
-    throw UserError("closure", std::to_string(closure) + ": no closure has this ID", "an ID of the list");
+    throw UserError("closure", std::to_string(closure) + ": no such closure", "an ID of the list");
   if (its.explanations.size() >= kKeptExplanations) its.explanations.clear();
   return its.explanations[closure] = explainOnPage(*found, its.store, cloudHalfLength());
 }
@@ -190,7 +190,7 @@ std::optional<std::string> StoredSource::view(std::size_t session, double second
       if (shown.T_map_base.empty()) return std::nullopt;
       return nearestView(content.store, shown.session.id, shown.T_map_base.front().stamp + std::llround(1e9 * seconds));
     }
-    throw UserError("session", std::to_string(session) + ": no such session", "a place in the list of sessions");
+    throw UserError("session", std::to_string(session) + ": no such session", "an index in the list of sessions");
   });
 }
 

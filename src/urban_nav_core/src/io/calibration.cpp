@@ -36,7 +36,7 @@ void refuseUnlessRotation(const Matrix3d& R, const std::string& where, const std
   constexpr double kTolerance = 1e-3;
   const bool rotation =
       ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
-  if (!rotation) throw UserError(where, what + " is no rotation", "");
+  if (!rotation) throw UserError(where, what + " is not a rotation", "");
 }
 
 Pose requireExtrinsics(const YamlNode& root, const std::string& file) {

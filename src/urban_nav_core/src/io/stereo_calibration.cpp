@@ -39,7 +39,7 @@ Pose toPose(const Eigen::Matrix4d& M, const std::string& what, const std::string
   const Matrix3d R = M.topLeftCorner<3, 3>();
   const bool rotates =
       ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
-  if (!rotates) throw UserError(where, what + " is no rigid transform", "a rotation and a translation");
+  if (!rotates) throw UserError(where, what + " is not a rigid transform", "a rotation and a translation");
   return Pose(R, Vector3d(M.topRightCorner<3, 1>()));
 }
 
@@ -100,7 +100,7 @@ class OstLines {
 
   bool isAtEnd() const { return at_ == lines_.size(); }
   std::string_view take() {
-    if (isAtEnd()) throw UserError(name_, "ends early", "a whole ost.txt");
+    if (isAtEnd()) throw UserError(name_, "ends early", "a complete ost.txt");
     return lines_[at_++].first;
   }
   std::string where() const { return atLine(name_, at_ > 0 ? lines_[at_ - 1].second : 0); }
@@ -160,16 +160,16 @@ CameraPair parseStereoCalibration(const std::vector<std::string>& texts, const s
       throw UserError(names.front(), std::to_string(cameras.size()) + " camera", "two, or LEFT,RIGHT: a file for each");
     return {cameras[0], cameras[1]};
   }
-  if (texts.size() != 2) throw UserError(names.front(), "is one file of one camera, or of an unknown kind", kFormats);
+  if (texts.size() != 2) throw UserError(names.front(), "is a file of one camera, or of an unknown kind", kFormats);
   const CalibrationKind other = calibrationKind(texts.back());
-  if (kind != other) throw UserError(names.back(), "is of another kind than " + names.front(), kFormats);
+  if (kind != other) throw UserError(names.back(), "is not of the same kind as " + names.front(), kFormats);
   if (kind == CalibrationKind::Euroc) {
     const EurocCamera left = parseEurocCamera(texts.front(), names.front()),
                       right = parseEurocCamera(texts.back(), names.back());
     return rectifiedPair(left.info, right.info, right.T_body_camera.inverse() * left.T_body_camera, names.back());
   }
   if (kind == CalibrationKind::Camchain || kind == CalibrationKind::Other)
-    throw UserError(names.front(), "is no file of one camera that is known", kFormats);
+    throw UserError(names.front(), "is not a known calibration file of one camera", kFormats);
   return {readOne(texts.front(), names.front(), kind), readOne(texts.back(), names.back(), kind)};
 }
 
@@ -203,7 +203,7 @@ std::vector<CameraInfo> parseOst(std::string_view text, const std::string& name)
     (void)rawCamera(info, name);
     (void)rectifiedPinhole(info, name);
   }
-  if (cameras.empty()) throw UserError(name, "has no `camera matrix`", "a whole ost.txt");
+  if (cameras.empty()) throw UserError(name, "has no `camera matrix`", "a complete ost.txt");
   return cameras;
 }
 

@@ -93,9 +93,8 @@ std::vector<std::string> conflictSentences(const SessionOdometry& fused) {
           " stretches of 1 s, most between " + since(worst->from) + " and " + since(worst->to) + " s: by " +
           formatNumber(worst->distance_m, 3) + " m and " + formatNumber(worst->angle_rad * 180.0 / M_PI, 3) + " deg, " +
           formatNumber(std::sqrt(worst->statistic / 6.0), 3) +
-          " times what both state. One of them is wrong there, and the covariance is enlarged. Compare --odometry "
-          "stereo and "
-          "--odometry laser, and check clocks and mounting"};
+          " times their combined standard deviation. One of them is wrong there, and the covariance is enlarged. "
+          "Compare --odometry stereo and --odometry laser, and check clocks and mounting"};
 }
 
 std::vector<std::string> constantSentences(const SessionOdometry& fused) {
@@ -105,13 +104,13 @@ std::vector<std::string> constantSentences(const SessionOdometry& fused) {
     if (std::abs(constant.value) < kDeviations * constant.sigma) continue;
     const double degrees = constant.value * 180.0 / M_PI;
     if (constant.name == "scale" && std::abs(constant.value) > kNotableScale)
-      sentences.push_back(fused.input + ": lengths by stereo are " + formatNumber(-100.0 * constant.value, 3) +
+      sentences.push_back(fused.input + ": stereo lengths are " + formatNumber(-100.0 * constant.value, 3) +
                           " % too large (+-" + formatNumber(100.0 * constant.sigma, 2) +
-                          " %) against the LiDAR and are corrected; check baseline and focal length");
+                          " %) compared with the LiDAR and are corrected; check baseline and focal length");
     if (constant.is_applied && constant.name.rfind("mounting_", 0) == 0 && std::abs(degrees) > kNotableMounting)
-      sentences.push_back(fused.input + ": the LiDAR is turned by " + formatNumber(degrees, 3) + " deg (+-" +
+      sentences.push_back(fused.input + ": the LiDAR is rotated by " + formatNumber(degrees, 3) + " deg (+-" +
                           formatNumber(constant.sigma * 180.0 / M_PI, 2) + ") about " + constant.name.back() +
-                          " of base_link against its mounting in tf, and is corrected in the odometry");
+                          " of base_link relative to its mounting in tf, which is corrected in the odometry");
   }
   return sentences;
 }

@@ -217,7 +217,7 @@ void addFixWarnings(const pose_graph::Parameters& parameters, GraphRun& run) {
   const pose_graph::FixUse& use = run.graph.fixUse();
   const std::size_t all = use.used + use.rejected;
   if (all == 0) {
-    run.warnings.emplace_back("pose_graph.gps: no GPS fix at the time of a pose; nothing was made of it");
+    run.warnings.emplace_back("pose_graph.gps: no GPS fix at the time of a pose; GPS is not used");
     return;
   }
   if (use.unplaced > 0)
@@ -241,8 +241,8 @@ void addSelectionWarnings(GraphRun& run) {
   for (const pose_graph::Relaxed::Slip& slip : relaxed.slips) run.warnings.push_back(toSentence(slip));
   const double errs = std::sqrt(run.graph.odometryVariance());
   if (errs >= kImplausible)
-    run.warnings.push_back("the accepted closures contradict what odometry states: its errors are at least " +
-                           urban_nav_core::formatNumber(errs, 2) + " times the deviations that it states");
+    run.warnings.push_back("the accepted closures contradict the covariance of odometry: its errors are at least " +
+                           urban_nav_core::formatNumber(errs, 2) + " times its standard deviations");
 }
 
 /// As the graph has it: the first pose of a map is the identity there.
@@ -287,8 +287,8 @@ std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const S
   std::vector<std::vector<urban_nav_core::SpecificForce>> forces;
   for (std::size_t s = 0; s < runs.size(); ++s) {
     forces.push_back(runs[s]->forces);
-    levels[s].sentence = relaxedTrack(run, s).empty() ? "the session has no two poses"
-                                                      : "no accelerometer was recorded, nor the ground seen";
+    levels[s].sentence = relaxedTrack(run, s).empty() ? "the session has fewer than two poses"
+                                                      : "no accelerometer and no ground plane were measured";
   }
   addLevels(run, forces, levels);
   addLevels(run, grounds, levels);
@@ -396,8 +396,8 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   for (const std::string& warning : edited.warnings()) made.warnings.push_back(warning);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (made.findMap(s) == s)
-      made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +
-                              (s == 1 ? sessions[0] : "one before it"));
+      made.warnings.push_back("session " + sessions[s] + " is a separate map: no consistent closures join it to " +
+                              (s == 1 ? sessions[0] : "an earlier session"));
   const urban_nav_core::Status status = made.graph.status();
   if (status.reason == static_cast<int>(pose_graph::Trouble::BrokenChain)) made.warnings.push_back(status.sentence);
   return made;

@@ -160,7 +160,7 @@ class GraphStage final : public Stage {
     const double sigma_deg = kDegreesPerRadian * level.sigma;
     const std::string sigma = urban_nav_core::formatNumber(sigma_deg, 2) + " deg";
     if (sigma_deg < kLevelDeg) return "map aligned with " + by + " (sigma " + sigma + ")";
-    return "map roughly upright: the direction of " + by + " is known to " + sigma + " only";
+    return "map aligned with " + by + " only to " + sigma + " (sigma)";
   }
 
   std::vector<std::string> describeRun() const {
@@ -179,7 +179,7 @@ class GraphStage final : public Stage {
       lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
                       std::to_string(planes.accepted) + " accepted" +
                       (run_->planes.shared > 0 ? ", " + std::to_string(run_->planes.shared) +
-                                                     " discounted for ICP closures by the same beams"
+                                                     " discounted since ICP closures use the same beams"
                                                : "") +
                       "; poses moved by up to " + urban_nav_core::formatNumber(run_->planes.moved, 3) + " m in " +
                       urban_nav_core::formatNumber(1e-3 * run_->planes.ms, 3) + " s");

@@ -183,8 +183,8 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
     warnings.add(std::to_string(solution.components) + " parts that no edge connects; each stays in its own frame");
   if (solution.may_be_tangled)
     warnings.add(
-        "rotations end up far from what edges measure: there may be a better minimum, which is looked for in "
-        "smaller graphs only");
+        "rotations are far from the measurements: there may be a better minimum, which is searched for in smaller "
+        "graphs only");
   // A tree contradicts nothing.
   const std::size_t parts = static_cast<std::size_t>(std::max(solution.components, 1));
   const std::size_t held = parts + std::max<std::size_t>(file.problem.fixed.size(), 1) - 1;
@@ -214,7 +214,7 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   RelaxReport report;
   Warnings warnings(console, name, report.warnings);
   for (const auto& [tag, count] : unknownTags(graph))
-    warnings.add(std::to_string(count) + " lines " + tag + " are of an unknown kind and left out");
+    warnings.add(std::to_string(count) + " lines " + tag + " are of an unknown kind and are left out");
   const pose_graph::Parameters parameters = relaxParameters(arguments);
   pose_graph::SolveOptions options;
   options.objective = parseObjective(arguments.get("objective", "geodesic"));
@@ -282,7 +282,7 @@ Command relaxCommand() {
        {}},
       {"--objective",
        "NAME",
-       "what is minimised (default geodesic); definitions in pose_graph/README.md",
+       "objective function (default geodesic); definitions in pose_graph/README.md",
        false,
        false,
        {"geodesic", "chordal", "g2o"}},
@@ -290,22 +290,17 @@ Command relaxCommand() {
        "NAME",
        "gauss_newton (default): sparse, over the poses; relative_pcg: conjugate gradients on the transforms along the "
        "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined; ceres: Ceres, "
-       "as a second word on the same residuals. The last two relax the edges that --robust accepted",
+       "as an independent solver of the same residuals. The last two relax the edges that --robust accepted",
        false,
        false,
        {"gauss_newton", "relative_pcg", "ceres"}},
       {"--start",
        "NAME",
-       "first guess (default auto: the vertices, or rotations found without any guess, whichever cost less)",
+       "initial guess (default auto: the vertices, or rotations estimated without a guess, whichever costs less)",
        false,
        false,
        {"auto", "vertices", "odometry", "identity"}},
-      {"--robust",
-       "WORD",
-       "reject false closures (default on); off takes every edge as it is",
-       false,
-       false,
-       {"on", "off"}},
+      {"--robust", "WORD", "reject false closures (default on); off: use every edge", false, false, {"on", "off"}},
       {"--edges", "CSV", "write each edge's weight and verdict: from,to,weight,verdict,reason", false, false, {}},
       {"--covariance", "CSV", "write each vertex and its marginal covariance, row by row", false, false, {}},
       {"--rejected", "G2O", "write IN without the rejected edges", false, false, {}},

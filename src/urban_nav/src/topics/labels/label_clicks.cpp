@@ -98,7 +98,7 @@ std::size_t LabelClicks::addTo(const scene_labeler::LabelModel& model, const Dri
   std::size_t added = 0;
   for (const ClickedBag& clicked : bags_) {
     if (!std::filesystem::exists(clicked.bag))
-      throw UserError(clicked.bag, "does not exist", "the bags in the file of clicks");
+      throw UserError(clicked.bag, "does not exist", "the bags named in the file of clicks");
     std::array<scene_labeler::TrainingFold, kBothSides.size()> folds;  // in an order that does not depend on messages
     Collector left(clicked.clicks[0], model, parameters.superpixel, folds[0]),
         right(clicked.clicks[1], model, parameters.superpixel, folds[1]);

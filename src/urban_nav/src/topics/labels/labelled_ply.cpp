@@ -60,7 +60,7 @@ void addLabelsToPly(const std::string& path, const std::vector<scene_labeler::Po
     const std::size_t count = std::min(kVerticesAtOnce, labels.size() - begin);
     std::string block(count * vertex, '\0'), made;
     if (!file.read(block.data(), static_cast<std::streamsize>(block.size())))
-      throw urban_nav_core::DataError(path, "ends too early", "a whole map.ply");
+      throw urban_nav_core::DataError(path, "is incomplete", "a complete map.ply");
     for (std::size_t i = 0; i < count; ++i) {
       made.append(block, i * vertex, vertex);
       appendPointLabel(made, labels[begin + i]);

@@ -183,8 +183,12 @@ Command labelsEvaluateAction(const OdometryRunner& run_odometry) {
   action.name = "evaluate";
   action.summary = "Compares the labels of a model with those in scenes.";
   action.options = modelAndScenes();
-  action.options.push_back(
-      {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}});
+  action.options.push_back({"--classes",
+                            "FILE",
+                            "id,class for the values of label (default: the numbers of the classes)",
+                            false,
+                            false,
+                            {}});
   addCommonLabelOptions(action);
   action.examples = {"urban_nav labels evaluate street.labels scenes --classes classes.csv"};
   action.run = [run_odometry](const Arguments& arguments, Console& console) {

@@ -61,7 +61,7 @@ std::vector<SceneFiles> scenesOfSource(const std::string& source) {
   const std::filesystem::path path(source);
   const auto name = withoutCloudExtension(path.filename().string());
   if (!name)
-    throw UserError(source, urban_nav_input::isRecording(source) ? "is a recording, not a scene" : "is no scene",
+    throw UserError(source, urban_nav_input::isRecording(source) ? "is a recording, not a scene" : "is not a scene",
                     kSceneRule);
   const bool has_suffix = urban_nav_core::endsWith(*name, "_points");
   return {besidePoints(path, has_suffix ? name->substr(0, name->size() - 7) : *name)};

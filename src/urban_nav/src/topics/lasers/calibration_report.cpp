@@ -46,23 +46,23 @@ std::string withSigma(const TermText& term, const CalibrationEstimate& estimate)
 /// figures by which it was judged.
 std::string verdictOf(std::size_t places, bool is_significant, bool improves, const std::string& nothing,
                       const std::string& spread) {
-  if (places == 0) return "nothing is found: " + nothing;
-  if (!is_significant) return "the stated calibration is kept: nothing differs from it beyond chance";
+  if (places == 0) return "not estimated: " + nothing;
+  if (!is_significant) return "the stated calibration is kept: no significant difference";
   return (improves ? "adopted: " : "the stated calibration is kept: ") + spread;
 }
 
 std::string verdictOf(const CalibrationResult& found) {
   return verdictOf(found.places, found.is_significant, found.improves, "no plane was measured twice",
-                   "the passes lie " + urban_nav_core::formatNumber(1e3 * found.stated_spread, 2) +
-                       " mm apart as stated and " + urban_nav_core::formatNumber(1e3 * found.calibrated_spread, 2) +
-                       " mm with the estimate, in " + std::to_string(found.held_out) + " places left out of it");
+                   "the distance of the passes is " + urban_nav_core::formatNumber(1e3 * found.stated_spread, 2) +
+                       " mm as stated and " + urban_nav_core::formatNumber(1e3 * found.calibrated_spread, 2) +
+                       " mm with the estimate, in " + std::to_string(found.held_out) + " held-out places");
 }
 
 std::string verdictOf(const ViewCalibration& found) {
   return verdictOf(found.places, found.is_significant, found.improves, "no point of the map is seen by several views",
                    "the views of a point differ by " + urban_nav_core::formatNumber(100.0 * found.stated_spread, 3) +
                        " % as stated and " + urban_nav_core::formatNumber(100.0 * found.calibrated_spread, 3) +
-                       " % with the estimate, in " + std::to_string(found.held_out) + " places left out of it");
+                       " % with the estimate, in " + std::to_string(found.held_out) + " held-out places");
 }
 
 std::string listOf(const std::vector<std::string>& sentences) {
@@ -145,7 +145,7 @@ std::vector<std::string> calibrationSentences(const LasersRun& run) {
       sentences.push_back("  panorama: " + (adopted.empty() ? "" : adopted + "; ") + verdictOf(*session.panorama));
     }
     const std::vector<std::string> unconstrained = unconstrainedOf(session);
-    if (!unconstrained.empty()) sentences.push_back("  the session does not say: " + listOf(unconstrained));
+    if (!unconstrained.empty()) sentences.push_back("  not observable in this session: " + listOf(unconstrained));
   }
   return sentences;
 }
@@ -168,7 +168,7 @@ std::vector<PageTable> calibrationTables(const LasersRun& run) {
                                 std::to_string(session.panorama->places) + " places in several views (" +
                                 verdictOf(*session.panorama) + ")"
                           : "") +
-        "." + (unconstrained.empty() ? "" : " The session does not say: " + listOf(unconstrained) + ".");
+        "." + (unconstrained.empty() ? "" : " Not observable in this session: " + listOf(unconstrained) + ".");
     tables.push_back(table);
   }
   return tables;

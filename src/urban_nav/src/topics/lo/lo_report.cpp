@@ -74,7 +74,7 @@ Figure mapFigure(const LoRun& run) {
   }
   plot.series = {surface, path, free};
   return {"Map from above", renderSvg(plot),
-          "Planes of the local map along the path. A red line: along it the surroundings do not constrain the motion.",
+          "Planes of the local map along the path. Red lines: directions that the surroundings do not constrain.",
           true};
 }
 
@@ -125,11 +125,11 @@ std::string percentText(std::int64_t count, std::int64_t all) {
 
 std::vector<Section> loSections(const LoRun& run) {
   if (run.frames.empty()) return {};
-  Section path{"laser-path", "The path by laser", "Poses of base_link, relative to the first.", {}, {}, {}};
+  Section path{"laser-path", "Path by laser odometry", "Poses of base_link, relative to the first.", {}, {}, {}};
   path.figures.push_back(mapFigure(run));
   path.figures.push_back(sigmaFigure(run, 0, "Uncertainty of the position", "one standard deviation (m)", 1.0));
   path.figures.push_back(
-      sigmaFigure(run, 3, "Uncertainty of the direction", "one standard deviation (deg)", 180.0 / M_PI));
+      sigmaFigure(run, 3, "Uncertainty of the orientation", "one standard deviation (deg)", 180.0 / M_PI));
   Section work{"laser-work", "Registration of the sweeps", "", {}, {}, {}};
   work.figures.push_back(
       sweepFigure(run, "Residuals", "mm",
@@ -147,7 +147,7 @@ std::vector<Section> loSections(const LoRun& run) {
       run, "Free directions", "directions",
       {overSweeps(run, "", "bad", [](const LoFigures& of) { return static_cast<double>(of.free_directions.size()); })},
       "Directions of the motion that the surroundings do not constrain; six where a sweep is LOST."));
-  work.figures.push_back(sweepFigure(run, "Time of a sweep", "ms",
+  work.figures.push_back(sweepFigure(run, "Time per sweep", "ms",
                                      {overSweeps(run, "", "a", [](const LoFigures& of) { return of.process_ms; })},
                                      "Processing time on one core."));
   return {path, work};
@@ -161,16 +161,16 @@ std::vector<Verdict> loVerdicts(const LoSummary& summary) {
     reasons += (reasons.empty() ? " Reasons: " : ", ") + reason + " (" + std::to_string(count) + ")";
   if (!reasons.empty()) reasons += ".";
   if (lost > 0)
-    return {{Grade::Bad, "Some sweeps could not be registered.",
-             percentText(lost, summary.sweeps) + " of the sweeps rest on prediction alone; their covariance grows." +
-                 reasons}};
+    return {
+        {Grade::Bad, "Some sweeps could not be registered.",
+         percentText(lost, summary.sweeps) + " of the sweeps are predicted only; their covariance grows." + reasons}};
   if (summary.degenerate > 0)
-    return {{Grade::Fair, "The surroundings left directions free.",
+    return {{Grade::Fair, "The surroundings did not constrain all directions.",
              percentText(summary.degenerate, summary.sweeps) +
                  " of the sweeps do not constrain every direction of the motion." + reasons}};
   const std::int64_t degraded = summary.status_counts.at("DEGRADED");
   if (degraded > 0)
-    return {{Grade::Fair, "Registration held, with fewer returns than wanted at times.",
+    return {{Grade::Fair, "Registration held, with few returns at times.",
              percentText(degraded, summary.sweeps) + " of the sweeps are DEGRADED." + reasons}};
   return {{Grade::Good, "All sweeps were registered.",
            std::to_string(summary.sweeps) + " sweeps with " + formatNumber(summary.points_mean, 4) +

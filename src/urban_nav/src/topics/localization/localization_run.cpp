@@ -117,7 +117,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
     if (made.frames[i].state == LocalizationState::Localized)
       T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
   if (!T_map_odom) {
-    made.warnings.push_back("the session was never found in the map: trajectory.tum is that of odometry");
+    made.warnings.push_back("the session was not localised in the map: trajectory.tum follows odometry");
     return made;
   }
   for (std::size_t i = 0; i < made.frames.size(); ++i) {

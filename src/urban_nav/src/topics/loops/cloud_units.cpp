@@ -47,7 +47,7 @@ double largestRadius(const urban_nav_core::PointCloud& cloud) {
 
 std::string describeSpacing(float spacing) {
   const bool is_millimetres = 0.01F * spacing > kWidestSpacing;
-  return "points are " + formatNumber(static_cast<double>(spacing), 3) + " apart (median), which fits coordinates in " +
+  return "points are " + formatNumber(static_cast<double>(spacing), 3) + " apart (median), as for coordinates in " +
          (is_millimetres ? "millimetres" : "centimetres") + ": give both clouds in metres (multiplied by " +
          (is_millimetres ? "0.001" : "0.01") + ")";
 }
@@ -62,8 +62,8 @@ std::string describeUnits(const CloudFile& source, const CloudFile& target) {
   if (std::min(a, b) > kWidestSpacing) return describeSpacing(std::min(a, b));
   const double apart = (target.offset - source.offset).norm();
   if (apart > kFarApart + largestRadius(source.cloud) + largestRadius(target.cloud))
-    return "their middles are " + formatNumber(1e-3 * apart, 5) +
-           " km apart: far apart as local coordinates and UTM are; give both in one frame, or --initial FILE";
+    return "their centres are " + formatNumber(1e-3 * apart, 5) +
+           " km apart, as local coordinates and UTM: give both in one frame, or --initial FILE";
   return {};
 }
 

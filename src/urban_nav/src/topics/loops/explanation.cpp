@@ -73,7 +73,7 @@ std::vector<std::string> toRow(const ClosureTest& test) {
 }
 
 PageTable makeTable(const std::string& title, const std::vector<ClosureTest>& tests) {
-  PageTable table{title, {"test", "value", "limit", "", "would have been needed"}, {}, ""};
+  PageTable table{title, {"test", "value", "limit", "", "required"}, {}, ""};
   for (const ClosureTest& test : tests) table.rows.push_back(toRow(test));
   return table;
 }
@@ -94,15 +94,15 @@ std::string toLines(const std::vector<ClosureTest>& tests) {
 }
 
 constexpr const char* kHowToReadViews =
-    "Lines: matches, green where they fit and red where they do not; grey: looked for and not found there.";
+    "Lines: matches, green inliers and red outliers; grey: features without a match.";
 constexpr const char* kHowToReadClouds =
-    "What the lasers saw around the first moment (red) and the second (blue): as odometry lays them, or one upon the "
-    "other where it says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
+    "Laser points around the first moment (red) and the second (blue): placed by odometry, or centred on each other "
+    "without it, and as aligned. Purple: coinciding points. Dots: positions of the robot.";
 constexpr const char* kGate = "Against odometry and its neighbours";
-constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
+constexpr const char* kNoEvidence = "The store has no evidence for it: it was given, or measured by another program.";
 constexpr const char* kPlaneEvidence =
-    "Planes around both moments, which the lasers measured in two passes; how far the passes of each lie apart is in "
-    "quality.csv.";
+    "Planes around both moments, measured by the lasers in two passes; quality.csv has the distance between the "
+    "passes of each plane.";
 
 std::string sentenceWithoutEvidence(const StoredClosure& closure) {
   return closure.edge.kind == urban_nav_store::EdgeKind::Plane ? kPlaneEvidence : kNoEvidence;
@@ -127,7 +127,8 @@ std::vector<CandidateSession> namedIn(const StoredClosure& closure, const Previo
 std::string explain(const StoredClosure& closure) {
   std::string text = makeHeadline(closure) + "\n  " + formatVerdict(closure) + "\n";
   if (closure.probability)
-    text += "  probability of the places being one: " + urban_nav_core::formatNumber(*closure.probability, 4) + "\n";
+    text +=
+        "  probability that the places are the same: " + urban_nav_core::formatNumber(*closure.probability, 4) + "\n";
   if (const std::string transform = formatTransform(closure); !transform.empty()) text += "  " + transform + "\n";
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
@@ -152,7 +153,7 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
                            formatVerdict(closure) + ". " + formatTransform(closure)});
   if (closure.probability)
     page.tiles.push_back(
-        {urban_nav_core::formatNumber(*closure.probability, 4), "", "probability of one place", Grade::Plain});
+        {urban_nav_core::formatNumber(*closure.probability, 4), "", "probability of the same place", Grade::Plain});
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
     const Evidence::Try& each = evidence.tries[i];

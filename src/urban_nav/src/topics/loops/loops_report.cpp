@@ -107,10 +107,10 @@ PageTable kindsTable(const LoopsRun& run) {
   std::map<std::string, int> counts;
   for (const MetricClosure& closure : run.closures)
     ++counts[closure.verdict == ClosureVerdict::Accepted ? classify(closure) : "rejected: " + closure.reason_name];
-  PageTable table{"What became of the candidates",
+  PageTable table{"Results of the candidates",
                   {"", "candidates"},
                   {},
-                  "Each one with its reason is below, and in closures.csv."};
+                  "Each candidate with its reason is listed below and in closures.csv."};
   for (const auto& [name, number] : counts) table.rows.push_back({name, std::to_string(number)});
   return table;
 }
@@ -120,8 +120,8 @@ PageTable kindsTable(const LoopsRun& run) {
 Section loopsSection(const LoopsRun& run, const MapContext& context) {
   Section section{"loops",
                   "Loop closures",
-                  "Places that were said to be the same, and the motion between them: from two views where they can be "
-                  "registered, else from what the lasers saw around both moments.",
+                  "Candidates for revisited places, and the transform between them: from two views if they can be "
+                  "registered, else from the laser points around both moments.",
                   {},
                   run.pictures,
                   {kindsTable(run)}};
@@ -129,13 +129,13 @@ Section loopsSection(const LoopsRun& run, const MapContext& context) {
   for (const SessionTrajectory& session : context.trajectories) in_map.push_back(session.T_map_base);
   const Trajectories trajectories = byName(context.names, in_map);
   section.figures.push_back({"By kind and direction of travel", renderSvg(closuresPlot(run, trajectories)),
-                             "A dot where each candidate's later moment lies, a line to the earlier one.", true});
+                             "A dot at the later pose of each candidate, a line to the earlier one.", true});
   if (!context.stereo_only.empty()) {
     Plot plot = emptyMap();
-    addPaths(plot, byName(context.names, context.stereo_only), "stereo alone", "c", Series::Kind::Dashed);
+    addPaths(plot, byName(context.names, context.stereo_only), "stereo only", "c", Series::Kind::Dashed);
     addPaths(plot, trajectories, "stereo and ICP", "a", Series::Kind::Line);
     section.figures.push_back({"Without and with ICP", renderSvg(plot),
-                               "Dashed: relaxed over the closures by stereo alone. Line: over those by ICP too.",
+                               "Dashed: relaxed with the stereo closures only. Solid: with the ICP closures too.",
                                true});
   }
   return section;

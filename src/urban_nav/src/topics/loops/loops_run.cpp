@@ -91,7 +91,7 @@ LoopsRun runLoops(const CandidateMeasurer& measurer, const std::vector<MetricClo
   for (const auto& [name, session] : measurer.sessions)
     if (!session.has_camera)
       run.warnings.push_back("views of session " + name +
-                             " are not matched: its camera is unknown, or it kept no views");
+                             " are not matched: its camera is unknown, or it has no views");
   run.closures = std::move(closures);
   return run;
 }

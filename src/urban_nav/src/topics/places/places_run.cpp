@@ -70,7 +70,7 @@ class PlaceRecognitionRun {
     result_.places = map_.places();
     if (other_model_ > 0)
       result_.warnings.push_back(std::to_string(other_model_) +
-                                 " places of previous sessions have the words of another model and are not used");
+                                 " places of previous sessions have words of a different model and are not used");
     return std::move(result_);
   }
 

@@ -91,7 +91,7 @@ StereoPicture drawPanels(const NearScene& scene, const urban_nav_core::ImageView
 }
 
 std::string describeKeyframe(const StereoKeyframe& keyframe) {
-  std::string text = urban_nav_core::formatNumber(100.0 * keyframe.answered, 3) + " % of the pixels answered, " +
+  std::string text = urban_nav_core::formatNumber(100.0 * keyframe.answered, 3) + " % of the pixels matched, " +
                      urban_nav_core::formatNumber(100.0 * keyframe.near_share, 3) + " % of these near; ";
   if (keyframe.hasGround())
     text += "camera " + urban_nav_core::formatNumber(keyframe.height, 3) + " m above the ground";

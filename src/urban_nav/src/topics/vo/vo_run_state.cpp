@@ -123,9 +123,9 @@ void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& sto
   if (version > 5) archive(run.motion);
   if (version > 6) archive(stored.compared);
   archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
-                  "constants of the rig are not those of the steps");
+                  "the numbers of rig constants and steps differ");
   archive.require(stored.compared.empty() || stored.compared.size() == stored.rows.size(),
-                  "comparisons are not those of the frames");
+                  "the numbers of comparisons and frames differ");
 }
 
 VoRun readVoRun(std::string_view bytes) {

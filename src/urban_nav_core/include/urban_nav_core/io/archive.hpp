@@ -51,7 +51,7 @@ class Archive {
     if (reading_ && !holds) refuse(found);
   }
   /// Reading: nothing is left over.
-  void finish() const { require(left_.empty(), "more than was written"); }
+  void finish() const { require(left_.empty(), "more bytes than were written"); }
 
   /// How many things follow, each of which takes `least` bytes or more.
   void count(std::size_t& value, std::size_t least = 1);
