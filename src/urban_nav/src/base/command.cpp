@@ -20,7 +20,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// "out" of "-o,--out", "INPUT" of "INPUT".
+/// Returns the key of an option: "out" for "-o,--out", "INPUT" for "INPUT".
 std::string toKey(const Option& option) {
   const std::size_t dashes = option.name.rfind("--");
   return dashes == std::string::npos ? option.name : option.name.substr(dashes + 2);
@@ -85,7 +85,7 @@ bool isHelpWord(const std::string& word) {
   return word == "--help" || word == "--help-all" || word == "-h" || word == "help";
 }
 
-/// Returns the text of an option of the program itself; nullopt for another word.
+/// Returns the output of an option of the program itself (--help, --version); nullopt for other words.
 std::optional<std::string> generalText(const std::vector<Command>& commands, const std::string& word) {
   if (isHelpWord(word)) return generalHelp(commands);
   if (word == "--version") return "urban_nav " + suiteVersion() + "\n";
@@ -114,7 +114,7 @@ void checkRequired(const Command& command, const Arguments& arguments) {
   }
 }
 
-/// Checks an argument that is given by name: CLI11 does that for words.
+/// Checks an argument given by name; CLI11 checks those of a command line.
 void checkNamed(const Command& command, const std::string& key, const std::vector<std::string>& given) {
   const std::string where = "urban_nav " + command.name;
   const auto option =
@@ -132,7 +132,7 @@ void checkNamed(const Command& command, const std::string& key, const std::vecto
     throw UserError(where, key + " has " + std::to_string(given.size()) + " values", "one");
 }
 
-/// CLI11 splits the words; what they mean is checked here, so that --help works beside anything else.
+/// Parses a command line by CLI11. Values are checked here, so that --help works with any other arguments.
 Arguments parse(const Command& command, const ParameterTables& tables, int argc, const char* const* argv) {
   CLI::App app(command.summary, "urban_nav " + command.name);
   app.set_help_flag();
@@ -193,7 +193,7 @@ const Command& findCommand(const std::vector<Command>& commands, const std::stri
                   urban_nav_core::joined(names));
 }
 
-/// A command with actions: the word after it names one.
+/// Runs an action of a command, named by the next word.
 int runAction(const Command& group, const ParameterTables& tables, int argc, const char* const* argv,
               Console& console) {
   const std::string name = argc > 1 ? argv[1] : "";

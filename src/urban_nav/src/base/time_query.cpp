@@ -24,7 +24,7 @@ TimeQuery parseTimeQuery(const std::string& text, const std::string& what) {
   moment.seconds = *seconds;
   moment.since_begin = plus != std::string::npos;
   if (moment.since_begin) moment.session = text.substr(0, plus);
-  // A double holds seconds since 1970 to a quarter of a microsecond: enough to find a closure by.
+  // A double resolves seconds since 1970 to a quarter of a microsecond, sufficient to identify a closure.
   else moment.stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
   return moment;
 }

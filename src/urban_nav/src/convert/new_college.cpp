@@ -64,7 +64,7 @@ void write(const urban_nav_input::NewCollegeOdometry& event, BagWriter& bag) {
 }
 
 void write(const urban_nav_input::NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {
-}  // the index alone; pictures are taken by the names of their files
+}  // only the index; images are stamped by their file names
 
 void write(const urban_nav_input::NewCollegeFiles::Image& image, BagWriter& bag) {
   const urban_nav_ros::GreyImage seen = urban_nav_input::readPixels(image.path);
@@ -79,7 +79,7 @@ void write(const urban_nav_input::NewCollegeFiles::Image& image, BagWriter& bag)
   bag.write(urban_nav_ros::topics::fromRoot(topic + "/compressed"), image.stamp, message);
 }
 
-/// Everything of one data set, in the order of stamps.
+/// All data of one data set, in the order of stamps.
 class NewCollege {
  public:
   explicit NewCollege(const std::string& source) : files_(urban_nav_input::findNewCollege(source)) {

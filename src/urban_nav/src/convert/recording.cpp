@@ -82,7 +82,7 @@ urban_nav_input::ReceiptRange findRange(urban_nav_input::Recording& recording, c
   return {after(part.from), after(part.to)};
 }
 
-/// Messages that were left out, by topic.
+/// Omitted messages, by topic.
 class LeftOut {
  public:
   void add(const std::string& topic, const std::string& reason) { ++counts_[{topic, reason}]; }

@@ -23,7 +23,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-/// Stamps that count from the start of the sequence are moved to a time that ROS takes for one (2001-09-09).
+/// Offset of stamps that begin at zero, to a valid ROS time (2001-09-09).
 constexpr StampNs kEpoch = 1'000'000'000'000'000'000;
 constexpr StampNs kEarliest = 1'000'000'000;
 
@@ -35,13 +35,13 @@ geometry_msgs::PoseStamped truthMessage(const urban_nav_core::StampedPose& pose,
   return message;
 }
 
-/// What is written beside the images, in the order of stamps.
+/// Messages other than images, in the order of stamps.
 class Companions {
  public:
   Companions(std::vector<sensor_msgs::Imu> imu, std::optional<urban_nav_input::TrajectoryFile> truth, StampNs shift)
       : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
 
-  /// Everything up to a stamp of the folder.
+  /// Writes all messages up to a stamp of the folder.
   void writeUntil(StampNs stamp, BagWriter& bag) {
     for (; next_imu_ < imu_.size() && urban_nav_ros::toStampNs(imu_[next_imu_].header.stamp) <= stamp; ++next_imu_) {
       sensor_msgs::Imu& message = imu_[next_imu_];

@@ -47,7 +47,7 @@ std::string requiredValue(const Arguments& arguments, const std::string& option)
   return arguments.get(option);
 }
 
-/// The words after the action, of which there must be `count`, or at least as many.
+/// Returns the words after the action. Throws UserError unless there are `count`, or at least `count` with `more`.
 std::vector<std::string> deviceWords(const Arguments& arguments, std::size_t count, bool more,
                                      const std::string& usage) {
   std::vector<std::string> words = arguments.all("ARGUMENT");

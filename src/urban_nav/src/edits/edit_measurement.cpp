@@ -32,7 +32,7 @@ std::size_t sessionPlace(const PreviousSessions& sessions, const urban_nav_store
   return static_cast<std::size_t>(std::find(sessions.ids.begin(), sessions.ids.end(), id) - sessions.ids.begin());
 }
 
-/// As MapContext::lastCamera().
+/// Returns the camera of the last session with images (see MapContext::lastCamera()).
 std::optional<MountedCamera> lastCamera(const PreviousSessions& sessions) {
   for (auto run = sessions.runs.rbegin(); run != sessions.runs.rend(); ++run)
     if (auto camera = urban_nav_registration::parseCalibrationFingerprint(run->cameras)) return camera;

@@ -27,11 +27,12 @@ using urban_nav_store::StoredEdit;
 namespace {
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
-constexpr double kAssertedSigma = 0.1, kAssertedDegrees = 1.0;  // m, deg: of a transform by eye, in a view of the map
-constexpr double kPinnedSigma = 0.02;                           // m: a surveyed point
-constexpr std::size_t kDigits = 8;                              // hexadecimal, of a digest
+constexpr double kAssertedSigma = 0.1,
+                 kAssertedDegrees = 1.0;  // m, deg: of a transform estimated by eye in a view of the map
+constexpr double kPinnedSigma = 0.02;     // m: a surveyed point
+constexpr std::size_t kDigits = 8;        // hexadecimal, of a digest
 
-/// Returns text as a shell takes it for one word.
+/// Quotes text as one word of a shell.
 std::string shellWord(const std::string& text) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string("_./:,+=@%-").find(c) != std::string::npos;
@@ -42,7 +43,7 @@ std::string shellWord(const std::string& text) {
   return result + "'";
 }
 
-/// The words of a command line after STORE.
+/// The action and arguments after STORE.
 class Words {
  public:
   explicit Words(const Arguments& arguments) : arguments_(arguments), words_(arguments.all("ARGUMENT")) {}
@@ -58,7 +59,7 @@ class Words {
   }
   const std::string& operator[](std::size_t i) const { return words_[i]; }
   std::size_t size() const { return words_.size(); }
-  /// Returns the words as the journal has them.
+  /// Returns the words in the form of the journal.
   std::string print() const {
     std::string text;
     for (const std::string& word : words_) text += (text.empty() ? "" : " ") + shellWord(word);
@@ -110,7 +111,7 @@ const StoredClosure& findClosure(const std::vector<StoredClosure>& closures, con
 
 std::string inWords(const StoredClosure& closure) { return "closure " + std::to_string(closure.id); }
 
-/// Returns why a verdict by hand would change nothing; empty if it may.
+/// Returns the reason why a manual verdict would change nothing; empty if it may.
 std::string whyVerdictIsIdle(const StoredClosure& closure, const std::string& action,
                              const std::vector<StoredEdit>& standing) {
   const StoredEdit* last = nullptr;
@@ -157,7 +158,7 @@ EditRequest readVerdict(const std::string& action, const Words& words, Store& st
   return request;
 }
 
-/// Returns a source of its own for a closure of an edit, which depends on their content alone.
+/// Returns a unique source for the closure of an edit, which depends only on their content.
 std::string makeSource(const StoredEdit& edit, const std::string& kind) {
   std::string text = kind + edit.edge.a.session + std::to_string(edit.edge.a.stamp) + edit.edge.b.session +
                      std::to_string(edit.edge.b.stamp) + edit.arguments;
@@ -216,7 +217,7 @@ Eigen::Vector3d placeByFixes(Store& store, const std::vector<urban_nav_store::St
   }
 }
 
-/// Returns the place of a pinned point in the map, m.
+/// Returns the position of a pinned point in the map, m.
 Eigen::Vector3d readPlace(const Words& words, Store& store, const NodeRef& at) {
   if (words.has("at") == words.has("geodetic"))
     throw UserError("pin", words.has("at") ? "--at and --geodetic" : "neither --at nor --geodetic", "one of the two");
@@ -276,7 +277,7 @@ EditRequest readCut(const Words& words, const PreviousSessions& sessions) {
     request.unchanged = "session " + sessions.names[session] + " has too few poses for a cut";
     return request;
   }
-  // Two pieces of at least one step: a pose alone is no piece.
+  // Both pieces need at least one step, i.e. two poses.
   last.stamp = std::clamp(last.stamp, settled[1].stamp, settled[settled.size() - 3].stamp);
   edit.edge.a = edit.edge.b = last;
   edit.session = last.session;

@@ -46,8 +46,8 @@ Verdicts relaxedVerdicts(const GraphRun& run, const PreviousSessions& sessions) 
   return verdicts;
 }
 
-/// Returns the closures that edits contradict: accepted before and not after, but for those that are edited, and those
-/// that cannot be true as well.
+/// Returns the closures contradicted by edits: those accepted before but not after, except edited ones, and those
+/// inconsistent with the edits.
 std::set<EdgeKey> findContradictions(const Verdicts& before, const Verdicts& after, const GraphRun& run,
                                      const PreviousSessions& sessions, const std::vector<StoredEdit>& edits) {
   std::set<EdgeKey> found;
@@ -73,7 +73,7 @@ std::set<EdgeKey> findContradictions(const Verdicts& before, const Verdicts& aft
   return found;
 }
 
-/// Enters the request in the journal, and returns the edits that it concerns.
+/// Adds the request to the journal, and returns the affected edits.
 std::vector<StoredEdit> enter(EditJournal& journal, const EditRequest& request) {
   std::vector<std::int64_t> numbers;
   if (request.action == "undo") numbers = journal.undo(request.count);

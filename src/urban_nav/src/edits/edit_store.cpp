@@ -28,7 +28,7 @@ std::string figureText(const std::optional<double>& figure) {
   return figure ? urban_nav_core::formatNumber(*figure, 4) : std::string("unknown");
 }
 
-/// Opens a store for an edit. Throws DataError if another program writes it: the same call succeeds later.
+/// Opens a store for an edit. Throws DataError while another program writes it.
 Store openForEditing(const std::string& path) {
   try {
     return Store(path, Access::Write);

@@ -18,10 +18,10 @@ using urban_nav_core::Pose;
 namespace {
 
 constexpr double kJumpDegrees = 57.29577951308232;
-constexpr std::size_t kMostTried = 300;  // relaxations of one edge less, some ms each in a map of 10 000 poses
+constexpr std::size_t kMostTried = 300;  // relaxations without one edge, some ms each in a map of 10 000 poses
 constexpr std::size_t kShownCauses = 20;
 
-/// A relaxed graph, to be relaxed again without some of its edges.
+/// A relaxed graph that can be relaxed again without some of its edges.
 class Trial {
  public:
   Trial(const GraphRun& run, int pose) : problem_(run.graph.problem()), weights_(run.graph.weights()), pose_(pose) {
@@ -34,7 +34,7 @@ class Trial {
     components_ = pose_graph::solve(problem_, options_, weights_).components;
   }
 
-  /// Fills in where the pose lies without these edges.
+  /// Sets the displacement of the pose without these edges.
   void without(const std::vector<std::size_t>& edges, JumpExplanation::Cause& cause) const {
     std::vector<double> weights = weights_;
     for (const std::size_t edge : edges) weights[edge] = 0.0;
@@ -72,7 +72,7 @@ std::string causeText(const JumpExplanation::Cause& cause) {
                       : "without it this pose is " + placeText(cause.distance, cause.angle) + " away");
 }
 
-/// Compares with odometry from the first pose of the map.
+/// Compares the pose with odometry from the first pose of the map.
 void compareWithOdometry(const GraphRun& run, std::size_t session, const urban_nav_store::NodeRef& at,
                          JumpExplanation& jump) {
   const pose_graph::Track& track = *run.graph.track(run.sessions[session]);

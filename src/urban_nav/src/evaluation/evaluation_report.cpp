@@ -23,7 +23,7 @@ Grade gradeOfNees(double nees) {
   return ratio > kTooSmall || ratio < kTooLarge ? Grade::Fair : Grade::Good;
 }
 
-/// Relative to the first pose, in its axes.
+/// Returns poses relative to the first one, in its axes.
 std::vector<Pose> fromFirst(const std::vector<Pose>& poses) {
   std::vector<Pose> relative;
   relative.reserve(poses.size());
@@ -59,7 +59,7 @@ std::string percentText(const urban_nav_core::RelativeError& error) {
          " deg/m";
 }
 
-/// In which unit a length reads well.
+/// Unit of a length.
 struct Length {
   const char* name;
   double per_m;
@@ -71,7 +71,7 @@ std::string lengthText(double m) {
   return urban_nav_core::formatNumber(unit.per_m * m, 2) + " " + unit.name;
 }
 
-/// Two columns: what, how much.
+/// Returns rows of name and value.
 std::vector<std::vector<std::string>> formatFigures(const Evaluation& e) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"poses", std::to_string(e.matched.truth.size()) + " matched, " + std::to_string(e.frames_estimate) +

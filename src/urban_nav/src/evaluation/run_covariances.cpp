@@ -13,7 +13,7 @@ using urban_nav_input::TrajectoryFile;
 
 namespace {
 
-// Poses of both files are printed in full, so that rounding is all that differs (m, rad).
+// Poses of both files are printed with full precision, so that they differ only by rounding (m, rad).
 constexpr double kRounding = 1e-6;
 
 bool haveSameMotion(const TrajectoryFile& camera, const TrajectoryFile& base) {

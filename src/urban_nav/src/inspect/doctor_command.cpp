@@ -27,7 +27,7 @@ urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
   return options;
 }
 
-/// Returns the line of a finding that `map` can repair; empty if it cannot.
+/// Returns the line with the options of `map` that repair a finding; empty without options.
 std::string repairLine(const urban_nav_input::Finding& finding) {
   if (finding.options.empty()) return "";
   std::string line = "    -> urban_nav map ...";

@@ -74,7 +74,7 @@ void checkFormats(const Arguments& arguments) {
     throw UserError("--grid", grid, "a name that ends in .yaml");
 }
 
-/// What is written, for the user and for --json.
+/// Written files, for the user and for --json.
 class Written {
  public:
   explicit Written(Console& console) : console_(console) { json_["files"] = Json::array(); }
@@ -92,7 +92,7 @@ class Written {
     json_["files"].append(file);
   }
   void leftOut(const std::string& sentence) { console_.info("left out: " + sentence); }
-  /// Where a map lies on the earth.
+  /// Notes the georeference of a map.
   void noteReference(const ExportedMap& made) {
     console_.info(made.crs);
     Json reference = Json::object();
@@ -127,7 +127,8 @@ void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Writt
   std::size_t number = 0;
   for (const std::vector<StoredTrajectory>& map : maps) {
     const MapFilePaths paths = mapFilePaths(arguments, number);
-    if (!holdsMap(store, map) && (number > 0 || &map != &maps.back())) continue;  // the last one reports the lack
+    if (!holdsMap(store, map) && (number > 0 || &map != &maps.back()))
+      continue;  // the last one throws if there is no map
     const ExportedMap made = exportMap(store, map, paths, memory_mb, labelAttributes);
     if (made.reference) written.noteReference(made);
     const std::string points = made.points > 0 ? std::to_string(made.points) + " points of " : "";

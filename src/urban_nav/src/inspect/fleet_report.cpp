@@ -27,7 +27,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// Names of files below a folder that are stores or releases, sorted.
+/// Returns the sorted names of stores and releases below a folder.
 std::vector<std::string> findStores(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -57,7 +57,7 @@ double largestSigma(Store& store, const urban_nav_store::SessionId& id) {
   return largest;
 }
 
-/// Counts the closures of sessions with others, and how far the accepted ones are from the poses.
+/// Counts the closures of sessions with others, and computes the residuals of accepted ones.
 void addClosures(Store& store, std::vector<FleetSession>& sessions) {
   std::map<urban_nav_store::SessionId, std::map<StampNs, urban_nav_core::Pose>> poses;
   std::map<urban_nav_store::SessionId, std::vector<double>> misses;
@@ -123,7 +123,7 @@ std::string printName(const FleetSession& session) {
   return session.session.id.substr(0, 8) + " (" + session.session.name + ")";
 }
 
-/// Returns sentences on sessions whose calibration is not that of the one before of the same robot.
+/// Returns sentences on sessions whose calibration differs from the previous session of the same robot.
 std::vector<std::string> findDrifts(const std::vector<FleetSession>& sessions) {
   std::map<std::string, const FleetSession*> last;
   std::vector<std::string> sentences;
@@ -173,7 +173,7 @@ PageTable sessionTable(const Fleet& fleet) {
   return table;
 }
 
-/// Metres by robot and day.
+/// Returns the distance driven by robot and day, m.
 PageTable coverageTable(const Fleet& fleet) {
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, double>> driven;
   for (const FleetSession& each : fleet.sessions) {

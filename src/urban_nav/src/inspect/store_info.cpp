@@ -54,7 +54,7 @@ std::vector<urban_nav_input::StreamInfo> listStreams(Store& store, const urban_n
   return result;
 }
 
-/// Which sessions belong together, found by their accepted closures: disjoint sets.
+/// Groups of sessions joined by accepted closures, as disjoint sets.
 class Groups {
  public:
   explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }

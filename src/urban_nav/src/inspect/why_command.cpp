@@ -32,7 +32,7 @@ const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::i
   return *found;
 }
 
-/// The closure nearest to two times; null if none is within kNear of both.
+/// Returns the closure nearest to two times; null if none is within kNear of both.
 const StoredClosure* byTimes(const std::vector<StoredClosure>& closures, const TimeQuery& one, const TimeQuery& other) {
   const auto nearest = std::min_element(closures.begin(), closures.end(), [&](const auto& x, const auto& y) {
     return computeDistance(x, one, other) < computeDistance(y, one, other);
@@ -52,7 +52,7 @@ void explainUnproposed(const Arguments& arguments, urban_nav_store::Store& store
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(pair).print());
 }
 
-/// Explains where a pose lies.
+/// Explains the pose at a moment.
 int explainJumpAt(const Arguments& arguments, Console& console) {
   if (arguments.has("T1") || arguments.has("closure"))
     throw UserError("urban_nav why", "--jump with moments or --closure", "one of them");

@@ -123,7 +123,7 @@ int runOnto(const Arguments& arguments, const StageFactory& make_stages, Console
   return 0;
 }
 
-/// Throws UserError unless the options are those of one kind of join.
+/// Throws UserError for options of different kinds of join.
 void checkOptions(const Arguments& arguments) {
   const bool is_plan = arguments.has("plan"), is_piece = arguments.has("piece"), is_finish = arguments.has("finish");
   const auto require = [](bool good, const std::string& found, const std::string& allowed) {

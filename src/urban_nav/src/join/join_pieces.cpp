@@ -51,7 +51,7 @@ bool operator<(const Source& a, const Source& b) {
   return std::tie(a.start, a.first, a.relative) < std::tie(b.start, b.first, b.relative);
 }
 
-/// Returns the sources in an order that does not depend on that in which they are given, each once.
+/// Returns the unique sources in an order independent of the given one.
 std::vector<Source> sortSources(const std::vector<std::string>& stores, const std::string& folder) {
   std::map<std::string, Source> by_path;
   for (const std::string& path : stores) {
@@ -77,7 +77,7 @@ std::string describeLastCamera(const MapContext& context) {
   return camera ? urban_nav_registration::calibrationFingerprint(camera->camera, camera->T_base_left) : "";
 }
 
-/// Removes the pieces of a plan that the folder holds from before.
+/// Removes the pieces of an earlier plan from the folder.
 void removeEarlierPlan(const std::string& folder) {
   const std::string path = inFolder(folder, kPlanFile);
   if (!fs::exists(path)) return;
@@ -89,7 +89,7 @@ void removeEarlierPlan(const std::string& folder) {
   }
 }
 
-/// Throws UserError if a store is not there or is not that of the plan.
+/// Throws UserError if a store is missing or differs from that of the plan.
 void requireUnchanged(const std::vector<PlannedStore>& stores, const fs::path& folder) {
   for (const PlannedStore& store : stores) {
     const std::string path = (folder / store.path).lexically_normal().string();
@@ -114,7 +114,7 @@ std::string printResult(const JoinPiece& piece, const std::vector<MetricClosure>
   return bytes;
 }
 
-/// Writes a file that appears whole, also while other processes, on this host or another one, write the same.
+/// Writes a file atomically, also while other processes, on any host, write the same file.
 void writeConcurrently(const std::string& path, const std::string& bytes) {
   std::random_device random;
   urban_nav_core::PartialFile partial(path, "." + std::to_string(random()) + std::to_string(random()) + ".part");
@@ -122,7 +122,7 @@ void writeConcurrently(const std::string& path, const std::string& bytes) {
   partial.commit();
 }
 
-/// Returns the closures that a piece has measured.
+/// Returns the closures measured by a piece.
 std::vector<MetricClosure> readResult(const std::string& path, const JoinPlan& plan) {
   if (!fs::exists(path + kDone))
     throw DataError(path, "has no result: " + path + kDone + " is missing", "a run of urban_nav join --piece " + path);
@@ -140,7 +140,7 @@ std::vector<MetricClosure> readResult(const std::string& path, const JoinPlan& p
   return *closures;
 }
 
-/// Returns the stage's view of the sessions of a piece.
+/// Returns the sessions of a piece as input of stage loops.
 loop_metric::StoredPlaceData::Sessions readSessions(const JoinPiece& piece, const std::vector<std::string>& paths,
                                                     const urban_nav_registration::MountedCamera& camera) {
   loop_metric::StoredPlaceData::Sessions sessions;

@@ -61,7 +61,7 @@ void findApart(const MapContext& context, JoinRun& run) {
       run.apart.push_back({context.previous.ids[s], reasonApart(run, context.previous.ids[s])});
 }
 
-/// States with which a run could go on reading are kept for the last session alone: the others have ended.
+/// Removes the states for continuing a session, except that of the last one.
 void dropStates(Store& store) {
   const std::vector<urban_nav_store::Session> sessions = store.sessions().all();
   const auto last = std::max_element(

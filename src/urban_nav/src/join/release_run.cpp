@@ -29,13 +29,13 @@ using urban_nav_store::StoredTrajectory;
 namespace {
 
 constexpr StampNs kPlaceGap = 1'000'000'000;  // ns between the poses before and after a place
-constexpr double kSamePlaceDistance = 3.0;    // m: where one release has a place nearer than that, none is lost
-constexpr double kMoved = 0.1;                // m
-constexpr double kSurfaceCell = 0.25;         // m: surfaces are compared by cells and the ones around them
+constexpr double kSamePlaceDistance = 3.0;  // m: a place with one of the other release within this distance is not lost
+constexpr double kMoved = 0.1;              // m
+constexpr double kSurfaceCell = 0.25;       // m: surfaces are compared by cells and their neighbours
 
 using Voxel = std::tuple<int, int, int>;
 
-/// Content by which two releases are compared.
+/// Content for the comparison of two releases.
 struct ReleaseContent {
   ReleaseHead head;
   std::map<std::pair<std::string, StampNs>, Vector3d> places;
@@ -43,7 +43,7 @@ struct ReleaseContent {
   bool has_surfaces = false;
 };
 
-/// Removes thumbnails from the places of a release: localization does not need them.
+/// Removes thumbnails from the places of a release, since localization does not need them.
 void removeThumbnails(Store& store, const std::vector<KeptSession>& kept) {
   urban_nav_store::TableStore<StoredPlace> places(store);
   for (const KeptSession& session : kept)
@@ -83,7 +83,7 @@ ReleaseContent readContent(const std::string& path, double memory_mb) {
   return content;
 }
 
-/// Returns how many places of `a` have none of `b` near them.
+/// Returns the number of places of `a` without one of `b` nearby.
 std::size_t countLost(const ReleaseContent& a, const ReleaseContent& b) {
   std::map<std::pair<int, int>, std::vector<Vector3d>> cells;
   const auto toCell = [](const Vector3d& p) {
@@ -106,7 +106,7 @@ std::size_t countLost(const ReleaseContent& a, const ReleaseContent& b) {
   return lost;
 }
 
-/// Returns the area of the surfaces of `a` that `b` has not, m2.
+/// Returns the area of the surfaces of `a` that are missing in `b`, m2.
 double areaLost(const ReleaseContent& a, const ReleaseContent& b) {
   std::size_t lost = 0;
   for (const auto& [x, y, z] : a.surfaces) {

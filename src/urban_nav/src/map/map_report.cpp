@@ -32,7 +32,7 @@ std::string inputNames(const std::vector<std::string>& inputs) {
   return listText(names);
 }
 
-/// Returns a word for what the frames of the sessions are.
+/// Returns the noun for the frames of the sessions.
 std::string countedThings(const MapContext& context) {
   bool is_stereo = false, is_laser = false;
   for (const MapSession& session : context.sessions)
@@ -75,7 +75,7 @@ PageTable inputsTable(const MapContext& context) {
   return table;
 }
 
-/// `session`: its number from 1 where there are several, else 0.
+/// Returns the result of a comparison. `session`: its number from 1 if there are several, else 0.
 StageResult evaluationResult(const Evaluation& evaluation, std::size_t session) {
   const std::string of = session > 0 ? " (session " + std::to_string(session) + ")" : "";
   StageResult made;

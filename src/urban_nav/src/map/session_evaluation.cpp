@@ -19,7 +19,7 @@ std::vector<urban_nav_core::StampNs> stamps(const SessionOdometry& run) {
   return result;
 }
 
-/// Returns a row per smoothed frame. `relaxed` replaces the covariances of odometry as far as it goes.
+/// Returns a row per smoothed frame. `relaxed` replaces the first covariances of odometry.
 std::vector<urban_nav_core::CovarianceRow> covarianceRows(const SessionOdometry& run, const Covariances& relaxed) {
   std::vector<urban_nav_core::CovarianceRow> rows;
   for (const SmoothedFrame& settled : run.settled)

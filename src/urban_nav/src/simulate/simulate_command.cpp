@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLongest = 86400.0;  // s
 
-/// Words of a comma-separated list; each named with its option where it is not known.
+/// Parses a comma-separated list of sensors. Throws UserError naming the option for an unknown word.
 std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Arguments& arguments) {
   std::set<urban_nav_sim::Sensor> sensors;
   for (const std::string& word : arguments.list(option))
@@ -70,7 +70,7 @@ SimulateJob makeJob(const Arguments& arguments) {
 
 int runSimulate(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
-  loadParameters(arguments);  // none is the simulator's own, but errors in them are reported
+  loadParameters(arguments);  // the simulator has no parameters, but errors are reported
   const SimulateJob job = makeJob(arguments);
   const Simulated made = simulate(job, console);
   Json json = Json::object();

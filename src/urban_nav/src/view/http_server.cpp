@@ -55,7 +55,7 @@ HttpRequest toRequest(const httplib::Request& given) {
   return request;
 }
 
-/// Headers of every answer: no other page may frame it, read it or keep it.
+/// Headers of every answer, against framing, reading and caching by other pages.
 const httplib::Headers& commonHeaders() {
   static const httplib::Headers all = {{"Cache-Control", "no-store"},
                                        {"Cross-Origin-Opener-Policy", "same-origin"},
@@ -78,7 +78,7 @@ class HttpServer::Implementation {
     server_.set_payload_max_length(kLargestBody);
     server_.set_tcp_nodelay(true);
     server_.set_default_headers(commonHeaders());
-    // The library's own options would let two servers share a port.
+    // The default options of the library would let two servers share a port.
     server_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -118,7 +118,7 @@ class HttpServer::Implementation {
   bool isRunning() const { return server_.is_running(); }
 
  private:
-  /// Answers what needs no body; returns false for a POST that was admitted.
+  /// Answers requests without a body; returns false for an admitted POST.
   bool beforeBody(const httplib::Request& given, httplib::Response& response) {
     const HttpRequest request = toRequest(given);
     if (const std::unique_ptr<HttpAnswer> refusal = admit_(request)) {

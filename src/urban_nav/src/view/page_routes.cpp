@@ -25,7 +25,7 @@ HttpAnswer asError(int status, const std::string& sentence) {
 
 HttpAnswer notThere() { return {404, "text/plain; charset=utf-8", "not found\n"}; }
 
-/// Returns a whole number of the address.
+/// Returns an integer parameter of the address.
 std::int64_t numberIn(const HttpRequest& request, const std::string& name) {
   const std::vector<std::string> values = request.parameter(name);
   const auto number = values.size() == 1 ? urban_nav_core::parseInteger(values.front()) : std::nullopt;
@@ -115,7 +115,7 @@ HttpAnswer PageRoutes::follow() const {
   answer.type = "text/event-stream";
   answer.stream = [this, known = std::int64_t{-1}](std::string& next) mutable {
     const PageEvents::State state = events_.wait(known);
-    // Server-sent events (HTML standard, section 9.2). A comment now and then shows whether the page is still there.
+    // Server-sent events (HTML standard, section 9.2). Periodic comments detect a closed page.
     next = state.number == known ? ":\n\n" : "data: " + asData(state) + "\n\n";
     known = state.number;
     return true;

@@ -36,7 +36,7 @@ std::string listenAddress(const Arguments& arguments) {
   return address;
 }
 
-/// Keeps SIGINT and SIGTERM waiting, in all threads that are started from then on, until one of them is taken.
+/// Blocks SIGINT and SIGTERM in all threads started later, until one of them is received.
 class EndSignals {
  public:
   EndSignals() {
@@ -49,7 +49,7 @@ class EndSignals {
   EndSignals(const EndSignals&) = delete;
   EndSignals& operator=(const EndSignals&) = delete;
 
-  /// Waits for one of them; returns whether it came within the time.
+  /// Waits for a signal; returns false after the timeout.
   bool wait(long nanoseconds) const {
     const timespec patience{0, nanoseconds};
     return ::sigtimedwait(&both_, nullptr, &patience) > 0;

@@ -18,9 +18,9 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kNotableScale = 0.003;   // relative: a calibration target measures a baseline better than that
+constexpr double kNotableScale = 0.003;   // relative; a calibration target measures a baseline more accurately
 constexpr double kNotableMounting = 0.5;  // deg
-constexpr double kDeviations = 3.0;       // sigmas from its prior that are worth a sentence
+constexpr double kDeviations = 3.0;       // sigmas from the prior above which a constant is reported
 
 std::vector<RelativePose> listSteps(const SessionOdometry& run) {
   std::vector<RelativePose> steps;
@@ -28,11 +28,11 @@ std::vector<RelativePose> listSteps(const SessionOdometry& run) {
   return steps;
 }
 
-/// Covariance of the pose relative to the first one along a chain of steps: drifts, the errors of both ends, and
-/// constants that all steps share.
+/// Covariance of the pose relative to the first one along a chain of steps: drifts, errors of both ends, and constants
+/// common to all steps.
 class PathCovariance {
  public:
-  /// Returns the covariance after a further step, parent frame: the first pose.
+  /// Appends a step. Returns the covariance in the frame of the first pose.
   Matrix6d append(const RelativePose& step) {
     const Matrix6d to_first = urban_nav_core::adjoint(T_first_) * urban_nav_core::leftFromBox(step.T_from_to);
     const Matrix6d half = transformCovariance(to_first, 0.5 * step.covariance);

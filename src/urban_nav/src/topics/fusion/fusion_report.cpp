@@ -16,7 +16,7 @@ namespace {
 constexpr double kNotableSpread = 2.0;  // mean squared distance over its expectation
 constexpr double kDegPerRad = 180.0 / M_PI;
 
-/// A constant in words and in the unit that a user knows it by.
+/// Returns name, value, sigma and unit of a constant for the user.
 std::vector<std::string> constantRow(const SharedConstant& constant) {
   const auto row = [&](const std::string& name, double unit, double offset, const std::string& unit_name) {
     return std::vector<std::string>{name, formatNumber(offset + unit * constant.value, 5),

@@ -19,7 +19,7 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kMostRows = 500;  // closures in the table
-constexpr double kBoasts = 1.5;         // times the stated deviation: said in the report from here on
+constexpr double kBoasts = 1.5;         // ratio of actual to stated standard deviation above which it is reported
 constexpr std::array<const char*, 4> kColours = {"a", "c", "d", "b"};
 
 std::string count(std::size_t n, const char* noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
@@ -30,7 +30,7 @@ std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
   return points;
 }
 
-/// Lines between the two ends of closures with this verdict.
+/// Returns lines between the poses of closures with this verdict.
 Series makeLinks(const GraphRun& graph, urban_nav_core::ClosureVerdict verdict, const std::string& name,
                  const std::string& colour) {
   Series series;
@@ -60,7 +60,7 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const SessionOdometry*>&
   plot.height = 420;
   plot.x_label = "x, forward at the start (m)";
   plot.y_label = "y, left (m)";
-  // Below the paths: there may be a thousand of them.
+  // Drawn below the paths, since there may be a thousand.
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Rejected, "rejected", "bad"));
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Waiting, "waiting", "fair"));
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Accepted, "closures", "good"));
@@ -92,7 +92,7 @@ Plot costPlot(const GraphRun& graph) {
   return plot;
 }
 
-/// Seconds from the first pose of a session; the stamp itself where there is no such session.
+/// Returns seconds from the first pose of a session; the stamp for an unknown session.
 std::string timeText(const GraphRun& graph, const std::string& session, StampNs stamp) {
   const pose_graph::Track* track = graph.graph.track(session);
   if (track == nullptr || track->stamps.empty()) return session + " " + urban_nav_core::printStamp(stamp);
@@ -138,10 +138,10 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<Se
 
 constexpr double kGraphDegrees = 180.0 / 3.14159265358979323846;
 
-/// By how much the first pose leans.
+/// Returns the tilt of the first pose, deg.
 double leanDeg(const pose_graph::Level& level) { return kGraphDegrees * std::acos(std::min(1.0, level.up.z())); }
 
-constexpr double kSureLevelDeg = 0.5;  // standard deviation, of a map that is called level
+constexpr double kSureLevelDeg = 0.5;  // largest standard deviation of a map reported as level
 
 Verdict levelVerdict(const pose_graph::Level& level) {
   if (!level.known())

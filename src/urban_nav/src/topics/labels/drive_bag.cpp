@@ -34,7 +34,7 @@ constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic
 
 /// Topics of one side with its rig.
 struct SideTopics {
-  std::string scan, image;  // empty: there is none
+  std::string scan, image;  // may be empty
   scene_labeler::SideRig rig;
 };
 
@@ -75,7 +75,7 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
   return rigs;
 }
 
-/// Brings the messages of one side to its window.
+/// Passes the messages of one side to its window.
 class SideReader {
  public:
   SideReader(const SideTopics& topics, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,

@@ -20,7 +20,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Returns `plain`, or it with a number if a fold has that name.
+/// Returns `plain`, with a number appended if a fold has that name.
 std::string freeName(const std::string& plain, const std::vector<TrainingFold>& folds) {
   std::string name = plain;
   const auto is_taken = [&] {

@@ -32,7 +32,7 @@ std::string withoutComments(const std::string& header) {
   return kept;
 }
 
-/// Returns labelledMapLayout() with the comments of an unlabelled file before its own.
+/// Returns labelledMapLayout() with the comments of an unlabelled file prepended.
 urban_nav_core::PlyLayout labelledLike(const std::string& header) {
   const std::string prefix = "comment ";
   const std::size_t own = laser_mapper::mapLayout().comments.size();

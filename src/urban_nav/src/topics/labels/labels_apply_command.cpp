@@ -101,7 +101,7 @@ SourceTruth readSourceTruth(const LabelSources& sources, const ClassMap& map) {
   return truth;
 }
 
-/// Returns whether kinds of wall are not told apart, by the model or by a scene.
+/// Returns whether the model or a scene does not distinguish kinds of wall.
 bool hasOneWall(const scene_labeler::LabelModel& model, const SourceTruth& truth) {
   const auto holds = [](const std::vector<scene_labeler::SceneClass>& classes) {
     return std::find(classes.begin(), classes.end(), scene_labeler::SceneClass::Wall) != classes.end();

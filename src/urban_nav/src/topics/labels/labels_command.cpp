@@ -29,7 +29,7 @@ ClassifierKind classifierFrom(const Arguments& arguments, ClassifierKind preset)
   return ClassifierKind::Boosted;
 }
 
-/// Measures scenes one after another and keeps what training draws from each.
+/// Computes the features of scenes one after another and keeps the samples of each for training.
 void readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& map, FeatureSet features, int superpixel,
                         Console& console, std::vector<scene_labeler::TrainingFold>& folds) {
   if (scenes.empty()) return;

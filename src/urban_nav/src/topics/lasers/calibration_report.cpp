@@ -17,7 +17,7 @@ using laser_mapper::ViewCalibration;
 
 namespace {
 
-/// How a term is called and scaled for people, in the order of CalibrationTerm.
+/// Name and scale of a term for output, in the order of CalibrationTerm.
 struct TermText {
   const char* name;
   const char* key;
@@ -42,8 +42,7 @@ std::string withSigma(const TermText& term, const CalibrationEstimate& estimate)
          urban_nav_core::formatNumber(term.scale * estimate.sigma, 2) + " " + term.unit;
 }
 
-/// Returns what became of a calibration. `nothing`: why nothing was found, where it rests on no place. `spread`: the
-/// figures by which it was judged.
+/// Returns the verdict on a calibration. `nothing`: reason if there are no places. `spread`: supporting figures.
 std::string verdictOf(std::size_t places, bool is_significant, bool improves, const std::string& nothing,
                       const std::string& spread) {
   if (places == 0) return "not estimated: " + nothing;
@@ -90,7 +89,7 @@ void addDevice(const DeviceCalibration& device, PageTable& table) {
   }
 }
 
-/// Returns the directions that the lasers and the panoramas of a session do not tell.
+/// Returns the unobservable directions of the lasers and the panoramas of a session.
 std::vector<std::string> unconstrainedOf(const SessionCalibration& session) {
   std::vector<std::string> all = session.found.unconstrained;
   if (session.panorama)
@@ -98,7 +97,7 @@ std::vector<std::string> unconstrainedOf(const SessionCalibration& session) {
   return all;
 }
 
-/// Mean over the sessions that constrain the delay of a device, by their information.
+/// Mean delay of a device over the sessions that constrain it, weighted by information.
 class DelayMean {
  public:
   void add(const CalibrationEstimate& delay) {

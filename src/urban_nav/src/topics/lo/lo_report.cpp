@@ -16,7 +16,7 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr std::size_t kPointsDrawn = 12'000;  // more make the page slow to open
+constexpr std::size_t kPointsDrawn = 12'000;  // more would slow down the page
 
 double sinceStart(const LoRun& run, urban_nav_core::StampNs stamp) {
   return urban_nav_core::secondsBetween(run.frames.front().stamp, stamp);
@@ -30,7 +30,7 @@ Series makeSeries(const std::string& name, const std::string& colour, Series::Ki
   return series;
 }
 
-/// Times in which sweeps were not OK.
+/// Returns the time intervals in which sweeps were not OK.
 std::vector<Span> findTroubles(const LoRun& run) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -59,7 +59,7 @@ Figure mapFigure(const LoRun& run) {
   Series path = makeSeries("path", "a");
   for (const SmoothedFrame& pose : run.settled)
     path.points.push_back({pose.T_odom_base.pose.t().x(), pose.T_odom_base.pose.t().y()});
-  // A short line along each free direction: where the surroundings do not hold the position.
+  // A short line along each free direction.
   Series free = makeSeries("free direction", "bad");
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < run.frames.size(); ++i) {

@@ -56,7 +56,7 @@ class CloudLooks {
   }
 
  private:
-  /// Called only when a cloud is needed: keyframes may suffice all along.
+  /// Reads the map on demand, since keyframes may suffice.
   void readMap() {
     Progress progress(console_, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
     while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
@@ -130,7 +130,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
 
 namespace {
 
-/// Returns the word of localisation.csv for a state.
+/// Returns the text of a state in localisation.csv.
 const char* csvWord(LocalizationState state) {
   switch (state) {
     case LocalizationState::Uncertain: return "UNSURE";

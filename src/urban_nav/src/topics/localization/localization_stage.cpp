@@ -38,7 +38,7 @@ class LocalizationStage final : public Stage {
       throw urban_nav_core::UserError("--localise", "--localise only reads the map, --store continues one",
                                       "one of them");
     urban_nav_store::openForReading(options.localise, Access::Frozen)
-        .close();  // reports an unusable file before the work
+        .close();  // reports an unusable file before the run
     return {true, "", {"each session is localised in the map of " + options.localise + ", which is only read"}};
   }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kQueries = 200;
 constexpr float kWidestSpacing = 1.0F;  // m, between neighbours, median of a cloud in metres
-constexpr double kFarApart = 1000.0;    // m, beyond the clouds' own extent
+constexpr double kFarApart = 1000.0;    // m, in addition to the extent of the clouds
 constexpr float kOtherScale = 30.0F;    // ratio of the spacings of one cloud in metres and one in centimetres
 
 /// Returns the median distance from a point to its nearest neighbour, in the unit of the file; 0 for fewer than two.

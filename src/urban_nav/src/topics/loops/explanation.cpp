@@ -43,7 +43,7 @@ std::string formatVerdict(const StoredClosure& closure) {
   return edge.reason.empty() ? text : text + ": " + edge.reason;
 }
 
-/// Empty where nothing was measured.
+/// Returns the measured transform as text; empty without a measurement.
 std::string formatTransform(const StoredClosure& closure) {
   const urban_nav_core::Constraint& measured = closure.edge.measured;
   if (measured.information.isZero(0.0)) return {};
@@ -60,7 +60,7 @@ std::string formatTransform(const StoredClosure& closure) {
          part(5, r.z(), kExplainedDegrees) + " deg";
 }
 
-/// What a failed test would have needed.
+/// Returns the value required by a failed test.
 std::string describeNeeded(const ClosureTest& test) {
   if (test.passed) return {};
   return std::string(test.at_least ? "at least " : "at most ") + urban_nav_core::formatNumber(test.threshold, 4);
@@ -108,7 +108,7 @@ std::string sentenceWithoutEvidence(const StoredClosure& closure) {
   return closure.edge.kind == urban_nav_store::EdgeKind::Plane ? kPlaneEvidence : kNoEvidence;
 }
 
-/// The sessions of both moments under the names that the evidence has for them.
+/// Returns the sessions of both moments by their names in the evidence.
 std::vector<CandidateSession> namedIn(const StoredClosure& closure, const PreviousSessions& kept) {
   std::map<std::string, urban_nav_store::SessionId> ids;
   for (const Evidence::Try& each : closure.evidence.tries) {

@@ -124,7 +124,7 @@ std::string toText(const Alignment& alignment, double ms) {
   return text + std::to_string(alignment.iterations) + " iterations, " + urban_nav_core::formatNumber(ms, 3) + " ms\n";
 }
 
-/// The cloud of a file about its own middle: single precision and the linearised rotation hold near the origin alone.
+/// Reads a cloud, centred at its mean: single precision and the linearised rotation are accurate near the origin only.
 CloudFile readNamed(const std::string& path, Console& console) {
   CloudFile file = urban_nav_core::readCloud(path);
   std::size_t bad = 0;

@@ -19,7 +19,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kOpposite = 1.5707963267948966;  // rad: a turn of more than this is the opposite direction of travel
+constexpr double kOpposite = 1.5707963267948966;  // rad: larger rotations are the opposite direction of travel
 
 using Trajectories = std::map<std::string, Trajectory>;
 
@@ -29,7 +29,7 @@ bool isOpposite(const MetricClosure& closure) {
              urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), closure.measured.T_a_b.t())) > kOpposite;
 }
 
-/// Kind and direction of travel, in words; empty where there is no transform.
+/// Returns kind and direction of travel as text; empty without a transform.
 std::string classify(const MetricClosure& closure) {
   if (closure.verdict != ClosureVerdict::Accepted) return {};
   return std::string(closure.method == ClosureMethod::Stereo ? "stereo" : "ICP") +
@@ -72,7 +72,7 @@ Plot emptyMap() {
   return plot;
 }
 
-/// Where each kind of closure was found: a dot at its later moment, a line to the earlier one.
+/// Plots closures by kind: a dot at the later pose, a line to the earlier one.
 Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
   Plot plot = emptyMap();
   addPaths(plot, trajectories, "", "a", Series::Kind::Faint);
@@ -93,7 +93,7 @@ Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
       const auto a = findPlace(trajectories, closure.a), b = findPlace(trajectories, closure.b);
       if (!a || !b) continue;
       dots.points.push_back(*b);
-      if (*kind == '\0') continue;  // a line to a place that is another one says nothing
+      if (*kind == '\0') continue;  // no line to a wrong place
       lines.points.insert(lines.points.end(), {*a, *b, {gap, gap}});
     }
     if (dots.points.empty()) continue;

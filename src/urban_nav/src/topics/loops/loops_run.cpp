@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kStereoPictures = 4, kIcpPictures = 3, kRejectedPictures = 3;  // in the report: some 60 kB each
+constexpr std::size_t kStereoPictures = 4, kIcpPictures = 3, kRejectedPictures = 3;  // in the report, about 60 kB each
 
 double closureMilliseconds(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();

@@ -67,7 +67,7 @@ Plot reliabilityPlot(const PlaceScore& score) {
   return plot;
 }
 
-/// The path from above with the announced closures (Newman et al. 2009, Fig. 9).
+/// Plots the path from above with the reported closures (Newman et al. 2009, Fig. 9).
 Plot closuresPlot(const PlaceEvaluation& evaluation) {
   const PlaceTruth& truth = evaluation.truth;
   Plot plot;
@@ -134,7 +134,7 @@ std::string printConfusion(const PlaceEvaluation& evaluation) {
   return text;
 }
 
-/// The surest matches that are right, the surest that are wrong, and the least sure that are right.
+/// Returns the correct and wrong matches of highest probability, and the correct ones of lowest probability.
 std::vector<PagePicture> matchPictures(const PlaceEvaluation& evaluation, const PlaceRecording& recording) {
   std::vector<RankedMatch> right, wrong;
   for (const RankedMatch& match : rankedMatches(evaluation.query)) {

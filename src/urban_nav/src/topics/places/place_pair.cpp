@@ -25,7 +25,7 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr double kFarthestPlace = 1.0;  // s from the time asked for
+constexpr double kFarthestPlace = 1.0;  // s from the requested time
 
 struct SessionPlaces {
   urban_nav_store::Session session;
@@ -115,7 +115,7 @@ std::string findReason(const PlacePair& pair) {
          "(fabmap_node.closures_per_metre, enough_closures), or the previous observations contradict it";
 }
 
-/// Holds the query against all places before it, as a run over the sessions does.
+/// Compares the query with all previous places, as in a run over the sessions.
 void compareInMap(const std::vector<SessionPlaces>& sessions, const PlaceNumber& earlier, const PlaceNumber& query,
                   const fabmap_node::PlaceModel& model, const fabmap_node::Parameters& parameters, PlacePair& pair) {
   const fabmap_node::LikelihoodTable table(model.tree, model.detector, fabmap_node::Dependence::ChowLiu);

@@ -33,7 +33,7 @@ KnowledgeCounts countKnowledge(const PlacesRun& run) {
 
 std::string observationWord(const PlacesRun& run) { return run.has_panoramas ? "panoramas" : "images"; }
 
-/// Probability of the likeliest place over time; the sessions follow one another.
+/// Plots the probability of the likeliest place over time; sessions follow one another.
 Plot beliefPlot(const PlacesRun& run) {
   Plot plot;
   plot.x_label = "time driven (s)";

@@ -21,8 +21,8 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-/// Distances along the smoothed odometry, which the store keeps: a session gives the same places whether it was read
-/// just now or by an earlier run.
+/// Returns distances along the smoothed odometry, which is in the store, so that places do not depend on whether a
+/// session was read by this or an earlier run.
 TravelledDistance travelledDistance(const SessionOdometry& run) {
   TravelledDistance travelled;
   for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());

@@ -25,7 +25,7 @@ Json trainSummary(const fabmap_node::PlaceModel& model, const std::string& bytes
   return json;
 }
 
-/// Priors by the calibrations they belong to, with the losses by which they were chosen.
+/// Returns the priors by calibration, with the losses of their selection.
 Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
   Json json = Json::object();
   for (const fabmap_node::CalibrationPrior& prior : priors) {
@@ -40,7 +40,7 @@ Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
   return json;
 }
 
-/// Groups sources by their --site; the first of each opens it.
+/// Returns the number of the site of each source by --site, in the order of first occurrence.
 std::vector<std::size_t> siteNumbers(const std::vector<std::string>& names, std::size_t sources) {
   if (!names.empty() && names.size() != sources)
     throw urban_nav_core::UserError("--site", std::to_string(names.size()) + " names",

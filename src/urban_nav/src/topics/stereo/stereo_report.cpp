@@ -20,7 +20,7 @@ double shareOfGround(const StereoSummary& summary) {
   return summary.pairs == 0 ? 0.0 : static_cast<double>(summary.ground_found) / static_cast<double>(summary.pairs);
 }
 
-/// Returns one warning for each kind of fault, with the words of its first pair.
+/// Returns one warning for each kind of fault, with the sentence of its first pair.
 std::vector<std::string> describeFaults(const std::vector<const StereoRun*>& runs, std::int64_t pairs) {
   std::map<std::string, std::pair<std::int64_t, std::string>> faults;
   for (const StereoRun* run : runs)
@@ -36,7 +36,7 @@ std::vector<std::string> describeFaults(const std::vector<const StereoRun*>& run
   return warnings;
 }
 
-/// A plot over time with one point for each keyframe.
+/// Plots a value of each keyframe over time.
 template <typename Value>
 std::string plotKeyframes(const StereoRun& run, const std::string& label, bool from_zero, const Value& value) {
   Plot plot;

@@ -15,9 +15,9 @@ using urban_nav_trust::TrustState;
 namespace {
 
 constexpr const char* kByCovariance = "From the covariance of each pose and the results of the tests,";
-constexpr double kMostStated = 0.999;  // what is beyond rests on tails that no data show
+constexpr double kMostStated = 0.999;  // higher probabilities depend on unobserved tails
 
-/// Returns a reason as a sentence of its own.
+/// Returns a reason as a sentence.
 std::string asSentence(std::string reason) {
   if (!reason.empty() && reason.front() >= 'a' && reason.front() <= 'z')
     reason.front() = static_cast<char>(reason.front() - 'a' + 'A');

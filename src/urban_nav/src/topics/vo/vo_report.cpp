@@ -42,7 +42,7 @@ const char* toColour(Health health) {
   return "plain";
 }
 
-/// Stretches of time in which the status was not OK.
+/// Returns the time intervals in which the status was not OK.
 std::vector<Span> troubles(const VoRun& run) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -85,7 +85,7 @@ Figure pathFigure(const VoRun& run, int a, int b, const std::string& title, cons
   return {title, renderSvg(plot), "", false};
 }
 
-/// Standard deviations of three coordinates from `first` on, as the estimate states them.
+/// Plots the estimated standard deviations of three coordinates from index `first`.
 Figure doubtFigure(const VoRun& run, int first, const std::string& title, const std::string& y_label, double unit) {
   static const std::array<const char*, 6> names = {"x", "y", "z", "roll", "pitch", "heading"};
   static const std::array<const char*, 3> colours = {"a", "b", "c"};
@@ -121,7 +121,7 @@ Figure featuresFigure(const VoRun& run) {
   return {"Features", renderSvg(plot), "Features that determine the motion. Shaded: the status was not OK.", false};
 }
 
-/// Every frame's status as a stripe over time.
+/// Plots the status of each frame as a stripe over time.
 Figure statusFigure(const VoRun& run) {
   Plot plot;
   plot.x_label = "time (s)";

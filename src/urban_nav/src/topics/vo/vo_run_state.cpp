@@ -20,7 +20,7 @@ constexpr std::uint32_t kVoRunVersion = 7;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
-/// A frame as states hold it.
+/// A frame in a stored state.
 struct StoredRow {
   OdometryFrame frame;
   VoFigures figures;
@@ -31,7 +31,7 @@ void archive(Archive& archive, StoredRow& row) {
           row.frame.T_odom_base, row.figures.process_ms);
 }
 
-/// A run in the members that states hold.
+/// Stored members of a run.
 struct StoredRun {
   std::vector<StoredRow> rows;
   std::vector<swf_vo::Settled> settled;

@@ -15,15 +15,15 @@ namespace {
 
 constexpr std::size_t kWarningsShown = 20;
 constexpr double kFarOutside = 3.0;    // standard deviations of a prior
-constexpr double kRowsDisagree = 1.0;  // px, beyond which a pair is not rectified, although its offset is followed
+constexpr double kRowsDisagree = 1.0;  // px, beyond which a pair is not rectified, although its offset is compensated
 constexpr double kRigDegrees = 180.0 / M_PI;
 
-/// Returns whether an estimate contradicts what its prior allows for; never where it is not estimated.
+/// Returns whether an estimate contradicts its prior; false if it is not estimated.
 bool isFarOutside(double estimate, double sigma, double prior) {
   return sigma > 0.0 && prior > 0.0 && std::abs(estimate) > kFarOutside * (prior + sigma);
 }
 
-/// Appends how many frames were LOST, by reason, in the words of the first that had it.
+/// Appends the number of LOST frames by reason, with the sentence of the first one.
 void addLosses(const VoRun& run, std::vector<std::string>& warnings) {
   struct Loss {
     std::int64_t count = 0;
@@ -79,7 +79,7 @@ void addMotionSensors(const VoRun& run, std::vector<std::string>& warnings) {
     warnings.push_back(run.input + ": " + describe(fault, run.frames.front().stamp));
 }
 
-/// Adds the states of motion sensors that are there and in use. Lengths of images are as uncertain as the rig's scale.
+/// Adds the states of the motion sensors in use. The scale of images has the uncertainty of the rig scale.
 void addMotion(const VoSummary& summary, Json& json) {
   const swf_vo::MotionEstimates& motion = summary.motion;
   const auto list = [](const Eigen::Vector3d& values) {
