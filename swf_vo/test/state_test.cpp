@@ -115,7 +115,7 @@ TEST(State, BelongsToThePartsThatAreSwitchedOff) {
     FAIL();
   } catch (const urban_nav_core::UserError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "state of swf_vo: was made with forget = delete and is to go on with forget = schur: allowed the same "
+              "state of swf_vo: was made with forget = delete and is to go on with forget = schur: expected the same "
               "parameters");
   }
 }

@@ -18,7 +18,7 @@ const Table<NodeletParameters>& nodeletTable() {
               {"always", &P::always, "", false, false, true, {},
                "Whether pairs are matched even if no topic has a subscriber.", "stereo_image_proc"},
               {"gravity", &P::gravity, "", true, false, true, {},
-               "Whether the search for the ground uses the direction of gravity from imu/data, if available.",
+               "Whether the search for the ground uses the direction of gravity from imu/data, if received.",
                "section 6.2"},
           },
           20));

@@ -21,12 +21,12 @@ const Table<NodeletParameters>& nodeletTable() {
           {"map_frame", &P::map_frame, "", "map", false, false, {},
            "Frame of the cloud; `odom` without a pose graph.", "REP-105"},
           {"period", &P::period, "s", 2.0, 0.1, 3600.0, {},
-           "Least time between two clouds; rendering takes at most a quarter of the time.", "docs/architecture.md"},
+           "Minimum time between two clouds; rendering takes at most a quarter of the time.", "docs/architecture.md"},
           {"tile_bandwidth", &P::tile_bandwidth, "MB/s", 2.0, 0.01, 10000.0, {},
            "Mean data rate of map/tiles; further changes wait.", "docs/architecture.md"},
           {"live_constraints", &P::live_constraints, "", false, false, false, {},
-           "Publish constraints from planes measured in two passes on map/constraints, for the pose graph; the search "
-           "takes at most a quarter of the time.",
+           "Publish planes measured by two passes on map/constraints, for the pose graph; the search takes at most a "
+           "quarter of the time.",
            "docs/methods/laser_mapper.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
            "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},

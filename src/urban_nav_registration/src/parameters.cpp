@@ -37,8 +37,8 @@ const Table<Parameters>& table() {
            "Rotation between keyframes.",
            "paper 4", {"keyframe_turn", "loop_metric.keyframe_turn"}},
           {"cloud_half_length", &P::cloud_half_length, "m", 10.0, 1.0, 100.0, {},
-           "Half the length of a local cloud: it has the scans from this distance before a pose to this distance "
-           "after it.",
+           "Half the length of a local cloud along the path: it has the scans from this distance before a pose to "
+           "this distance after it.",
            "paper 4.2: a few seconds", {"cloud_way", "loop_metric.cloud_way"}},
           {"odometry_scale", &P::odometry_scale, "", 0.01, 0.0, 1.0, {},
            "Scale error common to all steps of odometry, as a share of the distance driven; not part of the "
@@ -54,8 +54,8 @@ const Table<Parameters>& table() {
            "Largest mean reprojection error of a transform by stereo.",
            "paper 4.1", {"loop_metric.max_reprojection_error"}, Audience::Experts},
           {"min_patch_correlation", &P::min_patch_correlation, "", 0.5, 0.0, 1.0, {},
-           "Smallest mean correlation of patches with the other image at their predicted places; low where places are "
-           "similar only in parts.",
+           "Smallest mean correlation of patches with the other image at their predicted positions; low if places are "
+           "only partly similar.",
            "src/urban_nav_registration/bench, pairs", {"min_likeness", "loop_metric.min_likeness"}, Audience::Experts},
           withOldName(urban_nav_core::disparityOffsetRow<P>(), "loop_metric.disparity_offset"),
           withOldName(urban_nav_core::pixelNoiseFloorRow<P>(), "loop_metric.pixel_noise_floor"),
@@ -69,12 +69,12 @@ const Table<Parameters>& table() {
            "Largest number of Gauss-Newton steps at one level; fewer at convergence.",
            "paper 4.2", {"loop_metric.iterations"}, Audience::Experts},
           {"laser_bias", &P::laser_bias, "m", 0.02, 0.0, 1.0, {},
-           "Error common to all points of a cloud: free directions are detected by it, and information is limited by "
-           "it. If the deformation of local clouds is known, that and their noise take its place.",
+           "Standard deviation of the error common to all points of a cloud: determines free directions and limits "
+           "the information. Replaced by deformation and noise of local clouds if known.",
            "data sheets: HDL-32E 2 cm, LMS 291 3.5 cm", {"loop_metric.laser_bias"}},
           {"free_deviation", &P::free_deviation, "m", 0.2, 0.001, 100.0, {},
-           "A direction that laser_bias alone could move by more than this, at the mean distance of the matches, is "
-           "free: it has no information.",
+           "A direction is free, without information, if laser_bias can shift it by more than this at the mean "
+           "distance of the matches.",
            "paper 4.2, Fig. 15b; measured", {"loop_metric.free_deviation"}, Audience::Experts},
           {"max_residual", &P::max_residual, "m", 0.12, 0.001, 10.0, {},
            "Largest robust standard deviation of point-to-plane distances of an accepted alignment.",

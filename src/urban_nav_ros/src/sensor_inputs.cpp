@@ -29,17 +29,17 @@ LiveCorrectionParameters::LiveCorrectionParameters() { liveCorrectionTable().set
 const urban_nav_core::Table<LiveCorrectionParameters>& liveCorrectionTable() {
   using P = LiveCorrectionParameters;
   static const urban_nav_core::Table<P> table(
-      "input",
-      withSensorCorrections<P>({{"right_delay",
-                                 &P::right_delay,
-                                 "ms",
-                                 0.0,
-                                 -1000.0,
-                                 1000.0,
-                                 {},
-                                 "Delay of the stamps of right images relative to left ones with the same exposure; "
-                                 "stereo_rectify subtracts it.",
-                                 "docs/files.md"}}));
+      "input", withSensorCorrections<P>(
+                   {{"right_delay",
+                     &P::right_delay,
+                     "ms",
+                     0.0,
+                     -1000.0,
+                     1000.0,
+                     {},
+                     "Delay of the stamps of the right images relative to left images of the same exposure; "
+                     "subtracted by stereo_rectify.",
+                     "docs/files.md"}}));
   return table;
 }
 

@@ -17,8 +17,8 @@ const Table<StereoRectifyParameters>& stereoRectifyTable() {
       "",
       {
           {"image_type", &P::image_type, "", "auto", false, false, {"auto", "raw", "rectified"},
-           "raw: images are rectified by camera_info; rectified: they already are; auto: determined from the rows of "
-           "the first pairs or, if undecided, rectified if the topic's name contains `rect`.",
+           "Whether images are raw, to be rectified by camera_info, or rectified; auto: determined from the rows of "
+           "the first pairs, else rectified if the topic name contains `rect`.",
            "image_proc"},
           {"compressed", &P::compressed, "", false, false, true, {},
            "Whether the image topics are sensor_msgs/CompressedImage.", "docs/architecture.md"},

@@ -61,7 +61,7 @@ class Merger {
   MergeResult finish() {
     if (contradictions_ > 0) {
       throw DataError(target_.name(),
-                      "is not made: " + std::to_string(contradictions_) + " rows contradict each other; " + named_,
+                      "is not written: " + std::to_string(contradictions_) + " rows contradict each other; " + named_,
                       "stores of other sessions, or of other parts of the same one");
     }
     for (const auto& [table, keys] : dropped_) drop(*table, keys);
@@ -226,7 +226,7 @@ void replace(const std::string& path, urban_nav_core::PartialFile& partial) {
   refuseOtherFiles(path);
   std::error_code error;
   if (fs::file_size(path + "-wal", error) > 0 && !error)
-    throw UserError(path, "is being used by another program", "to replace it when no program uses it");
+    throw UserError(path, "is in use by another program", "a target that no program uses");
   partial.commit();
 }
 

@@ -41,8 +41,8 @@ ReleaseHead readReleaseHead(Store& release) {
       }
     }
   if (head.digest.empty() || head.version < 1)
-    throw urban_nav_core::DataError(release.path(), "is damaged: it has no head of a release",
-                                    "a release of urban_nav release");
+    throw urban_nav_core::DataError(release.path(), "is damaged: its release identity is missing",
+                                    "a file written by urban_nav release");
   return head;
 }
 

@@ -67,7 +67,7 @@ const std::string& prepared(const std::string& path, Access access, std::optiona
     lock.emplace(path);
     if (fileKind(path) == FileKind::Absent) make(path);
   } else if (fileKind(path) == FileKind::Absent) {
-    throw UserError(path, fs::exists(path) ? "is empty" : "is not there", "a session store of urban_nav");
+    throw UserError(path, fs::exists(path) ? "is empty" : "does not exist", "a session store of urban_nav");
   }
   refuseOtherFiles(path, access == Access::Frozen ? Releases::Allowed : Releases::Refused);
   return path;

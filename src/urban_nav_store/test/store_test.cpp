@@ -150,7 +150,7 @@ TEST(Store, LeavesOtherFilesAlone) {
     }
     expectError([&] { Store(folder.file(""), access); }, folder.file(""), "is not a session store");
   }
-  for (const std::string& path : {text, other}) expectError([&] { removeStore(path); }, path, "left as it is");
+  for (const std::string& path : {text, other}) expectError([&] { removeStore(path); }, path, "was not changed");
   EXPECT_TRUE(isStore(newer));
   EXPECT_FALSE(isStore(other));
   EXPECT_FALSE(isStore(text));
@@ -162,8 +162,8 @@ TEST(Store, SaysWhereItCannotBe) {
   const Folder folder;
   const std::string nowhere = folder.file("no/such/folder/s.db"), absent = folder.file("absent.db");
   expectError([&] { Store(nowhere, Access::Write); }, nowhere, "cannot be written");
-  expectError([&] { Store(nowhere, Access::Read); }, nowhere, "is not there");
-  expectError([&] { Store(absent, Access::Read); }, absent, "is not there");
+  expectError([&] { Store(nowhere, Access::Read); }, nowhere, "does not exist");
+  expectError([&] { Store(absent, Access::Read); }, absent, "does not exist");
   expectError([&] { Store("/proc/urban_nav.db", Access::Write); }, "/proc/urban_nav.db", "cannot be written");
   EXPECT_EQ(folder.files(), 0U);
 }

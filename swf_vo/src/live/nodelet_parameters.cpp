@@ -24,7 +24,7 @@ const Table<NodeletParameters>& nodeletTable() {
               {"robot", &P::robot, "", "", false, false, {},
                "Name of the robot, a part of the ids of its sessions.", "docs/architecture.md"},
               {"recording", &P::recording, "", "", false, false, {},
-               "Name of the recording, a part of the ids of its sessions; a second round of it is \"NAME (2)\".",
+               "Name of the recording, a part of the ids of its sessions; a second playback of it is \"NAME (2)\".",
                "docs/architecture.md"},
           },
           200)));

@@ -35,12 +35,13 @@ TEST(State, BelongsToItsParametersAndItsCamera) {
   Parameters parameters;
   EXPECT_EQ(catchError(parameters, stereoCamera(), state), "");
   parameters.window = 12;
-  EXPECT_EQ(catchError(parameters, stereoCamera(), state),
-            "state of swf_vo: was made with window = 10 and is to go on with window = 12: allowed the same parameters");
+  EXPECT_EQ(
+      catchError(parameters, stereoCamera(), state),
+      "state of swf_vo: was made with window = 10 and is to go on with window = 12: expected the same parameters");
   urban_nav_core::StereoCamera camera = stereoCamera();
   camera.baseline += 1e-6;
   EXPECT_EQ(catchError(Parameters(), camera, state),
-            "state of swf_vo: was made with another calibration: allowed the same camera and extrinsics");
+            "state of swf_vo: was made with another calibration: expected the same camera and extrinsics");
 }
 
 TEST(State, IsNamedWhereItIsDamaged) {

@@ -32,7 +32,7 @@ Distortion Distortion::named(const std::string& model, const std::vector<double>
   const bool fisheye = model == "equidistant" || model == "fisheye" || model == "kannala_brandt";
   if (coefficients.empty() || has_only_zeros()) return Distortion();
   if (!std::all_of(coefficients.begin(), coefficients.end(), [](double k) { return std::isfinite(k); })) {
-    throw UserError(where, "a distortion coefficient is not finite", "finite coefficients");
+    throw UserError(where, "a distortion coefficient that is not finite", "finite coefficients");
   }
   const std::size_t count = coefficients.size();
   if (model.empty() && count != 5 && count != 8 && count != 14)
@@ -43,8 +43,9 @@ Distortion Distortion::named(const std::string& model, const std::vector<double>
       (model.empty() && count == 5) || model == "plumb_bob" || model == "radial-tangential" || model == "radtan";
   const bool rational = (model.empty() && count > 5) || model == "rational_polynomial";
   if (!plumb_bob && !rational && !fisheye) {
-    throw UserError(where, "distortion model " + model,
-                    "plumb_bob, radial-tangential, rational_polynomial, equidistant (rectify others before)");
+    throw UserError(
+        where, "distortion model " + model,
+        "plumb_bob, radial-tangential, rational_polynomial, equidistant (rectify images of other models first)");
   }
   const std::size_t used = fisheye ? 4 : 8;
   if (coefficients.size() < 4)

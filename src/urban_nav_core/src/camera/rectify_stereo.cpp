@@ -76,7 +76,7 @@ StereoRectification rectifyStereo(const RawCamera& left, const RawCamera& right,
   const Vector3d baseline = left_half * p_left_right;
   if (!(baseline.x() > 0.5 * baseline.norm()) || !(std::cos(2.0 * half.norm()) > kLeastCosine)) {
     throw UserError(where, "right camera at " + print(p_left_right) + " of the left optical frame",
-                    "on the right (x > 0) with the same viewing direction; are left and right swapped?");
+                    "on the right (x > 0) and with parallel axes; are left and right swapped?");
   }
   // Smallest rotation that takes the baseline to the x axis.
   const Matrix3d align = Quaterniond::FromTwoVectors(baseline, Vector3d::UnitX()).toRotationMatrix();
@@ -87,7 +87,7 @@ StereoRectification rectifyStereo(const RawCamera& left, const RawCamera& right,
   Rectangle view;
   const bool followed = cutToView(left, result.R_left, view) && cutToView(right, result.R_right, view);
   if (!followed || !(view.right > view.left) || !(view.bottom > view.top)) {
-    throw UserError(where, "the fields of view do not overlap", "two cameras with the same viewing direction");
+    throw UserError(where, "no common view of both cameras", "a calibration of two cameras with overlapping views");
   }
   const double f = std::max((width - 1 + 2 * kInside) / (view.right - view.left),
                             (height - 1 + 2 * kInside) / (view.bottom - view.top));

@@ -65,7 +65,7 @@ std::string printForce(const Vector3d& force) {
 std::string describeCause(const Matrix3d& axes) {
   const bool moved = (axes.diagonal().array() == 0.0).any();
   if (!moved && (axes.diagonal().array() < 0.0).all())
-    return "the messages contain gravity instead of specific force, the sign of NED";
+    return "the messages contain gravity instead of specific force (sign of NED)";
   if (!moved) return "axes of the messages have the wrong sign, as between NED and the axes of ROS";
   return "axes of the messages are exchanged";
 }
@@ -86,11 +86,11 @@ const char* toString(AccelerometerFault fault) {
 
 std::string AccelerometerVerdict::sentence() const {
   const std::string start = "the accelerometer measures ";
-  const std::string length = formatNumber(size, 4) + " m/s2 on average instead of gravity's 9.81";
+  const std::string length = formatNumber(size, 4) + " m/s2 on average instead of 9.81";
   switch (fault) {
     case AccelerometerFault::None: return "";
-    case AccelerometerFault::NotFinite: return start + "no finite values";
-    case AccelerometerFault::NoGravity: return start + length + ": the device or its driver subtracts gravity";
+    case AccelerometerFault::NotFinite: return start + "no finite value";
+    case AccelerometerFault::NoGravity: return start + length + ": the device or its driver removes gravity";
     case AccelerometerFault::Unit: {
       const Unit* unit = findUnit(size);
       return start + length + ": its unit is " + (unit == nullptr ? "another" : unit->name);
@@ -98,8 +98,8 @@ std::string AccelerometerVerdict::sentence() const {
     case AccelerometerFault::Size: return start + length + ": wrong scale";
     case AccelerometerFault::Direction:
       return start + "a mean specific force of " + printForce(mean) + " m/s2 in the axes of its device, " +
-             formatNumber(kDegrees * angle, 4) + " deg from up as the device is mounted: " +
-             (repair ? describeCause(repair->axes) : "its mounting in tf or its axes are wrong");
+             formatNumber(kDegrees * angle, 4) + " deg from vertical in base_link: " +
+             (repair ? describeCause(repair->axes) : "its pose in tf or its axes are wrong");
   }
   return "";
 }

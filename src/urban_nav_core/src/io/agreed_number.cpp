@@ -32,7 +32,7 @@ std::string writeProposal(const std::string& path, const std::string& text) {
 
 std::int64_t readNumber(const std::string& path) {
   const auto agreed = parseInteger(readTextFile(path));
-  if (!agreed) throw UserError(path, "does not contain a number", "a name that is new for each agreement");
+  if (!agreed) throw UserError(path, "holds no number", "a name not used before");
   return *agreed;
 }
 

@@ -5,7 +5,7 @@ namespace urban_nav_core {
 
 void archive(Archive& archive, Status& status) {
   archive(status.health, status.reason, status.sentence);
-  archive.require(status.health >= Health::Ok && status.health <= Health::Recovered, "a status is invalid");
+  archive.require(status.health >= Health::Ok && status.health <= Health::Recovered, "an unknown status");
 }
 
 void archive(Archive& archive, PoseWithCovariance& value) { archive(value.pose, value.covariance); }

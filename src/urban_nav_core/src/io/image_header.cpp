@@ -158,7 +158,7 @@ std::optional<ImageHeader> parseImageHeader(std::string_view file) {
 
 std::string imageFault(std::string_view file) {
   const std::optional<ImageHeader> header = parseImageHeader(file);
-  if (!header) return "is not a PNG, JPEG, TIFF, BMP or PNM file with a complete header";
+  if (!header) return "is not a PNG, JPEG, TIFF, BMP or PNM file with an intact header";
   if (header->bytes <= largestImage()) return {};
   return std::to_string(header->width) + " x " + std::to_string(header->height) + " pixels exceed the " +
          std::to_string(largestImage() >> 20U) + " MB that memory_mb = " + std::to_string(memoryLimit() >> 20U) +

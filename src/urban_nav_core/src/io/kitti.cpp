@@ -32,7 +32,7 @@ KittiMatrix parseLine(const std::vector<std::string_view>& words, const std::str
     if (!number) throw UserError(where, "`" + std::string(word) + "`", "a finite number");
     M(i / 4, i % 4) = *number;
   }
-  if (!isRotation(M.leftCols<3>())) throw UserError(where, "matrix is not a rotation (tolerance 0.001)", "");
+  if (!isRotation(M.leftCols<3>())) throw UserError(where, "a matrix that is not a rotation (tolerance 0.001)", "");
   return M;
 }
 
@@ -86,7 +86,7 @@ std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) 
   std::vector<StampNs> times;
   forEachTime(text, name, [&times](std::string_view word, StampNs stamp, const std::string& where) {
     if (!times.empty() && stamp <= times.back())
-      throw UserError(where, std::string(word) + " is not later than the time before", "");
+      throw UserError(where, std::string(word) + " is not later than the previous time", "");
     times.push_back(stamp);
   });
   return times;

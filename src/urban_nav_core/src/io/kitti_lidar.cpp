@@ -46,7 +46,7 @@ std::optional<CalibrationRow> findCalibrationRow(std::string_view text, const st
 Matrix3d requireRotation(const Matrix3d& R, const std::string& where) {
   constexpr double kTolerance = 1e-3;
   if (!((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() || !(R.determinant() > 0.0))
-    throw UserError(where, "matrix is not a rotation (tolerance 0.001)", "");
+    throw UserError(where, "a matrix that is not a rotation (tolerance 0.001)", "");
   return R;
 }
 

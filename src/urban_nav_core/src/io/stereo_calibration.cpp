@@ -100,7 +100,7 @@ class OstLines {
 
   bool isAtEnd() const { return at_ == lines_.size(); }
   std::string_view take() {
-    if (isAtEnd()) throw UserError(name_, "ends early", "a whole ost.txt");
+    if (isAtEnd()) throw UserError(name_, "ends early", "a complete ost.txt");
     return lines_[at_++].first;
   }
   std::string where() const { return atLine(name_, at_ > 0 ? lines_[at_ - 1].second : 0); }
@@ -160,10 +160,9 @@ CameraPair parseStereoCalibration(const std::vector<std::string>& texts, const s
       throw UserError(names.front(), std::to_string(cameras.size()) + " camera", "two, or LEFT,RIGHT: a file for each");
     return {cameras[0], cameras[1]};
   }
-  if (texts.size() != 2)
-    throw UserError(names.front(), "is a file of a single camera, or of an unknown format", kFormats);
+  if (texts.size() != 2) throw UserError(names.front(), "is a file of one camera, or of an unknown kind", kFormats);
   const CalibrationKind other = calibrationKind(texts.back());
-  if (kind != other) throw UserError(names.back(), "has another format than " + names.front(), kFormats);
+  if (kind != other) throw UserError(names.back(), "is not of the same kind as " + names.front(), kFormats);
   if (kind == CalibrationKind::Euroc) {
     const EurocCamera left = parseEurocCamera(texts.front(), names.front()),
                       right = parseEurocCamera(texts.back(), names.back());
@@ -204,7 +203,7 @@ std::vector<CameraInfo> parseOst(std::string_view text, const std::string& name)
     (void)rawCamera(info, name);
     (void)rectifiedPinhole(info, name);
   }
-  if (cameras.empty()) throw UserError(name, "has no `camera matrix`", "a whole ost.txt");
+  if (cameras.empty()) throw UserError(name, "has no `camera matrix`", "a complete ost.txt");
   return cameras;
 }
 

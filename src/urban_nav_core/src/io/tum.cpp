@@ -153,7 +153,7 @@ Trajectory parseTum(std::string_view text, const std::string& name, TumRepairs* 
     }
     if (!poses.empty() && pose->stamp <= poses.back().stamp) {
       if (repairs == nullptr)
-        throw UserError(where, "stamp " + printStamp(pose->stamp) + " is not later than the one before", "");
+        throw UserError(where, "stamp " + printStamp(pose->stamp) + " is not later than the previous one", "");
       if (pose->stamp < poses.back().stamp) ++counts.out_of_order;
     }
     poses.push_back(*pose);

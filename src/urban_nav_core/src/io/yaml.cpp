@@ -44,7 +44,8 @@ class Converter {
  private:
   void append(YamlNode& out, const YAML::Node& key, const YAML::Node& value, int depth) {
     const int line = key.Mark().line + 1;
-    if (!key.IsScalar()) throw UserError(atLine(file_, line), "a key that is not a scalar", "a name before the colon");
+    if (!key.IsScalar())
+      throw UserError(atLine(file_, line), "a key that is not a word", "a word in front of the colon");
     out.map.emplace_back(key.Scalar(), convert(value, depth + 1));
     out.map.back().second.line = line;
   }

@@ -90,7 +90,7 @@ RenamedAssignments replaceOldNames(std::vector<Assignment> assignments, const st
       if (other_name != old_name && valueText(other->second) != valueText(assignment))
         renamed.warnings.push_back(assignment.where + ": " + old_name + " = " + valueText(assignment) + " and " +
                                    other_name + " = " + valueText(other->second) + " (" + other->second.where +
-                                   ") set the same parameter, " + present + "; the last one is used");
+                                   ") are one parameter, " + present + "; the last one is used");
       other->second = assignment;
     }
     assignment.stage = key->second.stage;

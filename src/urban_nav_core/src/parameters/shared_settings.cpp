@@ -20,7 +20,8 @@ std::vector<std::string> differingValues(const std::vector<const std::vector<Set
         if (setting.name != name) continue;
         if (first == nullptr) first = &setting;
         else if (printValue(first->value) != printValue(setting.value))
-          sentences.push_back(described(*first) + " and " + described(setting) + " should be equal");
+          sentences.push_back(described(*first) + " and " + described(setting) +
+                              " are the same quantity and should be equal");
       }
   }
   return sentences;

@@ -43,8 +43,8 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        false,
        false,
        {"auto", "raw", "rectified"},
-       "raw: images are rectified by camera_info; rectified: they already are; auto: determined from the rows of the "
-       "first pairs or, if undecided, rectified if the topic's name contains `rect`.",
+       "Whether images are raw, to be rectified by camera_info, or rectified; auto: determined from the rows of the "
+       "first pairs, else rectified if the topic name contains `rect`.",
        "image_proc",
        {"images"}},
       {"compressed",
@@ -73,7 +73,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        10.0,
        {},
-       "Largest time, by stamps, that an image waits for its partner and for motion inputs.",
+       "Time, by stamps, that an image waits for its partner and for motion inputs.",
        "docs/conventions.md"},
       {"sync_tolerance",
        &P::sync_tolerance,
@@ -92,7 +92,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        3600.0,
        {},
-       "Time that the first images wait for the camera's pose on /tf_static; afterwards base_frame is assumed at the "
+       "Time that the first images wait for the pose of the camera on /tf_static; then base_frame is assumed at the "
        "left camera, with a warning, until the pose arrives and a new session begins.",
        "REP-103",
        {"tf_wait"}},
@@ -103,7 +103,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        3600.0,
        {},
-       "Time after an interrupt within which pending data are published or decided; dropped data are logged.",
+       "Time after an interrupt for the stage to process and publish pending inputs; dropped ones are logged.",
        "docs/architecture.md"}};
   own.insert(own.end(), rows.begin(), rows.end());
   return own;

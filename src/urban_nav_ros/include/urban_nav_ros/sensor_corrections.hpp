@@ -87,7 +87,7 @@ urban_nav_core::Row<P> delayRow(const std::string& name, double P::*member, cons
           -kLongestDelay,
           kLongestDelay,
           {},
-          "Delay of the stamps of " + what + " relative to the measurement, subtracted from the stamps.",
+          "Delay of the stamps of " + what + " relative to the measurement; subtracted from them.",
           "docs/files.md",
           {},
           urban_nav_core::Audience::Experts};
@@ -108,14 +108,14 @@ std::vector<urban_nav_core::Row<P>> laserRows(const std::string& laser, double P
                               const std::string& sentence) {
     return scaleRow<P>(laser + what, member, unit, low, sentence);
   };
-  return {
-      delayRow<P>(laser + "_delay", delay, "scans of " + laser),
-      scale("_range_scale", range, "m", 1e-6, "Metres per unit of the ranges of " + laser + ": 0.001 for millimetres."),
-      scale("_angle_scale", angle, "rad", 1e-6,
-            "Radians per unit of the angles of " + laser + ": 0.0174532925 for degrees."),
-      scale("_time_scale", time, "s", 0.0,
-            "Seconds per unit of time_increment of " + laser +
-                ": 0.001 for milliseconds; 0: all beams have the stamp of their scan.")};
+  return {delayRow<P>(laser + "_delay", delay, "scans of " + laser),
+          scale("_range_scale", range, "m", 1e-6,
+                "Range of one unit in the messages of " + laser + ": 0.001 for millimetres."),
+          scale("_angle_scale", angle, "rad", 1e-6,
+                "Angle of one unit in the messages of " + laser + ": 0.0174532925 for degrees."),
+          scale("_time_scale", time, "s", 0.0,
+                "One unit of time_increment in the messages of " + laser +
+                    ": 0.001 for milliseconds; 0: all beams have the stamp of their scan.")};
 }
 
 }  // namespace detail
@@ -131,15 +131,15 @@ std::vector<urban_nav_core::Row<P>> sensorCorrectionRows() {
        false,
        false,
        {},
-       "Axes of the IMU's messages that are x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x for "
+       "Axes of the IMU messages that are x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x for "
        "exchanged axes.",
        "docs/files.md"},
       scaleRow<P>("accelerometer_scale", &P::accelerometer_scale, "m/s2", 1e-6,
-                  "m/s2 per unit of the IMU's specific forces: 9.80665 for g."),
+                  "Specific force of one unit in the IMU messages: 9.80665 for g."),
       scaleRow<P>("gyroscope_scale", &P::gyroscope_scale, "rad/s", 1e-6,
-                  "rad/s per unit of the IMU's rates: 0.0174532925 for deg/s."),
+                  "Rate of one unit in the IMU messages: 0.0174532925 for deg/s."),
       scaleRow<P>("wheels_scale", &P::wheels_scale, "m", -1e6,
-                  "Metres per unit of the positions of wheel odometry: 0.001 for millimetres, -1 if forward is "
+                  "Distance of one unit in the positions of wheel odometry: 0.001 for millimetres, -1 if forward is "
                   "negative."),
       delayRow<P>("imu_delay", &P::imu_delay, "messages of the IMU"),
       delayRow<P>("wheels_delay", &P::wheels_delay, "messages of wheel odometry"),

@@ -56,7 +56,7 @@ class Columns {
     text(name, spelt);
     if (!isReading()) return;
     const std::optional<Word> parsed = parse(spelt);
-    if (!parsed) refuse(std::string(name) + " is an unknown word");
+    if (!parsed) refuse(std::string(name) + " is an unknown value");
     value = *parsed;
   }
 

@@ -144,13 +144,13 @@ void migrate(Connection& connection, const Tables& tables) {
 
 void check(Connection& connection, const Tables& tables) {
   if (const std::int64_t id = connection.integer("PRAGMA application_id"); id != kApplicationId && id != kReleaseId)
-    throw UserError(connection.name(), "is another program's SQLite file, and was left as it is",
-                    "a session store of urban_nav, or a name where there is no file yet");
+    throw UserError(connection.name(), "is another program's SQLite file, and was not changed",
+                    "a session store of urban_nav, or the path of a new file");
   const int found_version = version(connection), latest = latestVersion(tables);
   if (found_version > latest)
     throw UserError(
         connection.name(),
-        "was written by a newer urban_nav (schema " + std::to_string(found_version) + "), and was left as it is",
+        "was written by a newer urban_nav (schema " + std::to_string(found_version) + "), and was not changed",
         "schema " + std::to_string(latest) + " or older; or a newer urban_nav");
   if (found_version < 1) connection.damaged("schema " + std::to_string(found_version) + " does not exist");
   std::map<std::string, std::string> found;
@@ -159,7 +159,7 @@ void check(Connection& connection, const Tables& tables) {
   for (const auto& [name, text] : sqlObjects(tables, found_version)) {
     const auto object = found.find(name);
     if (object == found.end() || object->second != text)
-      connection.damaged("table " + name + " differs from its declaration");
+      connection.damaged("table " + name + " has a different schema");
   }
 }
 

@@ -16,7 +16,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr const char* kWhenDamaged = "a copy of it (`sqlite3 FILE .recover` saves what is left)";
+constexpr const char* kWhenDamaged = "an intact copy (`sqlite3 FILE .recover` saves the readable part)";
 
 bool noRoom(int system_error) { return system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG; }
 
@@ -35,7 +35,7 @@ void throwError(const std::string& file, int code, int system_error, const std::
   const int primary = code & 0xff;
   if (primary == SQLITE_FULL || (primary == SQLITE_IOERR && noRoom(system_error)))
     throw DataError(file, "cannot grow: the disk is full; what was committed before is safe",
-                    "free space; then repeat the command");
+                    "free disk space, then repeat the call");
   switch (primary) {
     case SQLITE_CORRUPT: throwDamaged(file, sqlite3_errstr(code));
     case SQLITE_NOTADB: throwDamaged(file, "its header is not that of a store");
@@ -45,10 +45,10 @@ void throwError(const std::string& file, int code, int system_error, const std::
     case SQLITE_AUTH: throw UserError(file, "cannot be written" + because, "a file and a folder that can be written");
     case SQLITE_CANTOPEN: throw UserError(file, "cannot be opened" + because, "a file and a folder that can be used");
     case SQLITE_BUSY:
-    case SQLITE_LOCKED: throw UserError(file, "is being used by another program", "one writer at a time");
+    case SQLITE_LOCKED: throw UserError(file, "is in use by another program", "one writer at a time");
     case SQLITE_TOOBIG: throw UserError(file, "a value is too large for one row", "at most 1 GB");
     case SQLITE_IOERR: throw DataError(file, "cannot be read or written" + because, "a working disk");
-    default: throw DataError(file, "SQLite error: " + message, "");
+    default: throw DataError(file, "SQLite says: " + message, "");
   }
 }
 

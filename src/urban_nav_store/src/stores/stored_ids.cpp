@@ -23,7 +23,7 @@ void checkColumn(Store::Implementation& store, const Table& table, const std::st
     const std::string_view id = statement.text(0);
     if (!isStoredId(id))
       store.connection.damaged("in table " + table.name + ", " + column + " \"" + std::string(id.substr(0, kShown)) +
-                               "\" is not made of 16 to 64 hexadecimal digits");
+                               "\" does not consist of 16 to 64 hexadecimal digits");
   }
 }
 

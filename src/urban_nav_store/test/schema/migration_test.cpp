@@ -211,7 +211,7 @@ TEST_F(Migration, HappensAsAWholeOrNotAtAll) {
 TEST_F(Migration, ALostRowIsNamedBeforeItsTableIsWrittenAnew) {
   Connection connection(path, Connection::Mode::Write);
   connection.execute("UPDATE tally SET count=count+1 WHERE name='property'");
-  expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not add up to the 3 written");
+  expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not match the 3 written");
 }
 
 }  // namespace

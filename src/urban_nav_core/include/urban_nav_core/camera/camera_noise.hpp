@@ -13,16 +13,17 @@ namespace urban_nav_core {
 /// Returns the row of `P::disparity_offset`, px.
 template <typename P>
 Row<P> disparityOffsetRow() {
-  return {"disparity_offset",
-          &P::disparity_offset,
-          "px",
-          0.1,
-          0.0,
-          5.0,
-          {},
-          "Standard deviation of a constant error of all disparities after calibration and rectification, which is "
-          "estimated with the motion; 0: the calibration is exact. Must be equal in all stages.",
-          "swf_vo/bench, accuracy"};
+  return {
+      "disparity_offset",
+      &P::disparity_offset,
+      "px",
+      0.1,
+      0.0,
+      5.0,
+      {},
+      "Standard deviation of a constant error of all disparities from calibration and rectification, estimated with "
+      "the motion; 0 takes the calibration as exact. Common to all stages.",
+      "swf_vo/bench, accuracy"};
 }
 
 /// Returns the row of `P::pixel_noise_floor`, px.
@@ -35,8 +36,8 @@ Row<P> pixelNoiseFloorRow() {
           0.001,
           5.0,
           {},
-          "Standard deviation added to that of every measured pixel, for errors that the covariance of patch "
-          "alignment does not include. Must be equal in all stages.",
+          "Standard deviation added to that of each measured pixel, for errors not modelled by the patch alignment. "
+          "Common to all stages.",
           "swf_vo/bench, consistency"};
 }
 

@@ -20,40 +20,39 @@ struct MotionInputParameters {
 /// Returns the rows `own` followed by those of MotionInputParameters.
 template <typename P>
 std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
-  const std::vector<Row<P>> rows = {
-      {"motion_input",
-       &P::motion_input,
-       "",
-       "auto",
-       false,
-       false,
-       {"auto", "none", "wheels", "gyroscope"},
-       "Motion sensors used with the images: the gyroscope of an IMU and wheel odometry if "
-       "available (auto), one of them, or none.",
-       "paper 2.1, eq. 1",
-       {"swf_vo.motion_input"}},
-      {"wheel_noise",
-       &P::wheel_noise,
-       "m/m, rad/rad",
-       0.05,
-       0.0001,
-       10.0,
-       {},
-       "Standard deviation of wheel odometry between messages, relative to distance and "
-       "angle; scales are estimated from the images.",
-       "paper 2.1, eq. 1",
-       {"swf_vo.wheel_noise"}},
-      {"gyro_noise",
-       &P::gyro_noise,
-       "rad/s",
-       0.0,
-       0.0,
-       10.0,
-       {},
-       "Standard deviation of one rate of the IMU without its bias, which is estimated; 0: "
-       "as stated by its messages, otherwise estimated from their scatter.",
-       "paper 2.1, eq. 1",
-       {"swf_vo.gyro_noise"}}};
+  const std::vector<Row<P>> rows = {{"motion_input",
+                                     &P::motion_input,
+                                     "",
+                                     "auto",
+                                     false,
+                                     false,
+                                     {"auto", "none", "wheels", "gyroscope"},
+                                     "Motion sensors used with the images: the gyroscope and wheel odometry if "
+                                     "present, one of them, or none.",
+                                     "paper 2.1, eq. 1",
+                                     {"swf_vo.motion_input"}},
+                                    {"wheel_noise",
+                                     &P::wheel_noise,
+                                     "m/m, rad/rad",
+                                     0.05,
+                                     0.0001,
+                                     10.0,
+                                     {},
+                                     "Standard deviation of wheel odometry between messages, proportional to distance "
+                                     "and angle; adapted from the images.",
+                                     "paper 2.1, eq. 1",
+                                     {"swf_vo.wheel_noise"}},
+                                    {"gyro_noise",
+                                     &P::gyro_noise,
+                                     "rad/s",
+                                     0.0,
+                                     0.0,
+                                     10.0,
+                                     {},
+                                     "Standard deviation of one rate of the IMU without its bias, which is estimated; "
+                                     "0: as in its messages, else from their scatter.",
+                                     "paper 2.1, eq. 1",
+                                     {"swf_vo.gyro_noise"}}};
   own.insert(own.end(), rows.begin(), rows.end());
   return own;
 }

@@ -131,7 +131,7 @@ class TimeOrderedQueue {
     for (TimeOrderedQueueCounts& counts : counts_) archive(counts.received, counts.late, counts.duplicate);
     for (std::optional<StampNs>& reached : reached_) archive(reached);
     archive(newest_, handed_on_, finished_);
-    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "it has inputs without a newest stamp");
+    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "no input yet");
   }
 
  private:

@@ -115,7 +115,7 @@ std::array<std::size_t, 3> findCoordinates(const PcdHeader& header, const std::s
 }
 
 UserError tooShort(const std::string& name, const PcdHeader& header) {
-  return UserError(name, "ends before its " + std::to_string(header.points) + " points", "a whole file");
+  return UserError(name, "ends before its " + std::to_string(header.points) + " points", "a complete file");
 }
 
 Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::string& name) {
@@ -179,7 +179,7 @@ Vertices compressedPoints(const PcdHeader& header, std::string_view bytes, const
   // Three bytes of LZF decompress to at most 264: a larger size is invalid and would waste memory.
   if (packed > bytes.size() - 8 || plain / 88 > packed) throw tooShort(name, header);
   const auto unpacked = decompressLzf(bytes.substr(8, packed), plain);
-  if (!unpacked) throw UserError(name, "the compressed points are damaged", "a whole file");
+  if (!unpacked) throw UserError(name, "the compressed points are damaged", "a complete file");
   return binaryPoints(header, *unpacked, true, name);
 }
 

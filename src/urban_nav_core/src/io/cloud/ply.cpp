@@ -58,7 +58,7 @@ void readPlyHeaderLine(const std::vector<std::string_view>& words, PlyHeader& he
     header.elements.back().properties.push_back({std::string(words[2]), parseBinaryNumber(words[1], where), {}});
   } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" && !header.elements.empty()) {
     const BinaryNumber length = parseBinaryNumber(words[2], where);
-    if (length.kind == 'F') throw UserError(where, "list length of a floating-point type", "uchar, int, ...");
+    if (length.kind == 'F') throw UserError(where, "a list whose length is not an integer type", "uchar, int, ...");
     header.elements.back().properties.push_back({std::string(words[4]), parseBinaryNumber(words[3], where), length});
   } else if (words[0] != "comment" && words[0] != "obj_info") {
     throw UserError(where, "`" + std::string(words[0]) + "`", "format, element, property, comment, end_header");
@@ -108,7 +108,7 @@ Vertex parseVertex(const Element& element, const std::string& name) {
 
 UserError tooShort(const std::string& name, const Element& element) {
   return UserError(name, "ends before its " + std::to_string(element.count) + " of element " + element.name,
-                   "a whole file");
+                   "a complete file");
 }
 
 /// Reads the numbers of a binary file in sequence, in either byte order.
@@ -157,7 +157,7 @@ class AsciiNumbers {
   /// Rejects a row with too many numbers, which would shift all following ones.
   void expectEnd() {
     if (nextWord())
-      throw UserError(atLine(name_, lines_.number()), "more numbers than the header declares", "one for each property");
+      throw UserError(atLine(name_, lines_.number()), "more numbers than declared in the header", "as many");
   }
 
  private:

@@ -37,8 +37,9 @@ Axes findAxes(const TextTable& table) {
 }
 
 [[noreturn]] void refuseCount(const std::string& name, std::size_t promised, std::size_t found) {
-  throw UserError(name, "ends after " + std::to_string(found) + " points, declares " + std::to_string(promised),
-                  "a whole file");
+  throw UserError(name,
+                  "ends after " + std::to_string(found) + " points, the header declares " + std::to_string(promised),
+                  "a complete file");
 }
 
 }  // namespace

@@ -41,8 +41,9 @@ std::string gunzip(std::string_view content, const std::string& name) {
       stream.avail_out = static_cast<uInt>(kPiece);
       status = inflate(&stream, Z_NO_FLUSH);
       plain.resize(before + kPiece - stream.avail_out);
-      if (status == Z_BUF_ERROR) throw UserError(name, "the gzip stream is truncated", "a whole file");
-      if (status != Z_OK && status != Z_STREAM_END) throw UserError(name, "the gzip stream is damaged", "a whole file");
+      if (status == Z_BUF_ERROR) throw UserError(name, "the gzip stream ends too early", "a complete file");
+      if (status != Z_OK && status != Z_STREAM_END)
+        throw UserError(name, "the gzip stream is damaged", "a complete file");
       if (plain.size() > limit)
         throw UserError(name, "more than " + std::to_string(limit >> 20U) + " MB when unpacked",
                         "an eighth of memory_mb = " + std::to_string(memoryLimit() >> 20U) + "; or the unpacked file");
