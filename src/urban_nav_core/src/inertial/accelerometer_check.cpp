@@ -90,7 +90,7 @@ std::string AccelerometerVerdict::sentence() const {
   switch (fault) {
     case AccelerometerFault::None: return "";
     case AccelerometerFault::NotFinite: return start + "no finite value";
-    case AccelerometerFault::NoGravity: return start + length + ": the device or its driver removes gravity";
+    case AccelerometerFault::NoGravity: return start + length + ": the device or its driver subtracts gravity";
     case AccelerometerFault::Unit: {
       const Unit* unit = findUnit(size);
       return start + length + ": its unit is " + (unit == nullptr ? "another" : unit->name);

@@ -41,9 +41,7 @@ bool areFinite(const Number* values, std::size_t size) {
 
 }  // namespace
 
-void Archive::refuse(const char* found) const {
-  throw DataError(what_, std::string("is damaged: ") + found, "unmodified bytes");
-}
+void Archive::refuse(const char* found) const { throw DataError(what_, std::string("is damaged: ") + found, ""); }
 
 void Archive::bytes(void* data, std::size_t width, std::size_t size) {
   if (size == 0) return;
@@ -66,7 +64,7 @@ void Archive::integer(std::int64_t& value, std::int64_t least, std::int64_t most
 
 void Archive::count(std::size_t& value, std::size_t least) {
   one(value);
-  require(value <= left_.size() / std::max<std::size_t>(least, 1), "fewer elements than declared");
+  require(value <= left_.size() / std::max<std::size_t>(least, 1), "it has fewer elements than its count");
 }
 
 void Archive::numbers(double* values, std::size_t size) {
@@ -85,9 +83,9 @@ void Archive::one(Pose& value) {
   one(q);
   one(t);
   if (!reading_) return;
-  require(std::abs(q.squaredNorm() - 1.0) < 1e-9, "a quaternion does not have unit norm");
+  require(std::abs(q.squaredNorm() - 1.0) < 1e-9, "a quaternion is not of unit length");
   value = Pose(Quaterniond(q), t);
-  require(value.q().coeffs() == q, "a quaternion does not have unit norm");
+  require(value.q().coeffs() == q, "a quaternion is not of unit length");
 }
 
 void Archive::one(std::string& value) {
@@ -110,10 +108,10 @@ bool isSealed(std::string_view bytes) { return bytes.substr(0, kMagicSize) == kM
 
 UnsealedState unseal(std::string_view what, std::uint32_t oldest, std::uint32_t newest, std::string_view sealed) {
   const std::string where = "state of " + std::string(what);
-  if (!isSealed(sealed)) throw DataError(where, "not a state", "unmodified bytes");
+  if (!isSealed(sealed)) throw DataError(where, "is not a saved state", "");
   if (sealed.size() < kMagicSize + kChecksumSize ||
       checksum(sealed.substr(0, sealed.size() - kChecksumSize)) != sealed.substr(sealed.size() - kChecksumSize))
-    throw DataError(where, "is damaged: wrong checksum", "unmodified bytes");
+    throw DataError(where, "is damaged: its checksum does not match", "");
   const std::string_view body = sealed.substr(kMagicSize, sealed.size() - kMagicSize - kChecksumSize);
   Archive head(body, where);
   std::string name;

@@ -85,7 +85,7 @@ void append(std::vector<Assignment>& assignments, const std::string& stage, cons
     const std::string full = fullName(stage, key);
     if (node.kind != YamlNode::Kind::Scalar)
       throw UserError(where, full + " is not a single value", "one value after the colon");
-    if (!seen.insert(key).second) throw UserError(where, full + " is given twice", "");
+    if (!seen.insert(key).second) throw UserError(where, "duplicate key " + full, "");
     assignments.push_back({stage, key, node.scalar, true, where});
   }
 }
@@ -98,7 +98,7 @@ std::vector<Assignment> fromYaml(const YamlNode& root, const std::string& file) 
   YamlNode without_stage;
   std::set<std::string> seen;
   for (const auto& [stage, node] : root.map) {
-    if (!seen.insert(stage).second) throw UserError(atLine(file, node.line), stage + " is given twice", "");
+    if (!seen.insert(stage).second) throw UserError(atLine(file, node.line), "duplicate key " + stage, "");
     if (node.kind == YamlNode::Kind::Map) {
       append(assignments, stage, node, file);
     } else if (node.kind != YamlNode::Kind::Null) {
@@ -164,8 +164,8 @@ void refuseUnknownStages(const std::vector<Assignment>& assignments, const std::
     std::string known;
     for (const std::string& stage : stages)
       known += (known.empty() ? "" : ", ") + (stage.empty() ? std::string("none") : stage);
-    const std::string found = assignment.stage.empty() ? assignment.name + " has no stage name in front"
-                                                       : assignment.stage + " is not a stage";
+    const std::string found =
+        assignment.stage.empty() ? assignment.name + " has no stage prefix" : assignment.stage + " is not a stage";
     throw UserError(assignment.where, found, known + "; nearest: " + nearest(assignment.stage, stages));
   }
 }

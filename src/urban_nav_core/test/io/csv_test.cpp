@@ -36,7 +36,7 @@ TEST(Csv, NamesFileLineAndColumn) {
   EXPECT_EQ(catchError([&] { (void)table.column("d"); }),
             "t.csv: has no column `d`: expected a header with it; found: a,b,c");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1\n", "t.csv"); }), "t.csv:2: 1 cells: expected 2, as in the header");
-  EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\n", "t.csv"); }), "t.csv:2: a quote that does not end");
+  EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\n", "t.csv"); }), "t.csv:2: unterminated quote");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\"3\n", "t.csv"); }),
             "t.csv:2: text after a quote: expected a separator");
   EXPECT_EQ(catchError([] { CsvTable::parse("\n", "t.csv"); }), "t.csv: is empty: expected a header line and rows");

@@ -86,12 +86,12 @@ TEST(G2o, NamesFileAndLine) {
   EXPECT_EQ(error("EDGE_SE2 0 1 1 1 1 1 1 1 1 1\n"), "g.g2o:1: EDGE_SE2 with 11 columns: expected 12");
   EXPECT_EQ(error("VERTEX_SE2 0.5 1 2 3\n"), "g.g2o:1: vertex `0.5`: expected whole numbers");
   EXPECT_EQ(error("VERTEX_SE2 0 1 2 nan\n"), "g.g2o:1: `nan`: expected a finite number");
-  EXPECT_EQ(error("VERTEX_SE2 0 1 2 3\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: vertex 0 is given twice");
+  EXPECT_EQ(error("VERTEX_SE2 0 1 2 3\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: duplicate vertex 0");
   EXPECT_EQ(error("VERTEX_SE3:QUAT 0 1 2 3 0 0 0 0\n"), "g.g2o:1: a quaternion of length 0: expected length 1 (1 %)");
   EXPECT_EQ(error(std::string(kG2oPlane) + kG2oSpace), "g.g2o:7: SE2 and SE3 in one file: expected one of them");
   EXPECT_EQ(error("FIX\n"), "g.g2o:1: FIX without a vertex: expected FIX id");
   EXPECT_EQ(error("EDGE_SE3_PRIOR 0 0 1 2 3 0 0 0 1 1\n"), "g.g2o:1: EDGE_SE3_PRIOR with 11 columns: expected 31");
-  EXPECT_EQ(error("VERTEX_XY 0 1 2\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: vertex 0 is given twice");
+  EXPECT_EQ(error("VERTEX_XY 0 1 2\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: duplicate vertex 0");
   EXPECT_EQ(
       error(kG2oPlane, UnknownTags::Refuse),
       "g.g2o:6: unknown tag PARAMS_X: expected VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX, VERTEX_XY, "

@@ -106,7 +106,7 @@ TEST(Toro, NamesFileAndLine) {
   EXPECT_EQ(error("VERTEX3 0 1 2 3\n"), "g.graph:1: VERTEX3 with 5 columns: expected 8");
   EXPECT_EQ(error("VERTEX2 1.5 1 2 3\n"), "g.graph:1: vertex `1.5`: expected whole numbers");
   EXPECT_EQ(error("VERTEX2 0 1 2 nan\n"), "g.graph:1: `nan`: expected a finite number");
-  EXPECT_EQ(error("VERTEX2 0 1 2 3\nVERTEX2 0 1 2 3\n"), "g.graph:2: vertex 0 is given twice");
+  EXPECT_EQ(error("VERTEX2 0 1 2 3\nVERTEX2 0 1 2 3\n"), "g.graph:2: duplicate vertex 0");
   EXPECT_EQ(error(std::string(kToroPlane) + kToroSpace),
             "g.graph:5: plane and space in one file: expected one of them");
   EXPECT_EQ(error("FIX\n"), "g.graph:1: FIX without a vertex: expected FIX id");

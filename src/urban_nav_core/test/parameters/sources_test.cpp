@@ -69,9 +69,9 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
             "config.yaml:2: stage.window is not a single value: expected one value after the colon");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
-            "config.yaml:3: stage.window is given twice");
+            "config.yaml:3: duplicate key stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),
-            "config.yaml:3: stage is given twice");
+            "config.yaml:3: duplicate key stage");
   EXPECT_EQ(catchError([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: expected lines such as `swf_vo:`");
   EXPECT_NE(catchError([] { loadText("stage: [\n"); }).find("config.yaml:"), std::string::npos);
   EXPECT_EQ(catchError([] { load(exampleTable(), {parseSetting("stage.window=x")}); }),
@@ -105,7 +105,7 @@ TEST(Sources, UnknownStagesAreRefused) {
   EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "other"});
             }),
-            "config.yaml:9: memory_mb has no stage name in front: expected stage, other; nearest: stage");
+            "config.yaml:9: memory_mb has no stage prefix: expected stage, other; nearest: stage");
   EXPECT_EQ(catchError([&] { refuseUnknownStages(assignments, {"stage", "other", ""}); }), "");
 }
 

@@ -67,7 +67,7 @@ RowReader::RowReader(Connection& connection, const Table& table, const std::stri
 void RowReader::verify() {
   if (column_ == 0) return;
   const std::int64_t stored = statement_.integer(column_);
-  if (stored != checksum_.value()) damaged("wrong checksum");
+  if (stored != checksum_.value()) damaged("its checksum does not match");
   ++rows_;
   sum_ += stored;
 }

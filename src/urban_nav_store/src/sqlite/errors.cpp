@@ -48,7 +48,7 @@ void throwError(const std::string& file, int code, int system_error, const std::
     case SQLITE_LOCKED: throw UserError(file, "is in use by another program", "one writer at a time");
     case SQLITE_TOOBIG: throw UserError(file, "a value is too large for one row", "at most 1 GB");
     case SQLITE_IOERR: throw DataError(file, "cannot be read or written" + because, "a working disk");
-    default: throw DataError(file, "SQLite says: " + message, "");
+    default: throw DataError(file, "SQLite error: " + message, "");
   }
 }
 

@@ -47,7 +47,7 @@ void SqliteSessionStore::put(const Session& session) {
   if (const std::optional<Session> there = find(session.id)) {
     if (there->robot != session.robot || there->recording != session.recording || there->start != session.start)
       throw UserError(tables_.connection().name(),
-                      "session " + session.id + " already exists with other properties (" + there->name + ")", "");
+                      "session " + session.id + " already exists with another origin (" + there->name + ")", "");
   }
   tables_.put(declaredTable<SessionRow>(), unchanged(SessionRow{session}));
 }

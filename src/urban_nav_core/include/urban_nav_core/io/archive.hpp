@@ -51,8 +51,8 @@ class Archive {
   void require(bool holds, const char* found) const {
     if (reading_ && !holds) refuse(found);
   }
-  /// Reading: nothing is left over.
-  void finish() const { require(left_.empty(), "more bytes than were written"); }
+  /// Reading: throws DataError if bytes are left over.
+  void finish() const { require(left_.empty(), "it has trailing bytes"); }
 
   /// Reads or writes an element count; each element takes at least `least` bytes.
   void count(std::size_t& value, std::size_t least = 1);
