@@ -160,7 +160,7 @@ function(urban_nav_program target)
 endfunction()
 
 # urban_nav_parameters(): PACKAGE_parameters, and the target PACKAGE_documents by which it writes the texts that are
-# made from the tables of parameters: config/PACKAGE.yaml and two tables of README.md.
+# made from the tables of parameters: config/PACKAGE.yaml and two tables of PARAMETERS.md, or of README.md without it.
 function(urban_nav_parameters)
   set(sources tools/${PROJECT_NAME}_parameters.cpp)
   if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)

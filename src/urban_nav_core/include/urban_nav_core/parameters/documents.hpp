@@ -14,9 +14,13 @@ struct DocumentedTable {
   std::vector<RowInfo> rows;
 };
 
-/// Writes what a package's texts say of its parameters: the tables between their marks in README.md, and
+/// Returns the name of the file in a package's folder that holds the tables of its parameters: PARAMETERS.md if there
+/// is one, otherwise README.md.
+std::string findParameterDocument(const std::string& package);
+
+/// Writes the documents of a package's parameters: the tables between their markers in findParameterDocument(), and
 /// config/STAGE.yaml for each stage that has such a file. Throws UserError naming the text that is missing, or lacks
-/// its marks.
+/// its markers.
 void writeDocuments(const std::string& package, const std::vector<DocumentedTable>& tables);
 
 /// The main function of a package's program for that: `--write FOLDER_OF_THE_PACKAGE`, or `--markdown` to print the
