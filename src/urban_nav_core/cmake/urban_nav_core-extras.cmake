@@ -158,8 +158,8 @@ function(urban_nav_program target)
 endfunction()
 
 # urban_nav_parameters(): adds PACKAGE_parameters, and the target PACKAGE_documents that runs it to write the documents
-# generated from parameter tables: config/PACKAGE.yaml and two tables of PARAMETERS.md, or of
-# README.md if it does not exist.
+# generated from parameter tables: config/PACKAGE.yaml and two tables of PARAMETERS.md if it exists,
+# otherwise of README.md.
 function(urban_nav_parameters)
   set(sources tools/${PROJECT_NAME}_parameters.cpp)
   if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
